@@ -6,27 +6,27 @@ TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
 BIN := $(TARGET)/release
 DEMOS := $(TARGET)/demos
 PICTURES := $(TARGET)/demo
-# What `make demo` shows of each program; the panel needs the panel to be seen in 3D, the others do not.
+# The outputs that `make demo` shows of each program; only the panel's picture needs the panel.
 OUTPUTS := panel quilt sbs
 # The picture of the README: the views as a quilt, and under it the panel that holds them all.
 README_SCENE := --frame 40 --eye-spacing 0.3 --focal-depth 8
 
-# Debian packages: what building, the demos and the tests need, then what some tests use if it is there.
+# Debian packages that building, the demos and the tests need; then optional packages of some tests.
 PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libosmesa6 libosmesa6-dev libgl-dev libegl-dev \
 	libx11-dev libpng-dev mesa-utils apitrace khronos-api
 OPTIONAL_PACKAGES := faketime piglit
 # Programs that test-long and test-full record and repeat.
 LONG_PACKAGES := gltron xscreensaver-gl
-# What only test-full uses.
+# Packages of test-full only.
 FULL_PACKAGES := valgrind
 # Demo programs that `manyview bench` draws; they are installed with it.
 SCENES := mesh arrays fill room menu field hard
 BENCH := $(TARGET)/bench
-# Only for those who make the pictures of the documents again.
+# Packages that only the pictures of the documents need.
 PICTURE_PACKAGES := netpbm
-# A game with a timedemo: 423 MB, and only for the targets that play it.
+# A game with a timedemo (423 MB), only for the targets that play it.
 OPENARENA_PACKAGES := openarena unzip
-# Programs and data with shaders, unpacked and not installed: 140 MB.
+# Programs and data with shaders (140 MB), which are unpacked and not installed.
 SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopenscenegraph161 libqt5gui5 libsdl2-2.0-0 meshlab \
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
@@ -148,7 +148,7 @@ rust:
 	@command -v $(CARGO) >/dev/null 2>&1 || \
 		{ echo "Rust is missing: get it from https://rustup.rs, then run make again" >&2; exit 1; }
 
-# Installing does not build, so that `sudo make install` leaves nothing of root's in target/.
+# Installing does not build, so that `sudo make install` leaves no files of root in target/.
 install: ## install to PREFIX after `make build` (default /usr/local)
 	@test -x $(BIN)/manyview && test -f $(BIN)/libmanyview.so && test -x $(BIN)/manyview-probe || \
 		{ echo "Nothing to install: run make build first" >&2; exit 1; }
@@ -171,7 +171,7 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	install -m 644 README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
 	find docs -type f \( -name '*.md' -o -name '*.png' \) -exec install -D -m 644 {} $(DESTDIR)$(PREFIX)/share/doc/manyview/{} \;
 
-# Debuggers look for .debug/NAME.debug beside a binary that says so in a link; its checksum is that of the file.
+# Debuggers look for .debug/NAME.debug beside a binary that has a debug link, which holds the file's checksum.
 install-debug: install ## install the debug information of what install has stripped, beside it
 	@set -e; for binary in bin/manyview lib/manyview/libmanyview.so lib/manyview/manyview-probe; do \
 		folder=$(DESTDIR)$(PREFIX)/$$(dirname $$binary); name=$$(basename $$binary); \

@@ -62,7 +62,7 @@ static void set(int which, GLenum array)
         glDisableClientState(array);
 }
 
-/* Points the arrays at memory, or at a bound buffer where base is null. */
+/* Points the arrays at memory, or into a bound buffer where base is null. */
 static void arrays(const struct vertex *base, int which)
 {
     const GLubyte *p = (const GLubyte *)base;
@@ -170,7 +170,7 @@ void demo_frame(int frame)
     glBindTexture(GL_TEXTURE_2D, texture);
     if (many) {
         arrays(disc, COLOUR | NORMAL);
-        /* A sheet of 12 by 7.5, whatever their number. */
+        /* A sheet of 12 by 7.5 units, whatever the number of draws. */
         int columns = (int)ceil(sqrt(1.6 * many)), rows = (many + columns - 1) / columns;
         double side = 12.0 / columns, size = 40.0 / columns;
         for (int i = 0; i < many; i++) {

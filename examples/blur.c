@@ -1,5 +1,5 @@
-/* The accumulation buffer: motion blur and depth of field by many pictures of the scene, a trail of earlier frames in a
- * display list, sums and products under a colour mask; each in its part of the window. */
+/* The accumulation buffer: motion blur and depth of field by many pictures of the scene, a trail of earlier frames in a display list, and sums
+ * and products under a colour mask, each in its part of the window. */
 #include "demo.h"
 #include <math.h>
 
@@ -15,7 +15,7 @@ void demo_setup(void)
     glEnable(GL_NORMALIZE);
     glEnable(GL_COLOR_MATERIAL);
     glClearColor(0.13f, 0.19f, 0.27f, 0.61f);
-    /* Fades what was there, adds the frame, and shows both without touching blue. */
+    /* Fades the accumulated picture, adds the frame, and shows both without touching blue. */
     trail = glGenLists(1);
     glNewList(trail, GL_COMPILE);
     glAccum(GL_MULT, 0.57f);
@@ -26,7 +26,7 @@ void demo_setup(void)
     glEndList();
 }
 
-/* The camera stands beside its place by x and y; what is 7 away stays where it is. */
+/* Moves the camera aside by x and y, with the frustum sheared so that depth 7 keeps its place. */
 static void scene(double t, double x, double y)
 {
     static const GLfloat light[4] = {1.5f, 2.5f, 2.0f, 0.0f};
@@ -60,14 +60,14 @@ void demo_frame(int frame)
     int w = demo_width, h = demo_height;
     double t = demo_time(frame);
     demo_viewport(0, 0, w, h);
-    /* Motion blur above on the left. */
+    /* Motion blur at the upper left. */
     demo_scissor(0, h / 3, w / 2, h);
     for (int i = 0; i < 5; i++) {
         scene(t + 0.013 * i, 0.0, 0.0);
         glAccum(i ? GL_ACCUM : GL_LOAD, 0.2f);
     }
     glAccum(GL_RETURN, 1.0f);
-    /* Depth of field beside it, with more light than there was. */
+    /* Depth of field beside it, its weights adding up to more than 1. */
     demo_scissor(w / 2, h / 3, w, h);
     glClear(GL_ACCUM_BUFFER_BIT);
     for (int i = 0; i < 6; i++) {
@@ -75,13 +75,13 @@ void demo_frame(int frame)
         glAccum(GL_ACCUM, 1.0f / 6.0f);
     }
     glAccum(GL_RETURN, 1.3f);
-    /* Below, the frame and those before it. */
+    /* Below, the frame and the earlier ones. */
     demo_scissor(0, 0, 2 * w / 3, h / 3);
     scene(t, 0.0, 0.0);
     if (!frame)
         glAccum(GL_LOAD, 0.43f);
     glCallList(trail);
-    /* Below on the right sums: the clear together with that of the colours. */
+    /* At the lower right, sums: the accumulation buffer is cleared together with the colours. */
     demo_scissor(2 * w / 3, 0, w, h / 3);
     scene(t, 0.0, 0.0);
     glClearAccum(0.23f, -0.17f, 0.41f, 0.0f);

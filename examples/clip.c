@@ -55,7 +55,7 @@ static void plane_quad(const GLdouble *p, double half)
     glEnd();
 }
 
-/* Where a ray meets more back faces than front faces of the cut solid, it sees the cut. */
+/* Draws the cut surface where a ray meets more back faces than front faces of the cut solid. */
 static void cap(solid draw, const GLdouble (*planes)[4], int count)
 {
     glEnable(GL_STENCIL_TEST);

@@ -1,6 +1,6 @@
-/* A crowd of small things by instancing: attributes with divisors 1 and 3, gl_InstanceID, base instances, draws whose numbers lie in
- * buffers; shadows, a floor of tiles and a flat display with a map. GLSL 3.30 core, the camera in a uniform block. Each option draws
- * the very same picture in another way. */
+/* A crowd of small things by instancing: attributes with divisors 1 and 3, gl_InstanceID, base instances, draws whose parameters lie in
+ * buffers; shadows, a tiled floor and a flat display with a map. GLSL 3.30 core, the camera in a uniform block. Every option draws exactly the
+ * same picture in another way. */
 #include "demo.h"
 #include "crowd/places.h"
 #include "crowd/texts.h"
@@ -33,7 +33,7 @@ static GLint at(const char *name) { return glGetUniformLocation(used, name); }
 
 /* ---- set up ---- */
 
-/* A profile (radius, height) turned about the y axis; its indices begin at 0. */
+/* A profile (radius, height) rotated about the y axis; its indices begin at 0. */
 static void turned(const double (*profile)[2], int n, int closed, struct corner *v, GLuint *vertices, GLushort *i, GLuint *indices)
 {
     for (int s = 0; s <= SLICES; s++)
@@ -136,7 +136,7 @@ static void make_floor(void)
     attribute(4, 4, GL_UNSIGNED_BYTE, sizeof **v, 24, 0);
 }
 
-/* Attributes by instance from number `from` on, but for what a draw adds as its base instance. */
+/* Sets attributes by instance from instance `from` on, except where a draw adds it as its base instance. */
 static void arrays(GLuint half, GLuint from)
 {
     size_t begin = (half * CROWD + from) * sizeof(struct one);

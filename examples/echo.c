@@ -1,5 +1,5 @@
-/* The frame copied to textures and drawn over it again: a trail of earlier frames by glCopyTexImage2D, water that mirrors
- * what was drawn so far by glCopyTexSubImage2D, a window of glCopyPixels. */
+/* The frame is copied to textures and drawn over itself: a trail of earlier frames by glCopyTexImage2D, water that mirrors the picture so far
+ * by glCopyTexSubImage2D, and an inset by glCopyPixels. */
 #include "demo.h"
 #include <stddef.h>
 
@@ -39,7 +39,7 @@ static void flat(void)
     glEnable(GL_TEXTURE_2D);
 }
 
-/* A rectangle of the window, with the part of a copy between two heights on it. */
+/* A rectangle of the window, textured with the part of a copy between two heights. */
 static void rect(int x0, int y0, int x1, int y1, double from, double to)
 {
     double l = (double)x0 / size_w, r = (double)x1 / size_w, b = from / size_h, t = to / size_h;

@@ -1,6 +1,5 @@
-/* Things all around, by glBegin/glEnd, of which the camera, turning on the spot, sees a few: a program that leaves it to OpenGL
- * to find out which. Some are cut by the sides of the picture, some stand behind the eye; a net of lines and a fan of thick
- * points reach into the picture from outside. */
+/* Things all around by glBegin/glEnd, of which the turning camera sees a few: the program leaves culling to OpenGL. Some are cut by the sides
+ * of the picture, some stand behind the eye; a net of lines and a fan of thick points reach into the picture from outside. */
 #include "demo.h"
 #include <math.h>
 
@@ -47,14 +46,14 @@ void demo_frame(int frame)
         glVertex3d(i, -1.5, 40.0);
         glEnd();
     }
-    /* Wider than the step from one to the next: some show only their edge. */
+    /* Points are wider than their spacing: of some only the edge shows. */
     glPointSize(15.0f);
     for (int i = 0; i < 90; i++) {
         glBegin(GL_POINTS);
         glVertex3d(6.0 * cos(0.07 * i), 1.2, 6.0 * sin(0.07 * i));
         glEnd();
     }
-    /* And outlines, which are as wide. */
+    /* Outlines that are as wide. */
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glLineWidth(9.0f);
     for (int i = 0; i < 45; i++) {

@@ -1,5 +1,5 @@
-/* Little geometry and many fragments: large surfaces, one before the other, each over the whole picture. A surface is a
- * row of upright stripes in two colours, as wide everywhere, so that the views differ. Blended from back to front unless --opaque. */
+/* Little geometry and many fragments: large surfaces, one before the other, each over the whole picture. A surface is a row of upright stripes
+ * of equal width in two colours, so that the views differ. Blended from back to front unless --opaque. */
 #include "demo.h"
 #include <math.h>
 
@@ -36,7 +36,7 @@ void demo_frame(int frame)
     glMatrixMode(GL_MODELVIEW);
     glLoadIdentity();
     for (int s = 0; s < overdraw; s++) {
-        /* From depth 24 to depth 5; half as wide again as the picture, so that no view sees past its ends. */
+        /* From depth 24 to depth 5; half as wide again as the picture, so that no view sees past the ends. */
         double depth = 24.0 - 19.0 * s / overdraw, h = depth * tan(20.0 * M_PI / 180.0) * 1.1, w = 1.5 * h * aspect;
         double x = -w - 0.37 * (s % 3);
         glBegin(GL_QUADS);

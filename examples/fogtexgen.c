@@ -132,7 +132,7 @@ void demo_frame(int frame)
     at(0.0, -1.6, -6.0, 0.0);
     demo_box(14.0, 0.1, 14.0);
 
-    /* A row of pillars going into the fog: eye linear, the planes fixed to the camera. */
+    /* A row of pillars receding into the fog: eye linear, with planes fixed to the camera. */
     texgen(2, GL_EYE_LINEAR);
     glPushMatrix();
     glLoadIdentity();
@@ -156,7 +156,7 @@ void demo_frame(int frame)
     at(-0.6, -0.6, 2.4, turn);
     demo_sphere(0.5, 32, 16);
 
-    /* Object linear that travels with its object. */
+    /* Object linear, so the stripes move with the object. */
     glBindTexture(GL_TEXTURE_2D, stripes);
     texgen(2, GL_OBJECT_LINEAR);
     planes(GL_OBJECT_PLANE, 1.0);

@@ -104,12 +104,12 @@ void demo_frame(int frame)
     glRotated(25.0, 1.0, 0.0, 0.0);
     glRotated(40.0 + 10.0 * sin(demo_time(frame)), 0.0, 1.0, 0.0);
 
-    /* Twice the teeth on the big one: it turns at half the speed of the others. */
+    /* The big gear has twice the teeth, so it turns at half the speed of the others. */
     place(-1.35, -0.75, 0.0, angle, red, 0.45, 1.75, 2.20, 0.9, 20);
     place(1.80, -0.95, 0.0, -2.0 * angle - 9.0, green, 0.25, 0.75, 1.20, 1.6, 10);
     place(-1.45, 2.38, 0.0, -2.0 * angle - 25.0, blue, 0.60, 0.75, 1.20, 0.5, 10);
 
-    /* The same gear far and near, scaled, to see the depth. */
+    /* The same gear far and near, scaled, to show depth. */
     glScaled(0.8, 0.8, 0.8);
     place(3.8, 2.6, -4.5, angle, blue, 0.4, 1.6, 2.1, 0.6, 16);
     place(-1.3, -1.0, 3.2, -angle, green, 0.3, 0.7, 1.0, 0.3, 8);

@@ -1,5 +1,4 @@
-/* 20,000 vertices a frame by glBegin/glEnd, each with normal, colour and position. With --time, a
- * measure of what a layer costs. */
+/* 20,000 vertices a frame by glBegin/glEnd, each with normal, colour and position. With --time it measures what a layer costs. */
 #include "demo.h"
 #include <math.h>
 

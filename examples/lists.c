@@ -1,5 +1,5 @@
-/* Display lists as old programs write them: solids, nested figures, letters by glCallLists, a camera and a head-up
- * display inside lists, lists that push or change state for what comes after them, a list made anew every frame. */
+/* Display lists as in old programs: solids, nested figures, letters by glCallLists, a camera and a head-up display inside lists, lists that
+ * push or change state for later commands, a list compiled again in every frame. */
 #include "demo.h"
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
-/* A menu, which is the same in all views, and a scene that comes and goes behind it: in turns six frames of the menu alone, six
- * that draw over the frame before without a clear, six with a scene between the background and the menu, six with the menu
- * alone, cleared but for the stencil. --flat: never a scene. */
+/* A menu that is the same in all views, and a scene that comes and goes behind it. In turns: six frames of the menu alone, six that draw over
+ * the last frame without a clear, six with a scene between the background and the menu, six with the menu alone, which clear all but the
+ * stencil. --flat: no scene. */
 #include "demo.h"
 #include <math.h>
 
@@ -56,7 +56,7 @@ static void scene(double t)
     glLoadIdentity();
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_LIGHTING);
-    /* Its outline stays in the stencil. */
+    /* The scene's outline stays in the stencil. */
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_ALWAYS, 1, 255);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
@@ -87,7 +87,7 @@ static void menu(int frame, double t)
             glVertex2d(x + 0.1 + 0.01 * e, y + h / 2 + 0.02 * sin(e * (r + 2.0)));
         glEnd();
     }
-    /* Only where the scene was, by what it left in the stencil. */
+    /* Draws only where the scene was, by its outline in the stencil. */
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(GL_EQUAL, 1, 255);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);

@@ -1,5 +1,4 @@
-/* A mirror by stencil (the scene again, glScaled(1,1,-1), front faces turned round) and planar shadows
- * with polygon offset and blending. */
+/* A mirror by stencil (the scene again under glScaled(1,1,-1), with the other front face) and planar shadows with polygon offset and blending. */
 #include "demo.h"
 #include <math.h>
 
@@ -69,7 +68,7 @@ static void floor_quads(void)
     glDisable(GL_TEXTURE_2D);
 }
 
-/* Flattens everything onto y = 0, seen from the light. */
+/* Projects everything onto y = 0 from the light. */
 static void shadows(double t)
 {
     GLfloat m[16] = {light[1], 0, 0, 0, -light[0], 0, -light[2], -1, 0, 0, light[1], 0, 0, 0, 0, light[1]};

@@ -1,6 +1,6 @@
-/* A program that draws as modern renderers do, into framebuffers of its own first: a shadow map, a G-buffer, occlusion at half size,
- * light in half floats, glows added forward, bloom, and tone mapping to the window; then a flat display. GLSL 3.30 core, the camera
- * in a uniform block, no fixed function. No fragment shader uses a projection. OpenGL ES 3.2 can do all of it. */
+/* Draws like modern renderers, first into framebuffers of its own: a shadow map, a G-buffer, ambient occlusion at half size, light in half
+ * floats, glows added in a forward pass, bloom, and tone mapping to the window; then a flat display. GLSL 3.30 core, the camera in a uniform
+ * block, no fixed function. No fragment shader uses a projection. OpenGL ES 3.2 can do all of it. */
 #include "demo.h"
 #include "passes/texts.h"
 #include <math.h>
@@ -124,7 +124,7 @@ static GLuint renderbuffer(GLenum format, int of)
     return name;
 }
 
-/* With up to three colours, and a depth where it is not 0. Textures, but for a framebuffer of samples. */
+/* A framebuffer of up to three colours, and a depth where it is not 0: textures, or renderbuffers where it is multisampled. */
 static GLuint framebuffer(const GLuint colours[3], GLuint depth, int of)
 {
     GLenum buffers[3];
@@ -263,7 +263,7 @@ static void cover(void)
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/* What is bright, made smaller, blurred twice: in quarter[0]. */
+/* Extracts bright pixels, scales them down and blurs them twice; the result is in quarter[0]. */
 static void make_bloom(void)
 {
     int w = half(demo_width), h = half(demo_height);
@@ -331,7 +331,7 @@ void demo_frame(int frame)
     glBufferData(GL_UNIFORM_BUFFER, sizeof camera, &camera, GL_STREAM_DRAW);
     glDisable(GL_SCISSOR_TEST); /* which is for the window */
 
-    /* What the lamp sees: no view of the picture. */
+    /* The lamp's view, which is no view of the picture. */
     demo_frustum(shadow, 68.0, 1.0, 3.0, 20.0);
     demo_times(shadow, shadow, lamp_view);
     target(shadow_target, MAP, MAP);
@@ -394,7 +394,7 @@ void demo_frame(int frame)
         glEnable(GL_DEPTH_TEST);
     }
 
-    /* Forward, before and behind what is there. */
+    /* Forward pass of glows, in front of the surfaces and behind them. */
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);

@@ -33,7 +33,7 @@ static void corner(GLenum mode, int i, double *x, double *y)
     }
 }
 
-/* Eight vertices (nine for triangles: the last is left over, as are parts of other modes). */
+/* Eight vertices (nine for triangles: the last is incomplete, as are remainders of other modes). */
 static void primitive(GLenum mode, int style, int frame)
 {
     int count = mode == GL_TRIANGLES ? 7 : mode == GL_QUADS ? 9 : 8;
@@ -80,7 +80,7 @@ static void zoo(int frame)
     glShadeModel(GL_SMOOTH);
 }
 
-/* Lines and triangles that end at infinity, like the edges of a shadow volume. */
+/* Lines and triangles that end at infinity, as sides of a shadow volume do. */
 static void directions(void)
 {
     glBegin(GL_LINES);

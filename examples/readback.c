@@ -1,5 +1,5 @@
-/* What a program sees of its framebuffer 0, one `name = value` a line on stdout: to be run with and
- * without a layer and compared by diff. Pixels are printed as a hash. One frame is enough. */
+/* Prints what a program reads back of its framebuffer 0, one `name = value` a line: run it with and without a layer and compare by diff.
+ * Pixels are printed as a hash. One frame is enough. */
 #include "demo.h"
 #include <stdint.h>
 #include <stdio.h>
@@ -274,7 +274,7 @@ static void accumulation(void)
     hash_all("accumulation at the end");
 }
 
-/* An own framebuffer object: draw, come back, and copy both ways. */
+/* A framebuffer object of its own: draw into it, come back, and copy both ways. */
 static void own_framebuffer(void)
 {
     GLuint fbo, colour, depth;
@@ -328,7 +328,7 @@ static void own_framebuffer(void)
     hash_all("blit to 0");
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);
     gets("read 0, draw own");
-    /* the same size both ways: also legal from a multisampled framebuffer 0 */
+    /* copies of equal size, which are also legal from a multisampled framebuffer 0 */
     glBlitFramebuffer(demo_x + 150, demo_y + 100, demo_x + 250, demo_y + 200, 150, 100, 250, 200, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBlitFramebuffer(demo_x, demo_y, demo_x + 128, demo_y + 128, 0, 0, 128, 128, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     error("blit from 0");

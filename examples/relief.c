@@ -1,6 +1,6 @@
-/* A landscape by the later stages of a program: quads made finer by tessellation, or grass by a geometry shader, or both; trees and
- * seeds as points that a geometry shader makes squares of; water, a sky, a flat display. The camera in plain uniforms: projection
- * and view, or (grass, water) only the product of both. */
+/* A landscape by the later stages of a program: quads refined by tessellation, or grass by a geometry shader, or both; trees and seeds are
+ * points that a geometry shader expands to squares; water, a sky, a flat display. The camera is in plain uniforms: projection and view, or
+ * (grass, water) only their product. */
 #include "demo.h"
 #include "relief/texts.h"
 #include <math.h>
@@ -24,7 +24,7 @@ static GLint at(const char *name) { return glGetUniformLocation(used, name); }
 
 /* ---- set up ---- */
 
-/* 20 across and 22 away, from behind the camera: two triangles a square, or a patch for STEP by STEP of them. */
+/* 20 across and 22 away, from behind the camera: two triangles a square, or a patch for every STEP by STEP squares. */
 static void make_land(void)
 {
     static GLfloat v[CORNERS + 4][2];

@@ -15,7 +15,7 @@ static const char *const glyphs[] = {
     "57755", "57775", "25552", "65644", "25573", "65655", "34216", "72222", "55557", "55552", "55775", "55255",
     "55222", "71247", "75557", "26227", "61247", "61216", "55711", "74616", "34656", "71222", "25252", "35316",
     "02020", "00002", "51245", "00700"};
-/* The seven strokes of a digit: x0 y0 x1 y1, and which of them each digit has. */
+/* The seven strokes of a digit (x0 y0 x1 y1), and those that each digit has. */
 static const int stroke[7][4] = {{0, 2, 1, 2}, {1, 2, 1, 1}, {1, 1, 1, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}, {0, 1, 0, 2}, {0, 1, 1, 1}};
 static const int digit_strokes[10] = {63, 6, 91, 79, 102, 109, 125, 7, 127, 111};
 
@@ -66,7 +66,7 @@ static void line_number(double x, double y, double size, const char *digits)
     glEnd();
 }
 
-/* A wall from corner o along the vectors a and b, its texture repeated; cut up for the lamp's light. */
+/* A wall from corner o along the vectors a and b, with a repeated texture; subdivided for the lamp's light. */
 static void wall(const double *o, const double *a, const double *b, double repeat_a, double repeat_b)
 {
     enum { CUTS = 8 };
@@ -110,7 +110,7 @@ static void scene(double t)
         demo_box(0.7, 0.7, 0.7);
         glPopMatrix();
     }
-    /* A pane of glass in the middle, blended over what stands behind it. */
+    /* A pane of glass in the middle, blended over the things behind it. */
     glDisable(GL_TEXTURE_2D);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

@@ -1,6 +1,5 @@
-/* Programs with shaders of their own, in buffers: light in each pixel, or steps of it (--toon), and a flat display by the same
- * program. --glsl 120: attributes and varyings, matrices as uniforms; 330: the camera in a uniform block, the model in a uniform. In
- * OpenGL ES these are GLSL 1.00 and 3.00 es. */
+/* Programs with shaders, in buffers: light per pixel, or in steps (--toon), and a flat display by the same program. --glsl 120: attributes and
+ * varyings, matrices as uniforms; 330: the camera in a uniform block, the model in a uniform. In OpenGL ES these are GLSL 1.00 and 3.00 es. */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>
@@ -145,7 +144,7 @@ void demo_setup(void)
 
 static GLint at(const char *name) { return glGetUniformLocation(program, name); }
 
-/* What the shaders see of a projection, a camera and a place. */
+/* Sets the uniforms of a projection, a camera and a model. */
 static void load(const demo_matrix projection, const demo_matrix view, const demo_matrix model)
 {
     demo_matrix mv, all;

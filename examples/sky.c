@@ -1,6 +1,5 @@
-/* Outdoors: a sky box that turns with the camera but never moves and writes no depth, a ground with pillars and
- * smoke, balloons at the far end of the depth range, what the viewer holds in the hand at its near end, and over it a
- * flat display. */
+/* Outdoors: a sky box that turns with the camera but never moves and writes no depth, a ground with pillars and smoke, balloons at the far end
+ * of the depth range, a weapon in the viewer's hand at its near end, and over it a flat display. */
 #include "demo.h"
 #include <math.h>
 
@@ -20,7 +19,7 @@ void demo_setup(void)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/* Six sides around the eye. Its size means nothing: it is drawn first, without depth. */
+/* Six sides around the eye. Its size does not matter: it is drawn first, without depth. */
 static void sky(void)
 {
     glDisable(GL_DEPTH_TEST);
@@ -67,7 +66,7 @@ static void ground(void)
     }
 }
 
-/* Behind everything, whatever their place says: infinitely far, although they move with the ground and come after it. */
+/* Behind everything by their depth range: infinitely far, although they move with the ground and come after it. */
 static void balloons(double aspect)
 {
     demo_perspective_sky(50.0, aspect, 0.5, 60.0);
@@ -88,7 +87,7 @@ static void balloons(double aspect)
     demo_perspective(50.0, aspect, 0.5, 60.0);
 }
 
-/* Drawn after the solid things, writing no depth: not a sky, it stands somewhere. */
+/* Drawn after the solid things without writing depth: not a sky, since it has a place. */
 static void smoke(void)
 {
     glDisable(GL_TEXTURE_2D);
@@ -105,7 +104,7 @@ static void smoke(void)
     glEnable(GL_TEXTURE_2D);
 }
 
-/* Near the eye, in the eye's own coordinates, and solid; nothing comes before it. */
+/* Near the eye, in eye coordinates, and solid; it is always in front. */
 static void hand(void)
 {
     glLoadIdentity();

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The pictures of docs/gallery.md: one scene in each layout, what eyes see of a panel, and a panel before and after it is measured from
+# The pictures of docs/gallery.md: one scene in each layout, the views of eyes before a panel, and a panel before and after calibration with
 # the photos that tests/calibrate/gallery.rs takes. gallery.sh BIN DEMO FOLDER PHOTOS
 set -eu
 bin=$1 demo=$2 folder=$3 photos=$4
@@ -35,7 +35,7 @@ for filter in panel blend gaussian; do
     "$bin/manyview" simulate --display slanted8 --eye 0,0,600 --strip 5 --width 300 \
         --in "$folder/$filter.png" --out "$folder/$filter-strip.png"
 done
-# What somebody believes of a panel, and what its photos say; eyes look through the true sheet.
+# The assumed description of a panel, and the one measured from photos; eyes look through the true sheet.
 "$bin/manyview" calibrate fit --display "$photos/described.toml" --size 960x540 --out "$photos/measured.toml" \
     --picture "$folder/fit.png" "$photos/front.jpg" "$photos/side.jpg"
 for panel in described measured; do
@@ -43,7 +43,7 @@ for panel in described measured; do
     "$bin/manyview" simulate --display "$photos/true.toml" --eye 0,0,600 --strip 3 --width 240 --cone 30 \
         --in "$folder/$panel.png" --out "$folder/$panel-strip.png"
 done
-# Small enough for a page; everything else is as the commands wrote it.
+# Crops that are small enough for a page; the other pictures are as the commands wrote them.
 for strip in panel-strip blend-strip gaussian-strip; do
     pngtopnm "$folder/$strip.png" | pnmscale 0.4 | pnmtopng -compression 9 >"$folder/$strip.tmp"
     mv "$folder/$strip.tmp" "$folder/$strip.png"

@@ -1,13 +1,13 @@
 #!/bin/sh
-# OpenArena's timedemo without the layer and under it, beside what Luo et al. measured with Quake III. `make openarena` calls it.
+# OpenArena's timedemo without the layer and under it, beside the figures of Luo et al. for Quake III. `make openarena` calls it.
 #
 #   scripts/openarena.sh BIN WORK            the table, on stdout and in WORK/openarena.txt
 #   scripts/openarena.sh BIN WORK pictures   those of the documents, in WORK
-#   scripts/openarena.sh BIN WORK walk       its first frames as a trace, held at FPS (7) by `hybrid`, and all strategies beside each other
+#   scripts/openarena.sh BIN WORK walk       its first frames as a trace, held at FPS (7) by `hybrid`, and all strategies side by side
 #
-# BIN has the command and the library, WORK is a folder for what it makes. Variables: ROUNDS (2) is how often each row is played,
-# in turns; KIB (140, some 400 frames) how much of the recording is played, 0 for all of it (3388 frames); MODE (3, 640x480) the
-# size of the window by the engine's number. The home folder of the engine is in WORK; the user's own is not touched.
+# BIN has the command and the library, WORK is a folder for its files. Variables: ROUNDS (2) is how often each row is played,
+# in turns; KIB (140, some 400 frames) is the part of the recording that is played, 0 for all of it (3388 frames); MODE (3, 640x480) is the
+# engine's number for the size of the window. The home folder of the engine is in WORK; the user's own is not touched.
 set -eu
 
 bin=$(cd "$1" && pwd)
@@ -24,7 +24,7 @@ mkdir -p "$work/home/.openarena/baseoa/demos"
 played=$work/home/.openarena/baseoa/demos/played.dm_71
 unzip -p "$pak" "demos/$demo.dm_71" >"$work/whole.dm_71"
 
-# The engine takes the end of a file for the end of the demo.
+# The engine ends the demo at the end of the file.
 cut_to() {
     if [ "$1" -eq 0 ]; then cp "$work/whole.dm_71" "$played"; else head -c "$1"k "$work/whole.dm_71" >"$played"; fi
 }
@@ -39,7 +39,7 @@ play() {
         +set cl_renderer opengl1 +set r_swapInterval 0 +set timedemo 1 +set nextdemo quit +demo played
 }
 
-# Sets `spent` to the seconds of processor time that everything played so far has taken; `times` asks about its own shell only.
+# Sets `spent` to the seconds of processor time of all runs so far; `times` counts only children of its own shell.
 clock() {
     times >"$work/times"
     spent=$(awk 'NR == 2 { split($1, u, "[ms]"); split($2, s, "[ms]"); print 60 * (u[1] + s[1]) + u[2] + s[2] }' "$work/times")
@@ -49,7 +49,7 @@ if [ "$what" = pictures ]; then
     cut_to 0
     for output in quilt panel; do
         mode=$([ $output = quilt ] && echo 0 || echo 3)
-        # The name of a quilt that says what it holds is kept.
+        # capture keeps a name that has columns and rows already.
         large=$work/$output-large$([ $output = quilt ] && echo _qs2x2 || true).png
         say "$output"
         play "$bin/manyview" capture --frame 241 --timeout 900 --output $output --out "$large" --views 4 \
@@ -59,7 +59,7 @@ if [ "$what" = pictures ]; then
     exit 0
 fi
 
-# sheet OUT OPTIONS...: the eight views of frame 100 of the trace, small, beside each other.
+# sheet OUT OPTIONS...: the eight views of frame 100 of the trace, small, side by side.
 sheet() {
     out=$1
     shift
@@ -73,7 +73,7 @@ if [ "$what" = walk ]; then
     cut_to 96
     say "recording"
     play apitrace trace -a gl -o "$work/walk.trace" >"$work/recording.log" 2>&1 || { say "it failed, see $work/recording.log"; exit 1; }
-    # The chart tells the command, which is not to tell where WORK is.
+    # The chart prints the command, which should not have the path of WORK.
     (cd "$work" && "$bin/manyview" bench --fps "${FPS:-7}" --frames 60..240 --views 8 --display slanted8 --csv walk.csv --json walk.json \
         --chart walk.png -- glretrace -b walk.trace >walk.txt) || { say "no walk"; exit 1; }
     cat "$work/walk.txt"

@@ -1,11 +1,12 @@
 #!/bin/sh
-# What the layer costs where it does nothing: frame times with it switched off (MANYVIEW_DISABLE=1) and with one view, over those of
+# The cost of the layer where it does nothing: frame times with it switched off (MANYVIEW_DISABLE=1) and with one view, over those of
 # the bare program. `make overhead` calls it.
 #
 #   scripts/overhead.sh BIN WORK DEMOS
 #
-# BIN has the command and the library, WORK is a folder for what it makes, DEMOS has the demo programs. Variables: ROUNDS (5) is how
-# often each is run, in turns; KIB (100, some 280 frames) how much of OpenArena's recording is played. Without the game the others are measured.
+# BIN has the command and the library, WORK is a folder for its files, DEMOS has the demo programs. Variables: ROUNDS (5) is how
+# often each program is run, in turns; KIB (100, some 280 frames) is the part of OpenArena's recording that is
+# played. Without the game only the others are measured.
 set -eu
 
 bin=$1
@@ -21,13 +22,13 @@ mkdir -p "$work/home/.openarena/baseoa/demos"
 HOME=$work/home
 export DISPLAY HOME SDL_AUDIODRIVER=dummy LIBGL_ALWAYS_SOFTWARE=1 vblank_mode=0
 
-# Milliseconds of a frame by PROGRAM, behind a command that starts it.
+# frame PROGRAM COMMAND...: milliseconds per frame of PROGRAM, which COMMAND starts.
 frame() {
     program=$1
     shift
     case $program in
     glxgears)
-        # It tells its rate every 5 seconds, and only a full buffer or a terminal of it.
+        # glxgears prints its rate every 5 seconds, and flushes it only to a terminal or from a full buffer.
         timeout 6 "$@" stdbuf -oL glxgears 2>/dev/null | awk '/frames in/ { print 1000 * $4 / $1; exit }'
         ;;
     draws-3000)

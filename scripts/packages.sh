@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs the Debian packages that are missing. Does nothing, and asks for nothing, when all are there.
+# Installs missing Debian packages. Does nothing, and asks for no password, when all are installed.
 #
 #   scripts/packages.sh PACKAGE... [--optional PACKAGE...]
 #
@@ -66,7 +66,7 @@ available() {
     apt-cache show --no-all-versions "$1" >/dev/null 2>&1
 }
 
-# A fresh machine has no index at all, an old one may not know a package.
+# A fresh machine has no package index, and an old index may lack a package.
 for package in $need $want; do
     available "$package" || update
 done
@@ -74,8 +74,8 @@ done
 install() {
     say "installing $*"
     apt install --no-install-recommends "$@" && return 0
-    # An older point release of Mesa on the machine has been seen to stop the installation half-way;
-    # repairing and asking again goes through. An index older than the archive does too after an update.
+    # An older point release of Mesa on the machine can stop the installation half-way. It succeeds after a repair and a
+    # second try, as it does after an update where the index is older than the archive.
     update
     apt --fix-broken install || true
     apt install --no-install-recommends "$@"

@@ -1,6 +1,6 @@
-# An X server of one's own until the script ends; sets DISPLAY. To be sourced, with the folder `work` and the function `say`.
+# Starts an X server that ends with the script, and sets DISPLAY. To be sourced; needs the folder `work` and the function `say`.
 
-# That of another run would be read before this one is written.
+# The number of an earlier run would be read before the new one is written.
 rm -f "$work/display"
 Xvfb -displayfd 1 -screen 0 1024x768x24 -nolisten tcp -noreset >"$work/display" 2>/dev/null &
 server=$!

@@ -3,7 +3,7 @@
 #
 #   scripts/shaders.sh FOLDER PACKAGE...
 #
-# A package that cannot be had is a warning: the test says how many shaders it found.
+# A package that is not available is a warning: the test prints the number of shaders that it found.
 set -eu
 
 folder=$1

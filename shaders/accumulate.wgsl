@@ -1,8 +1,8 @@
 // glAccum: one entry point for each step. A pass is cover.wgsl, then this file.
 //
-// The arithmetic is that of Mesa's accumulation buffer (measured, and described in src/accumulation.rs): 16-bit integers, of
-// which 32767 stands for 1; fractions are cut off, what does not fit is wrapped. Everything happens texel by texel, so the rows
-// of all textures run the same way and nothing is turned over.
+// The arithmetic is that of Mesa's accumulation buffer (measured, and described in src/accumulation): 16-bit integers, of
+// which 32767 stands for 1; fractions are cut off, and overflow wraps. Everything happens texel by texel, so the rows of all
+// textures run the same way and nothing is flipped.
 
 struct Uniforms {
     // The largest value of each channel of the colour buffer; 0 where it is floating point or has no such channel.
@@ -13,7 +13,7 @@ struct Uniforms {
     value: vec4<f32>,
     // Layer of the colours.
     layer: u32,
-    // Layer of what was accumulated.
+    // Layer of the accumulated values before this step.
     before: u32,
     // Red, green and blue of the colour buffer are sRGB, and go through the table. 1: their texture gives them as they are
     // stored, 2: decoded. They are drawn as they are stored.
@@ -24,14 +24,15 @@ var<immediate> u: Uniforms;
 
 @group(0) @binding(0) var colours: texture_2d_array<f32>;
 @group(0) @binding(1) var accumulated: texture_2d_array<i32>;
-// sRGB: for each of 256 stored colours what is accumulated of it, or for each accumulated value, 256 in a row, what is stored.
+// Only for sRGB. One row of 256 stored colours, each with its accumulated value; or all accumulated values, 256 to a row, each with its stored
+// colour.
 @group(0) @binding(2) var table: texture_2d<i32>;
 
 fn wrapped(v: vec4<i32>) -> vec4<i32> {
     return (v << vec4<u32>(16u)) >> vec4<u32>(16u);
 }
 
-// As a CPU makes an integer of it: what is no 32-bit number becomes one whose lower half is 0.
+// Conversion to a 16-bit integer as a CPU does it: a value that fits no 32-bit integer becomes one whose lower half is 0.
 fn short(v: vec4<f32>) -> vec4<i32> {
     let fits = abs(v) < vec4<f32>(2147483648.0);
     return wrapped(vec4<i32>(select(vec4<f32>(0.0), v, fits)));
@@ -45,10 +46,10 @@ fn looked_up(x: i32, y: i32) -> i32 {
     return textureLoad(table, vec2<i32>(x, y), 0).r;
 }
 
-// What is accumulated of the colour here.
+// The colour of this texel as an accumulated value.
 fn taken(position: vec4<f32>) -> vec4<i32> {
     let c = textureLoad(colours, vec2<i32>(position.xy), i32(u.layer), 0);
-    // The exact multiple of a unit that it is.
+    // The exact multiple of a unit that the fetched colour stands for.
     let exact = select(round(c * u.steps) * u.unit, c, u.steps == vec4<f32>(0.0));
     let plain = short(exact * u.value.x);
     if u.srgb == 0u {
@@ -62,7 +63,7 @@ fn taken(position: vec4<f32>) -> vec4<i32> {
     return vec4<i32>(looked_up(at.r, 0), looked_up(at.g, 0), looked_up(at.b, 0), plain.a);
 }
 
-// What is stored for an accumulated value.
+// The stored colour for an accumulated value, by the table.
 fn stored(v: i32) -> f32 {
     let at = v + 32768;
     return f32(looked_up(at & 255, at >> 8u)) / 255.0;
@@ -106,7 +107,7 @@ fn add(@builtin(position) position: vec4<f32>) -> @location(0) vec4<i32> {
 fn give_back(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let b = before(position);
     let v = vec4<f32>(b) * u.value.x;
-    // Rounded here, so that the driver has nothing to round.
+    // Rounding happens here, so that none is left to the driver.
     let rounded = round(clamp(v, vec4<f32>(0.0), vec4<f32>(1.0)) * u.steps) * u.unit;
     let c = select(rounded, v, u.steps == vec4<f32>(0.0));
     if u.srgb == 0u {

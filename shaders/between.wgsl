@@ -1,4 +1,4 @@
-// Views between several that are drawn: what the nearest of them hides, the nearest on the other side may see.
+// Views between several drawn ones: the nearest drawn view is the source, and its disocclusions are looked for in the nearest one on the other side.
 
 // Beyond all views.
 const NO_VIEW = 1.0e9;
@@ -15,8 +15,8 @@ fn up_to(view: f32) -> i32 {
     return i32(dot(low, one) + dot(high, one));
 }
 
-// The nearest of those that are drawn, and the nearest on its other side; beyond it where there is none. As Sources::pair in
-// src/interleave/field.rs.
+// Indices of the nearest drawn view and of the nearest one on the other side of `view`; where there is none, of the next one beyond the first.
+// As Sources::pair in src/interleave/sources.rs.
 fn pair(view: f32) -> vec2<i32> {
     let count = up_to(0.5 * NO_VIEW);
     let right = up_to(view);
@@ -31,13 +31,13 @@ fn pair(view: f32) -> vec2<i32> {
     return select(both, both.yx, source(right) - view < view - source(left));
 }
 
-// Looks at one of them from now on, and answers the baseline that a view has of it.
+// Makes a drawn view the picture that is read from now on, and returns the baseline of `view` from it.
 fn enter(i: i32, view: f32) -> f32 {
     let at = source(i);
     let s = slot(u32(at));
     let layer = u32((f32(s) + 0.5) / f32(u.columns));
     let left = (s - layer * u.columns) * u.stride;
-    // Copies lie one to a layer.
+    // Copies lie in one layer each.
     picture = Place(i32(left), i32(layer), i);
     if u.occlusion.y > 0.0 {
         picture = Place(0, i, i);
@@ -51,11 +51,12 @@ fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
     var seen = Seen(0, 0, 0.0, true, false, -1);
     var deepest = 1.0e9;
     var held = picture;
-    // The second time only for holes. Left at its end: llvmpipe goes through a loop once more to see at its beginning that it is over.
+    // The second pass is for holes only. The loop tests at its end: with a test at the beginning, llvmpipe runs one more pass to find that it is
+    // over.
     loop {
         let baseline = enter(i, view);
         let other = seek(x, row, baseline, range_of(u32(x), row));
-        // What lies deeper is behind.
+        // Of two holes, the deeper sample is the background.
         let deep = disparity(other.low, row);
         let better = !other.hole || deep < deepest;
         if better {

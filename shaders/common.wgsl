@@ -1,17 +1,18 @@
-// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then layout.wgsl, anaglyph.wgsl, rgbd.wgsl,
-// or mask.wgsl with interleave.wgsl or texels.wgsl.
+// The part that all output passes share. A pass is cover.wgsl, this file, atlas.wgsl, and then layout.wgsl, anaglyph.wgsl,
+// rgbd.wgsl, or mask.wgsl with interleave.wgsl, texels.wgsl or sample_aligned.wgsl; `source` in src/interleave/shader.rs has
+// all combinations, also those of synthesis.
 //
 // Spaces. naga translates without ADJUST_COORDINATE_SPACE, so nothing is flipped: clip space is OpenGL's, and
 // @builtin(position) is gl_FragCoord, whose y counts UP from the bottom of the window. Pictures and masks count rows DOWN
 // from the top. `top_down` is the only place where the two meet; `texel_row` is the other flip, that of the atlas.
 //
-// All sizes are in pixels. The struct is no buffer: under GLSL an immediate is a set of plain uniforms of our own program,
-// so no binding of the application's is touched.
+// All sizes are in pixels. The struct is no buffer: in GLSL an immediate becomes plain uniforms of our own program, so no
+// binding of the application's is touched.
 
 struct Uniforms {
     // Size of one view.
     tile: vec2<u32>,
-    // Size of the picture made.
+    // Size of the output picture.
     picture: vec2<u32>,
     // Columns and rows of views in that picture (layout only).
     grid: vec2<u32>,
@@ -29,43 +30,43 @@ struct Uniforms {
     cells_from_top: u32,
     // 1: colours are fetched and written as linear light.
     linear: u32,
-    // 0: the mask has views; 1 and 2: it has 256ths of views, of which two are blended or three filtered (interleave only).
+    // 0: the mask holds views. 1, 2: it holds 256ths of views; 1 blends two views, 2 filters three (interleave only).
     filtered: u32,
-    // The mask repeats after as many columns and rows (interleave and texels only).
+    // Columns and rows after which the mask repeats (interleave and texels only).
     period: vec2<u32>,
-    // Of places in the mask, those that are the column; the layer is above them (texels only).
+    // Number of low bits of a value of the mask that are the column of a tile; the layer is above them (texels only).
     column_bits: u32,
-    // What the mask has at black subpixels (interleave and texels only).
+    // Value of the mask at black subpixels (interleave and texels only).
     black: u32,
-    // What the left and the right view give to each colour (anaglyph only).
+    // Weights of the left and the right view in each colour of the picture (anaglyph only).
     left_red: vec4<f32>,
     left_green: vec4<f32>,
     left_blue: vec4<f32>,
     right_red: vec4<f32>,
     right_green: vec4<f32>,
     right_blue: vec4<f32>,
-    // White and black, as values of the depth buffer (rgbd only).
+    // Depth buffer values that are shown white (x) and black (y) (rgbd only).
     depth: vec4<f32>,
-    // Column and row in the tile of view i of a place (x, y) of the window in pixels, y upwards, are the products of these with
-    // (x, y, 1, i) (lenses only).
+    // A place (x, y) of the window, in pixels with y upwards, lies in the tile of view i at the column and the row that are the dot
+    // products of these with (x, y, 1, i) (sample_aligned only).
     column: vec4<f32>,
     row: vec4<f32>,
-    // Disparities: the factor of the depth, what is added, what is infinitely far, and the depth of what nothing was drawn on (the rest
-    // is of synthesis only, see disparity.wgsl).
+    // Disparities are x · depth + y. z: disparity of zero parallax. w: depth where nothing was drawn. (This and the rest are for
+    // synthesis only, see disparity.wgsl.)
     disparity: vec4<f32>,
-    // Baselines: of view 0, from view to view; the disparity of what nothing was drawn on; by how much depths are moved away.
+    // x: baseline of view 0. y: baseline from view to view. z: disparity where nothing was drawn. w: amount by which depths are moved away.
     baseline: vec4<f32>,
-    // Of one view: which it is, the left edge of its tile; 1: holes are marked; the longest baseline of any view that the picture is
-    // looked at for.
+    // x: the view that is synthesised. y: left edge of its tile. z: 1 marks holes. w: longest baseline of any view that is synthesised
+    // from the picture.
     aim: vec4<f32>,
-    // Of an occlusion camera: how far it reaches behind at most (see distortion.wgsl). The rest, while a picture is measured: where it lies, as
-    // `Place` has it; while views are made of several: 1 where these are looked at in copies, one to a layer.
+    // x: pixels that an occlusion camera reaches behind an occluder at most (see distortion.wgsl). y, z, w while the disparity pyramid is
+    // built: the `Place` of the picture. y while views are synthesised from several: 1 where these lie in copies, one to a layer.
     occlusion: vec4<f32>,
-    // The views that are drawn, from left to right, 8 at most, beyond all views where there are no more (see between.wgsl).
+    // The drawn views, from left to right, 8 at most; unused places hold NO_VIEW (see between.wgsl).
     sources_low: vec4<f32>,
     sources_high: vec4<f32>,
-    // Disparities of what stands before everything, nearer than a depth: the factor, what is added, that depth, and 1 where nearer depths are
-    // larger, -1 where they are smaller; 0 where there is no such thing.
+    // Disparities of what is nearer than the depth z: x · depth + y. w: 1 where nearer depths are larger, -1 where they are smaller, 0 where all
+    // depths take `disparity`.
     before: vec4<f32>,
 }
 
@@ -82,7 +83,7 @@ fn texel_row(up: u32, texture_height: u32) -> u32 {
     return select(up, texture_height - 1u - up, u.rows_top_down != 0u);
 }
 
-// View that has the same centre as the program's own camera, for even N the left one of the two.
+// The view at the centre of the program's own camera; for even N, the left one of the two beside it.
 fn middle() -> u32 {
     return (u.views - 1u) / 2u;
 }
@@ -95,8 +96,8 @@ struct Tap {
 }
 
 // The place num/den, in (0, 1) across a tile, among `texels` texels with centres at half texels; clamped inside the tile.
-// In whole numbers up to the weight, so that no rounding can pick another texel. 2 · num · texels has to stay below 2^32:
-// any output and tile up to 16384 pixels.
+// Integers are used up to the weight, so that no rounding can pick another texel. 2 · num · texels has to stay below 2^32,
+// which it does for any output and tile up to 16384 pixels.
 fn tap(num: u32, den: u32, texels: u32) -> Tap {
     // Minus half a texel for the centre, plus one to stay positive.
     let place = 2u * num * texels + den;
@@ -106,8 +107,8 @@ fn tap(num: u32, den: u32, texels: u32) -> Tap {
     return Tap(min(max(above, 1u) - 1u, last), min(above, last), f32(rest) / f32(2u * den));
 }
 
-// Colour of a view at the place num/den of its tile, from the top left: bilinear, and the texel itself where the place is
-// the centre of one, as it is everywhere when tile and picture have the same size.
+// Colour of a view at the place num/den of its tile, from the top left. It is bilinear, and exactly the texel where the place is
+// the centre of one, as everywhere when tile and picture have the same size.
 fn colour(view: u32, num: vec2<u32>, den: vec2<u32>) -> vec3<f32> {
     let x = tap(num.x, den.x, u.tile.x);
     let y = tap(num.y, den.y, u.tile.y);
@@ -119,7 +120,7 @@ fn colour(view: u32, num: vec2<u32>, den: vec2<u32>) -> vec3<f32> {
     return mix(upper, lower, y.weight);
 }
 
-// sRGB to linear light; what is fetched from an sRGB texture is linear already.
+// sRGB to linear light; an sRGB texture has been decoded when it was fetched.
 fn linear(colour: vec3<f32>) -> vec3<f32> {
     if u.linear != 0u {
         return colour;
@@ -129,7 +130,7 @@ fn linear(colour: vec3<f32>) -> vec3<f32> {
     return select(high, low, colour <= vec3<f32>(0.04045));
 }
 
-// And back; an sRGB framebuffer does it itself.
+// Linear light to sRGB; an sRGB framebuffer encodes by itself.
 fn encoded(light: vec3<f32>) -> vec3<f32> {
     if u.linear != 0u {
         return light;

@@ -1,4 +1,4 @@
-// A copy texel by texel, which other passes are measured by. A pass is cover.wgsl, then this file.
+// A copy texel by texel, with which the cost of other passes is compared. A pass is cover.wgsl, then this file.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 

@@ -1,4 +1,4 @@
-// One triangle that covers the window; needs no vertex arrays.
+// One triangle that covers the window, without vertex attributes.
 @vertex
 fn cover(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
     let corner = vec2<f32>(vec2<u32>((i << 1u) & 2u, i & 2u));

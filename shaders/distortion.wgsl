@@ -1,11 +1,11 @@
-// The distortion map of an occlusion camera whose rays are distorted along rows: src/synthesis/rows.rs says what it has to be.
+// The distortion map of an occlusion camera whose rays are distorted along rows; src/synthesis/rows.rs is its reference.
 
-// Of the blocks of a row: a bit for each sample on whose left side disparities step down, and step up.
+// For each block of a row, one bit for each sample on whose left side there is a depth discontinuity: steps down in r, steps up in g.
 @group(0) @binding(5) var steps_texture: texture_2d_array<f32>;
-// Whether a sample of a block lies in a splat of one of them.
+// For each block of a row: whether one of its samples can lie in a splat.
 @group(0) @binding(6) var splats_texture: texture_2d_array<f32>;
 
-// What nothing is drawn on is infinitely far.
+// Disparity, where pixels on which nothing was drawn count as infinitely far.
 fn solid(x: i32, row: i32) -> f32 {
     return max(disparity(x, row), 0.0);
 }
@@ -16,7 +16,7 @@ fn steps(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let width = i32(u.tile.x);
     let first = block.x * BLOCK;
     let end = min(first + BLOCK, width);
-    // Disparities of the two samples before, and here.
+    // Disparities of the two samples before, and of this one.
     var two = solid(max(first - 2, 0), block.y);
     var one = solid(max(first - 1, 0), block.y);
     var here = solid(first, block.y);
@@ -48,7 +48,7 @@ fn step_bits(block: i32, row: i32) -> vec2<u32> {
 // All bits of a block.
 const ALL = 0xFFFFu;
 
-// The highest of them that is set.
+// Index of the highest bit that is set.
 fn highest(bits: u32) -> i32 {
     let of_16 = select(0u, 8u, bits > 0xFFu);
     let of_8 = of_16 + select(0u, 4u, (bits >> of_16) > 0xFu);
@@ -56,11 +56,11 @@ fn highest(bits: u32) -> i32 {
     return i32(of_4 + select(0u, 1u, (bits >> of_4) > 1u));
 }
 
-// The first sample with a step of a kind on its left side, from a sample on in a direction, before an end; the end where there is none.
+// The first sample from `start` on, in the direction `along` and before `end`, with a step of a wanted kind on its left side; `end` if there is none.
 fn first_step(start: i32, end: i32, along: i32, down: bool, up: bool, row: i32) -> i32 {
     var block = start >> 4u;
     let within = u32(start & (BLOCK - 1));
-    // From the first block what lies before the start is left out.
+    // Samples of the first block that lie before the start are left out.
     var kept = select(ALL << within, (2u << within) - 1u, along < 0);
     var at = end;
     loop {
@@ -80,7 +80,7 @@ fn first_step(start: i32, end: i32, along: i32, down: bool, up: bool, row: i32) 
     return select(end, at, (end - at) * along > 0);
 }
 
-// Of a block: whether there are steps as near as splats reach.
+// For each block: nonzero where there are steps within the reach of splats.
 @fragment
 fn splats(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = texel_at(position);
@@ -92,11 +92,12 @@ fn splats(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     return vec4<f32>(f32(any.x | any.y), 0.0, 0.0, 0.0);
 }
 
-// What stands before the asymmetry's logarithm, above all distances.
+// Factor of the asymmetry's logarithm, greater than any distance, so that one number holds both.
 const LEVEL = 128.0;
 
-// Of two samples: how far to the right of their middle the discontinuity lies, with the asymmetry; the radius of the splat with its
-// direction; and the disparities between which it distorts. Nothing where the radius is 0.
+// The splat of each two samples. x: pixels from their middle to the right to the discontinuity, plus LEVEL · log2 of the asymmetry. y: radius,
+// below 0 where the background lies to the left. z, w: the disparities in front and behind, between which the splat distorts. All are 0 where there
+// is no splat.
 @fragment
 fn distortion_map(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = texel_at(position);
@@ -118,7 +119,7 @@ fn distortion_map(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f
     let down = before > after;
     let near = max(before, after);
     let far = min(before, after);
-    // To the nearest one that distorts the other way, behind what is in front and on the side of the background.
+    // The nearest steps that distort in the other direction: behind the occluder, and on the side of the background.
     let side = select(-1, 1, down);
     let wide = i32(ceil(2.0 * u.occlusion.x)) + 1;
     let hidden = first_step(nearest - side, nearest - side * wide, -side, !down, down, row);

@@ -1,9 +1,9 @@
-// The picture of a panel: each subpixel from the view that the mask names, or from those around its place between views.
-// For views of any size, filtered or not; texels.wgsl is for what needs neither.
+// The picture of a panel: each subpixel from the view that the mask names, or from the views around its place between two.
+// For views of any size, filtered or not; texels.wgsl is for views of the picture's size without a filter.
 
 // Steps from view to view.
 const FINE = 256.0;
-// Of the Gaussian, in views: a view's neighbours have a quarter of the weight in its middle.
+// Standard deviation of the Gaussian, in views. In the middle of a view, its neighbours have a quarter of its weight.
 const SIGMA = 0.6;
 
 // One channel at a time: three fetches of one colour each where the views differ.
@@ -14,18 +14,18 @@ fn channel(view: u32, at: vec2<u32>) -> vec3<f32> {
     return colour(view, 2u * at + 1u, 2u * u.picture);
 }
 
-// Light of a view, the nearest one where there is none.
+// Linear light of a view. Beyond the first and the last view, that one is taken.
 fn light(view: i32, at: vec2<u32>) -> vec3<f32> {
     let inside = u32(clamp(view, 0, i32(u.views) - 1));
     return linear(colour(inside, 2u * at + 1u, 2u * u.picture));
 }
 
-// What lies at a place between views; `step` counts 256ths of a view from the left end of view 0.
+// Colour at a place between views; `step` counts 256ths of a view from the left end of view 0.
 fn between(step: u32, at: vec2<u32>) -> vec3<f32> {
     if step >= u.black {
         return vec3<f32>(0.0);
     }
-    // From the middle of view 0, in views; the middle of the step.
+    // The middle of the step, in views from the middle of view 0.
     let place = (f32(step) + 0.5) / FINE - 0.5;
     if u.filtered == 1u {
         let low = floor(place);

@@ -1,4 +1,4 @@
-// Of what is hidden in a picture with depths nothing is known.
+// Synthesis from one depth image without a source of disocclusions: hidden samples are unknown.
 
 fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
     return seek(x, row, u.baseline.x + view * u.baseline.y, range);

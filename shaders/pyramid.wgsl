@@ -1,10 +1,10 @@
-// How high the rows of a picture with depths are, for disparity.wgsl.
+// The disparity pyramid of a depth image: least and greatest disparities of blocks, by which disparity.wgsl skips samples.
 
 fn enter_told() {
     picture = Place(i32(u.occlusion.y), i32(u.occlusion.z), i32(u.occlusion.w));
 }
 
-// Of a block: the greatest and the least disparity.
+// For each block: the greatest and the least disparity.
 @fragment
 fn block_bounds(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     enter_told();
@@ -24,7 +24,7 @@ fn block(x: i32, row: i32) -> vec2<f32> {
     return textureLoad(block_bounds_texture, vec2<i32>(x, row), picture.layer_of_pyramid, 0).rg;
 }
 
-// Of a row: the greatest disparity.
+// For each row: the greatest disparity.
 @fragment
 fn row_maxima(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     enter_told();
@@ -37,13 +37,13 @@ fn row_maxima(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> 
     return vec4<f32>(top, 0.0, 0.0, 0.0);
 }
 
-// Blocks that lie wholly between this one and what a camera with the longest baseline sees beside it at a disparity: the higher of what is
-// infinitely far and this moves farther.
+// Distance in blocks at which samples of at most this disparity can still be seen by rays of a block, with the longest baseline. Either an infinitely
+// far sample moves farthest, or one with this disparity.
 fn reach(disparity: f32) -> f32 {
     return u.aim.w * max(u.disparity.z, disparity - u.disparity.z) / f32(BLOCK) + 1.0;
 }
 
-// Of all that the rays of a block can meet: the greatest and the least disparity.
+// For each block: the greatest and the least disparity that its rays can meet.
 @fragment
 fn ray_range(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     enter_told();

@@ -1,15 +1,15 @@
-// What is hidden in a picture with depths is looked for in the reference image of an occlusion camera, whose rays reach behind its occluder.
+// Synthesis from a depth image and a reference image: disocclusions are looked for in the latter, whose camera has rays that reach behind occluders.
 
 @group(0) @binding(6) var reference_texture: texture_2d_array<f32>;
 @group(0) @binding(7) var reference_depth_texture: texture_2d_array<f32>;
 // The distortion map, of distortion.wgsl.
 @group(0) @binding(5) var map_texture: texture_2d_array<f32>;
-// Pixels to the right by which each sample lies beside its place.
+// Pixels to the right by which the distortion has moved each sample.
 @group(0) @binding(8) var moved_texture: texture_2d_array<f32>;
 
-// What stands before the logarithm of a splat's asymmetry there.
+// Factor of the asymmetry's logarithm in the map.
 const LEVEL = 128.0;
-// Pixels by which what hides may have moved since the frame by whose depths the rays are distorted.
+// Pixels by which an occluder may have moved since the frame whose depths gave the distortion map.
 const SLACK = 4;
 
 fn sample_at(x: i32, row: i32, behind: bool) -> vec3<f32> {
@@ -37,18 +37,18 @@ fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
     return look_behind(seek(x, row, baseline, range), x, row, baseline);
 }
 
-// From the occluder outwards, where hidden samples lie side by side up to it: the farthest behind it is the closest to it. The
-// outermost place where the ray meets their surface is what it meets first.
+// Follows the hidden samples of the reference image from the occluder outwards. They lie side by side up to its edge, and the one farthest behind it
+// lies closest to the edge. Of the places where the ray meets their surface, it meets the outermost first, so the last one found counts.
 fn look_behind(seen: Seen, x: f32, row: i32, t: f32) -> Seen {
     let width = i32(u.tile.x);
     let edge = 0.5 / max(abs(t), 1e-6);
     let along = select(1, -1, t > 0.0);
     let splat = textureLoad(map_texture, vec2<i32>(max(seen.last, 0) / 2, row), 0, 0);
-    // What is behind is as high as what is seen of it, or nearly so.
+    // Hidden samples have about the disparity of the background that is seen.
     let low = mix(splat.w, splat.z, 0.25);
     var best = seen;
     var k = seen.last + along * SLACK;
-    // To the end of the splat.
+    // Samples that are left to the end of the splat.
     let level = floor(splat.x / LEVEL + 0.5);
     var left = i32(ceil(abs(splat.y) * exp2(-level))) + 2 * SLACK;
     var open = seen.hole && seen.last >= 0 && splat.y != 0.0;
@@ -64,14 +64,14 @@ fn look_behind(seen: Seen, x: f32, row: i32, t: f32) -> Seen {
             let disparity = disparity_of(depth);
             let above = (there - x) / t + u.disparity.z - disparity;
             let drawn = !is_clear(depth);
-            // Samples lie closer to each other than the places they are of.
+            // Samples lie closer together in the reference image than their undistorted places.
             let step = disparity - before.y;
             let apart = edge * max(abs(there - before.x), 1.0);
             let joined = drawn && known && min(abs(step), abs(step - slope)) <= apart;
             if joined && above > 0.0 && before.z <= 0.0 {
                 best = Seen(at, at + along, above / (above - before.z), false, true, -1);
             } else if !best.behind && drawn && moved != 0.0 && above > 0.0 && disparity < low {
-                // As far as is known; the rest lies deeper.
+                // The hidden sample farthest behind the occluder stands in for all that lies deeper. It remains a hole.
                 best = Seen(at, at, 0.0, true, true, -1);
             }
             slope = select(0.0, step, known);

@@ -1,9 +1,9 @@
-// The program's own view in the left half, how near it is as grey in the right half; see src/interleave/depth.rs.
+// The program's own view in the left half, and its nearness as grey in the right half; see src/interleave/depth.rs.
 
-// The own view lies in slot 0: at the origin of layer 0. A depth texture, sampled as one value.
+// Depths, fetched as one value. The own view lies in slot 0: at the origin of layer 0.
 @group(0) @binding(2) var depth_texture: texture_2d_array<f32>;
 
-// Of the pixel that a place num/den across the tile lies in.
+// Grey of the pixel that contains the place num/den across the tile.
 fn grey(num: vec2<u32>, den: vec2<u32>) -> f32 {
     let at = num * u.tile / den;
     let y = texel_row(u.tile.y - 1u - at.y, u.tile.y);
@@ -16,7 +16,7 @@ fn grey(num: vec2<u32>, den: vec2<u32>) -> f32 {
     return clamp((d - far) / (near - far), 0.0, 1.0);
 }
 
-// A window that encodes what is written to it gets the light that becomes this grey.
+// The value to write for a grey. A window that encodes to sRGB gets the linear light that becomes this grey.
 fn stored(grey: f32) -> f32 {
     let low = grey / 12.92;
     let high = pow((grey + 0.055) / 1.055, 2.4);

@@ -1,8 +1,7 @@
-// The picture of a panel whose views have fewer texels than it: lens by lens, where the panel shows the view or next to it, or evenly. The
-// mask has views. A pixel is looked up by its place, whatever the phase of its view, so that what lies between two lenses is drawn
-// between them.
+// The picture of a panel whose views have fewer texels than the panel has pixels: one for each lens, or evenly spread ones. The mask holds views. A
+// pixel is looked up by its place, whatever the phase of its view, so that a point between two lenses is drawn between them.
 
-// The place of a pixel's middle in the tile of a view, in texels from the bottom left.
+// The place of a pixel's centre in the tile of a view, in texels from the bottom left.
 fn place(view: u32, at: vec2<u32>) -> vec2<f32> {
     let window = vec4<f32>(f32(at.x) + 0.5, f32(u.picture.y) - f32(at.y) - 0.5, 1.0, f32(view));
     return vec2<f32>(dot(u.column, window), dot(u.row, window));
@@ -21,7 +20,7 @@ fn lit(colour: vec3<f32>, views: vec3<u32>) -> vec4<f32> {
     return vec4<f32>(select(colour, vec3<f32>(0.0), views >= vec3<u32>(u.black)), 1.0);
 }
 
-// A mask of whole pixels, each of them the middle of a texel.
+// For a mask of whole pixels, each of which is the centre of a texel.
 @fragment
 fn lens_pixels(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = top_down(position);
@@ -42,7 +41,7 @@ fn corner(x: vec3<f32>, y: vec3<f32>, layer: vec3<f32>) -> vec3<f32> {
     );
 }
 
-// All three colours at once: on a CPU most of the time goes to what is around the fetches.
+// All three colours at once: on a CPU the arithmetic around the fetches takes most of the time.
 @fragment
 fn lens_texels(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let window = vec3<f32>(position.xy, 1.0);
@@ -57,7 +56,7 @@ fn lens_texels(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32>
     let left = floor(x);
     let right = min(left + 1.0, vec3<f32>(last.x));
 
-    // As `slot` and `texel` have it.
+    // As in `slot` and `texel` of atlas.wgsl.
     let own = f32(middle());
     let first = select(view, vec3<f32>(own), view == vec3<f32>(0.0));
     let slots = select(first, vec3<f32>(0.0), view == vec3<f32>(own));

@@ -1,5 +1,5 @@
-// The picture of a panel whose pixels are those of the views: what interleave.wgsl makes where view and picture have one size
-// and nothing is filtered. The mask has places instead of views: the layer of a tile above `u.column_bits`, its column below.
+// The picture of a panel whose views have the picture's size: the result of interleave.wgsl for this size and no filter. The mask holds
+// tile addresses instead of views: the layer of a tile above the lowest `u.column_bits` bits, its column in those.
 
 fn inside(place: vec3<u32>) -> vec3<u32> {
     return select(place, vec3<u32>(0u), place >= vec3<u32>(u.black));
@@ -30,7 +30,7 @@ fn subpixels(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     return lit(vec3<f32>(fetched(x.r, y, layers.r).r, fetched(x.g, y, layers.g).g, fetched(x.b, y, layers.b).b), places);
 }
 
-// All tiles beside each other in one layer.
+// All tiles are beside each other in one layer.
 @fragment
 fn subpixels_of_one_layer(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = top_down(position);

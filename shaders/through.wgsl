@@ -1,5 +1,5 @@
-// The picture of a panel straight from a picture with depths: each subpixel seeks what its view sees, so that the number of views
-// costs nothing.
+// The picture of a panel straight from a depth image: each subpixel seeks the sample that its view sees, so that the cost does not
+// depend on the number of views.
 
 fn through(view: u32, at: vec2<u32>, row: i32, range: vec2<f32>) -> vec3<f32> {
     let x = f32(at.x) + 0.5;

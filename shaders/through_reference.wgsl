@@ -1,5 +1,5 @@
-// As through.wgsl, where the reference image of an occlusion camera is there: it is asked by one subpixel after another, most of which have no
-// need of it. On a CPU it would be asked for all three colours of each pixel otherwise.
+// As through.wgsl, with the reference image of an occlusion camera. Most subpixels do not need it, so a loop asks it only for those that do, one
+// after another. Otherwise a CPU would ask it for all three colours of each pixel.
 
 @fragment
 fn panel_subpixels_reference(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {

@@ -1,6 +1,6 @@
-// A view of a picture with depths, into its tile.
+// Synthesises a view into its tile.
 
-// Part of the step from a sample to the next.
+// Share of the step from a sample to the next by which depths are moved away.
 const SLOPE = 0.25;
 
 struct Made {
@@ -8,8 +8,8 @@ struct Made {
     @builtin(frag_depth) depth: f32,
 }
 
-// With depths for what is drawn after it: a little farther than they are, so that another pass over the same
-// surface lies before it.
+// Writes depths for later draws, a little farther than the surface, so that another pass over the same surface lies
+// before it.
 @fragment
 fn view(@builtin(position) position: vec4<f32>) -> Made {
     let at = vec2<u32>(position.xy);
@@ -18,7 +18,7 @@ fn view(@builtin(position) position: vec4<f32>) -> Made {
     let seen = see(u.aim.x, x, row, range_of(u32(x), row));
     let low = sample_depth(seen.low, row, seen.behind);
     let high = sample_depth(seen.high, row, seen.behind);
-    // Where the surface is curved it is not where the straight line between two samples is.
+    // A curved surface leaves the straight line between two samples.
     let away = u.baseline.w + sign(u.baseline.w) * SLOPE * abs(high - low);
     let moved = clamp(mix(low, high, seen.weight) + away, 0.0, 1.0);
     let depth = select(moved, low, is_clear(low));

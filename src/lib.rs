@@ -3,7 +3,7 @@
 //! The modules follow the flow of a draw call (see ARCHITECTURE.md); a module imports only from those above it in this list.
 #![deny(unsafe_code)]
 
-// Blank lines between them: rustfmt would put them in the order of the alphabet.
+// The blank lines keep the order: rustfmt sorts modules that are adjacent.
 
 pub mod view;
 

@@ -1,4 +1,4 @@
-//! `--strategy auto`: what it finds is told, kept and taken the next time, and nobody sees it search.
+//! `--strategy auto`: the report names the outcome, the next run takes it from the cache, and the search changes no picture.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -7,8 +7,8 @@ use serde_json::Value;
 use std::path::Path;
 use support::{demo, layered, manyview, rgb, screen, succeed};
 
-/// Enough for it to be found (12 before it begins, and four turns of four by each of three strategies), and for the report, which is
-/// written ten times a second, to tell it.
+/// Enough frames to find an outcome (12 before the search, then four turns of four frames by each of three strategies), and for the report,
+/// which is written ten times a second, to contain it.
 const FRAMES: &str = "600";
 
 /// The report of a demo whose outcomes are kept in a folder.
@@ -57,7 +57,7 @@ fn what_is_found_is_taken_the_next_time() {
     let key = kept.keys().next().expect("a key");
     assert!(key.contains("arrays") && key.contains("5 views"), "{key}");
 
-    // Another outcome is taken as it is: nothing is tried.
+    // A cached outcome is taken as it is, even another one: nothing is tried.
     let other = if strategy == "instanced" {
         "replay"
     } else {
@@ -88,12 +88,12 @@ fn outcomes_that_cannot_be_read_are_found_anew() {
             "{spoilt}"
         );
     }
-    // And where they cannot be written nothing happens.
+    // Where outcomes cannot be written, nothing else happens.
     let nowhere = Path::new("/proc/no-such-folder");
     assert!(found(&report(nowhere, "gears", &[])).is_some());
 }
 
-/// Captures are the same in each run, so they are replayed, whatever was found before.
+/// Captures have to be the same in each run, so they are replayed, whatever outcome is cached.
 #[test]
 fn captures_are_replayed() {
     let cache = tempfile::tempdir().expect("a folder");
@@ -117,7 +117,7 @@ fn captures_are_replayed() {
     assert!(picture("auto") == picture("replay"));
 }
 
-/// A program that draws over what it has drawn before does not see that the views have moved.
+/// A program that draws over its last picture does not see that the views lie elsewhere in the atlas.
 #[test]
 fn what_is_drawn_before_is_there_after_a_change() {
     let cache = tempfile::tempdir().expect("a folder");
@@ -137,7 +137,7 @@ fn what_is_drawn_before_is_there_after_a_change() {
         picture("replay.png", &[("STRATEGY", "replay")]),
     );
     let compared = manyview::metric::Comparison::new(&replayed, &tried, None).expect("one size");
-    // Instances and geometry shaders may differ by a step, and the echo keeps it.
+    // Instances and geometry shaders may differ by one step, and the echo keeps the difference.
     assert!(
         compared.over_eight == 0 && compared.psnr > 50.0,
         "{compared:?}"

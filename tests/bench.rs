@@ -1,4 +1,4 @@
-//! `manyview bench`: what it writes, and what it says of bad input. No test depends on how fast anything is.
+//! `manyview bench`: its outputs, and its messages about bad input. No test depends on speed, except by a wide margin.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -59,7 +59,7 @@ fn a_small_run_is_told_in_every_form() {
         // 96 x 64 pixels of 8 bytes.
         assert_eq!(row["view_bytes"], 2 * 96 * 64 * 8);
     }
-    // That is what it is compared with.
+    // The configuration that the others are compared with.
     assert_eq!(rows[0]["configuration"], "replay-layers");
     assert_eq!(rows[0]["picture"]["exact"], true);
     assert!(rows[0]["picture"]["psnr"].is_null());
@@ -131,7 +131,7 @@ fn savings_are_told_below_the_table() {
         let row = rows.iter().find(found).expect("a row");
         row["ms"]["median"].as_f64().expect("a number")
     };
-    // Eight views of a menu, or one: several times, on any machine.
+    // Mono frames draw one view of a menu in place of eight: several times faster on any machine.
     let saved = ms("menu", "replay without mono") / ms("menu", "replay");
     assert!(saved > 2.0, "{saved}");
     let lines = text
@@ -275,7 +275,7 @@ fn what_cannot_be_measured_is_one_line() {
 
 #[test]
 fn missing_scenes_are_status_3() {
-    // A library with nothing beside it.
+    // A library without the other files of a build beside it.
     let folder = tempfile::tempdir().expect("a folder");
     let copy = folder.path().join("lib").join("libmanyview.so");
     std::fs::create_dir(folder.path().join("lib")).expect("a folder");

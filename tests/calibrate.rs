@@ -1,4 +1,4 @@
-//! Round trips: a display, simulated photos of it, and what `manyview calibrate` makes of them.
+//! Round trips: a display, simulated photos of it, and the description that `manyview calibrate` finds from them.
 #![forbid(unsafe_code)]
 
 #[path = "calibrate/camera.rs"]
@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 const QUALITY: u8 = 70;
 
-/// The part of the subpixels, in per cent, whose phase is off by more than half a view.
+/// Per cent of the subpixels whose phase is off by more than half a view.
 fn wrong(sheet: &Sheet, found: &Fit) -> f64 {
     let mut claimed = sheet.clone();
     (claimed.pitch, claimed.slant, claimed.offset) = (found.pitch, found.slant, found.offset);
@@ -44,7 +44,7 @@ fn wrong(sheet: &Sheet, found: &Fit) -> f64 {
     100.0 * f64::from(off) / f64::from(all)
 }
 
-/// What became of a round trip; per cent of subpixels off by more than half a view.
+/// The outcome of a round trip; per cent of subpixels off by more than half a view.
 #[derive(Clone, Debug)]
 enum Outcome {
     Refused(String),
@@ -125,7 +125,7 @@ fn colours_and_a_bent_sheet_come_back() {
     for (found, truth) in colours.iter().zip(scene.sheet.colours) {
         assert!((found - truth).abs() < 0.1, "{colours:?}");
     }
-    // The same photos without asking: half a view of the bias is more than a plane can take.
+    // The same photos fitted without a bias: the sheet's bias is half a view more than a plane can follow.
     let plain = fit(&scene.setup, &sightings).expect("a fit");
     let missed = wrong(&scene.sheet, &plain);
     assert!(
@@ -155,7 +155,7 @@ fn a_mask_for_viewers_shows_them_the_middle_view_everywhere() {
         (claimed.pitch, claimed.slant, claimed.offset) = (found.pitch, found.slant, found.offset);
         claimed
     });
-    // The farthest from the middle, in views, that an eye straight before the panel sees.
+    // The view farthest from the middle one, in views, that an eye straight before the panel sees.
     let [plain, matched] = claims.map(|claimed| {
         let mut farthest = 0.0f64;
         for (x, y) in [
@@ -165,7 +165,7 @@ fn a_mask_for_viewers_shows_them_the_middle_view_everywhere() {
             (20.0, 530.0),
             (940.0, 535.0),
         ] {
-            // On the axis of a lens; then the pixel under it that the eye sees.
+            // A point on the axis of a lens; then the pixel that the eye sees under it.
             let x = x + (0.5 - sheet.phase(x, y).rem_euclid(1.0)) * sheet.pitch / 3.0;
             let lean = sheet.gap() / camera::PIXEL / distance;
             let seen = claimed.phase(x + (x - width / 2.0) * lean, y + (y - height / 2.0) * lean);
@@ -176,7 +176,7 @@ fn a_mask_for_viewers_shows_them_the_middle_view_everywhere() {
     assert!(plain > 1.0 && matched < 0.25, "{plain} and {matched} views");
 }
 
-/// What a photo of a scene is refused for, after `change`; the sighting where it is not.
+/// The error with which a photo of a scene is refused after `change`, or its sighting where it is accepted.
 fn refusal(change: impl Fn(&mut Scene)) -> Result<Sighting, CalibrateError> {
     let mut random = Random(2);
     let mut scene = Scene::random(&mut random);
@@ -238,7 +238,7 @@ fn photos_that_cannot_answer_are_refused_with_the_reason() {
             Ok(sighting) => panic!("{name} is not noticed: {sighting:?}"),
         }
     }
-    // What spoils a small part of the photo does not.
+    // A small disturbance is tolerated.
     let small = refusal(|scene| scene.shots[0].lamp = Some([300.0, 200.0, 40.0, 3.0]));
     assert!(small.is_ok(), "{small:?}");
 }
@@ -247,7 +247,7 @@ fn photos_that_cannot_answer_are_refused_with_the_reason() {
 fn pictures_without_a_readable_panel_are_refused() {
     let setup = Setup::new(960, 540, 8, 8.0, 0.66);
     let shown = pattern(&setup).expect("a pattern");
-    // The pattern itself on black, as a camera without lenses before it would see it.
+    // The pattern itself on black: the photo of a panel without lenses.
     let mut straight = RgbImage::new(1200, 800);
     image::imageops::overlay(&mut straight, &shown, 120, 130);
     let mirrored = image::imageops::flip_horizontal(&straight);
@@ -263,7 +263,7 @@ fn pictures_without_a_readable_panel_are_refused() {
         matches!(mirror, Err(CalibrateError::Mirrored { .. })),
         "{mirror:?}"
     );
-    // There are no lenses, so nothing beats with the pattern.
+    // Without lenses there is no moiré with the pattern.
     let bare = refused(&straight);
     assert!(
         matches!(
@@ -349,7 +349,7 @@ fn the_command_makes_the_pattern_and_fits_photos() {
     assert!(lens.inverted, "lenses before the pixels");
 }
 
-/// Displays of the long test.
+/// Number of displays of the long test.
 const DISPLAYS: u64 = 200;
 const NOISE: [f64; 4] = [6.0, 10.0, 20.0, 30.0];
 const PHOTOS: [&str; 4] = ["1", "1, cone known", "2", "3"];
@@ -380,7 +380,7 @@ fn outcomes(seed: u64) -> Vec<[Outcome; PHOTOS.len()]> {
         .collect()
 }
 
-/// Two threads; each display is its own seed.
+/// Runs on two threads; each display is its own seed.
 fn all_outcomes() -> BTreeMap<u64, Vec<[Outcome; PHOTOS.len()]>> {
     let next = AtomicU64::new(0);
     let work = || {
@@ -402,7 +402,7 @@ fn all_outcomes() -> BTreeMap<u64, Vec<[Outcome; PHOTOS.len()]>> {
     })
 }
 
-/// The value below which a part of the sorted values lies.
+/// The quantile of sorted values: the value below which a part (0 to 1) of them lies.
 fn rank(sorted: &[f64], part: f64) -> f64 {
     let at = (part * sorted.len() as f64).ceil() as usize;
     sorted.get(at.max(1) - 1).copied().unwrap_or(f64::NAN)

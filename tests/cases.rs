@@ -1,4 +1,4 @@
-//! Small cases that came out differently under the layer once: what a program can know is the same with it.
+//! Small cases that once came out differently under the layer: all that a program can read back is the same with it.
 #![forbid(unsafe_code)]
 
 mod support;

@@ -1,4 +1,4 @@
-//! What draws are: rules of profiles change it, the depth of flat draws is the demo's own, one frame is explained.
+//! Classes of draws: rules of a profile change them, flat draws stand at the depth that the demo gives itself, and one frame is explained.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -24,7 +24,7 @@ fn views(demo: &str, layer: &[&str]) -> Vec<RgbImage> {
         "--focal-depth",
         "8",
     ];
-    // At the origin unless a test is about the place.
+    // Views lie at the origin unless a test is about their place.
     let layout: &[&str] = if layer.contains(&"--atlas") {
         &[]
     } else {
@@ -40,13 +40,13 @@ fn views(demo: &str, layer: &[&str]) -> Vec<RgbImage> {
         .collect()
 }
 
-/// What a demo draws itself.
+/// The picture that a demo draws without the layer.
 fn own(demo: &str, arguments: &[&str]) -> RgbImage {
     let picture: Picture = dump(demo, &[&SIZE, &["--frames", "1"], arguments].concat());
     image::DynamicImage::from(picture).into_rgb8()
 }
 
-/// A profile in a folder of its own.
+/// Writes a profile into a folder.
 fn profile(folder: &Path, text: &str) -> String {
     let path = folder.join("profile.toml");
     std::fs::write(&path, text).expect("written");
@@ -142,7 +142,7 @@ fn what_is_drawn_to_the_near_depths_can_stand_about_a_depth_of_its_own() {
         views("sky", &["--profile", &profile(folder.path(), &text)])
     };
     let plain = views("sky", &[]);
-    // The hand, in every view.
+    // The hand covers these columns in every view.
     let hand = WIDTH / 3..WIDTH;
     let (same, moved) = (about("8"), about("2"));
     for view in 0..VIEWS as usize {
@@ -170,7 +170,7 @@ fn explain(demo_name: &str, options: &[&str], out: &Path) -> String {
     String::from_utf8(output.stderr).expect("UTF-8")
 }
 
-/// The draws of a list: class and reason, and the rule to paste.
+/// The draws of a list: class and reason, and the rule to paste into a profile.
 fn draws(list: &Path) -> Vec<(String, String)> {
     let text = std::fs::read_to_string(list).expect("a list");
     let lines = text
@@ -197,7 +197,7 @@ fn a_frame_is_explained_as_picture_and_list() {
     let draws = draws(&list);
     let classes: Vec<_> = draws.iter().map(|(class, _)| class.as_str()).collect();
     assert_eq!(classes, [&["scene"; 11][..], &["flat"; 6]].concat());
-    // Orange where the display is, green where the room is: at the cross-hair's centre and in the middle of the floor.
+    // Orange marks the display and green the room: at the cross-hair's centre and in the middle of the floor.
     let picture = rgb(&picture);
     assert_eq!(picture.dimensions(), (300, 238));
     let [r, g, b] = picture.get_pixel(60, 190).0;

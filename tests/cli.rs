@@ -1,4 +1,4 @@
-//! The command as its users meet it: exit statuses, messages, environment. No OpenGL here.
+//! The command from its user's side: exit statuses, messages, environment. No OpenGL here.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -173,7 +173,7 @@ fn programs_that_the_layer_cannot_enter_are_refused() {
         126,
         "another machine",
     );
-    // No program header: no interpreter.
+    // Without program headers there is no interpreter: a statically linked program.
     let alone = program("static", &|bytes| bytes[56..58].fill(0), 0o755);
     refused(&["run", "--", &alone], 126, "statically linked");
 }
@@ -213,7 +213,7 @@ fn signals_reach_the_program() {
     let mut ready = [0; 6];
     let pipe = child.stdout.as_mut().expect("a pipe");
     std::io::Read::read_exact(pipe, &mut ready).expect("ready");
-    // The shell's own `kill`: a small Debian has no other.
+    // The `kill` that is built into the shell: a small Debian has no other.
     let killed = Command::new("sh")
         .args(["-c", &format!("kill -TERM {}", child.id())])
         .status()
@@ -357,7 +357,7 @@ fn capture_of_several_frames_waits_for_the_last() {
 fn capture<'a>(folder: &Path, options: &[&str], script: &str) -> &'a mut Command {
     // Leaked on purpose: it keeps the calls above on one line.
     let command = Box::leak(Box::new(manyview()));
-    // A display that is set but not there: these scripts need none.
+    // DISPLAY is set but names no server: these scripts need none.
     command
         .current_dir(folder)
         .env("DISPLAY", ":4711")

@@ -1,5 +1,6 @@
-//! Cameras by depth: what `--auto-depth` keeps to and what `--report` tells, against distances that the test knows by itself: those of
-//! the walls of tests/support/c/depths.c, and for the demos every pixel of the captured depths with the planes of their projections.
+//! Cameras by depth: the budget that `--auto-depth` keeps and the distances that `--report` tells, against distances that the test knows by
+//! itself: the walls of tests/support/c/depths.c, and for the demos every pixel of the captured depths with the planes of their
+//! projections.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -8,11 +9,11 @@ use serde_json::Value;
 use std::path::Path;
 use support::{Compiled, compiled, demo, layered, manyview, screen, succeed};
 
-/// Of tests/support/c/depths.c.
+/// Window width of tests/support/c/depths.c, pixels.
 const WIDTH: f64 = 64.0;
-/// The last one is looked at by the next, which does not come.
+/// Frames of the report: each is measured in the next one, which the last lacks.
 const FRAMES: u64 = 10 - 1;
-/// Of 8 views, in pixels: √(8/3) (docs/displays.md).
+/// Disparity budget of 8 views in pixels: √(8/3) (docs/displays.md).
 const BUDGET: f64 = 1.632_993;
 
 /// One frame of the report.
@@ -21,12 +22,12 @@ struct Frame {
     frame: u64,
     separation: f64,
     convergence: f64,
-    /// Nearest, middle, farthest; pixels.
+    /// Disparity of the nearest, middle and farthest depth, pixels.
     px: [f64; 3],
 }
 
 impl Frame {
-    /// Of a point at a distance between neighbouring views, in pixels of a width.
+    /// Disparity between neighbouring views of a point at a distance, in pixels of a picture `width` wide.
     fn disparity(&self, distance: f64, width: f64) -> f64 {
         self.separation * (1.0 - self.convergence / distance) * width / 2.0
     }
@@ -52,7 +53,7 @@ fn frames(report: &Value) -> Vec<Frame> {
         .collect()
 }
 
-/// The report of the walls, drawn in one of their ways.
+/// The report of the walls, drawn by `how`, one of the arguments of depths.c.
 fn walls(how: &str, options: &[(&str, &str)]) -> Value {
     let program = compiled("depths", Compiled::Program, &["-lEGL", "-lGL"]);
     let folder = tempfile::tempdir().expect("a folder");
@@ -65,10 +66,10 @@ fn walls(how: &str, options: &[(&str, &str)]) -> Value {
 
 const AUTO: [(&str, &str); 1] = [("AUTO_DEPTH", "1")];
 
-/// The report tells the distances that the program draws, whatever its depths are like.
+/// The report tells the distances that the program draws, whatever its depth encoding is.
 #[test]
 fn distances_are_those_that_are_drawn() {
-    // What the nearest thing is, beside the wall that moves; the last two draw it after the scene.
+    // The distance of the nearest surface beside the moving wall; the last two cases draw it after the scene.
     let cases = [
         ("plain", f64::INFINITY),
         ("reversed", f64::INFINITY),
@@ -101,7 +102,7 @@ fn distances_are_those_that_are_drawn() {
     }
 }
 
-/// A program that draws in perspective without depths has cameras, too.
+/// A program that draws in perspective but writes no depths gets cameras too.
 #[test]
 fn a_scene_without_depths_is_in_the_budget_at_infinity() {
     let report = walls("nodepth", &AUTO);
@@ -127,7 +128,7 @@ fn a_scene_without_depths_is_in_the_budget_at_infinity() {
     assert_eq!(view("view:0", &AUTO), view("view:0", &placed));
 }
 
-/// What the user gives is not found, but kept; where both values are given there is nothing to find.
+/// Values that the user gives are kept; where both are given, nothing is measured.
 #[test]
 fn what_is_given_is_kept() {
     let one = |name, value| frames(&walls("plain", &[AUTO[0], (name, value)]));
@@ -143,7 +144,7 @@ fn what_is_given_is_kept() {
     }
 }
 
-/// The report has both units where the display says how large its pixels are, and does without `--auto-depth`.
+/// The report has pixels and millimetres where the display's pixel size is known, also without `--auto-depth`.
 #[test]
 fn disparities_are_told_in_pixels_and_in_millimetres() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -190,7 +191,7 @@ const DEMOS: [Planes; 11] = [
     Planes("teapot", 1.5, 40.0),
 ];
 
-/// Draws frames of a demo in 8 views and looks at every pixel of the depths of each. As in the report, one in 200 does not count.
+/// Draws frames of a demo in 8 views and checks every pixel of each depth buffer. As in the report, one pixel in 200 is left out.
 fn check(Planes(name, near, far): &Planes, count: u64) {
     const SIZE: (u32, u32) = (320, 240);
     let screen = screen();
@@ -210,13 +211,13 @@ fn check(Planes(name, near, far): &Planes, count: u64) {
     let report = report(&path);
     let frames = frames(&report);
     let (mut largest, mut seen) = (0.0f64, 0);
-    // The last picture ends the program before its frame is looked at.
+    // The last picture ends the program before its frame is measured.
     for number in 1..count {
         let picture = folder.path().join(format!("{number}.png"));
         let depths = image::open(&picture).expect("a picture").into_luma16();
         let mut depths: Vec<u16> = depths.pixels().map(|pixel| pixel.0[0]).collect();
         depths.retain(|&depth| depth < u16::MAX);
-        // The scene of `echo` flies out of the window; and a pixel or two may lie between the report's samples.
+        // The scene of `echo` flies out of the window, and one or two remaining pixels may lie between the report's samples.
         if depths.len() < 200 {
             continue;
         }
@@ -240,7 +241,7 @@ fn check(Planes(name, near, far): &Planes, count: u64) {
     assert!(largest <= BUDGET, "{name}: {largest} px");
     assert!(largest >= 0.3 * BUDGET, "{name}: flat, {largest} px");
     assert_eq!(about["frames_over_budget"], 0, "{name}");
-    // Nobody sees a point move by a tenth of a pixel from view to view.
+    // A point that moves by a tenth of a pixel from view to view is not noticed.
     let pumping = about["change_px"]["p95"].as_f64().expect("a number");
     assert!(pumping <= 0.1, "{name}: {pumping} px in one frame");
 }

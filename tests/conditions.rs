@@ -1,4 +1,4 @@
-//! Conditional rendering: what is drawn depends on all that a query has counted, whatever the layer makes of it.
+//! Conditional rendering depends on all samples that a query has counted, however the layer splits the draws.
 #![forbid(unsafe_code)]
 
 mod support;

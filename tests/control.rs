@@ -14,7 +14,7 @@ use std::path::Path;
 use std::time::Duration;
 use support::{Compiled, Screen, bare, compiled, extent, layered, library, own_screen, rgb, run};
 
-/// Cameras far enough apart to be seen in 96 pixels.
+/// Cameras far enough apart for a visible disparity in 96 pixels.
 const CAMERAS: [(&str, &str); 2] = [("SEPARATION", "0.03"), ("CONVERGENCE", "8")];
 
 /// A frame of a program that was started with these options.
@@ -87,7 +87,7 @@ fn what_is_set_holds_for_contexts_that_show_nothing_themselves() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut running = Running::start_in(folder, &screen, &mut layered(program, &options));
     until("a socket", || running.socket().exists().then_some(()));
-    // At depth 1, moved by 32 columns times the separation.
+    // A surface at depth 1 moves by 32 columns times the separation.
     for (separation, wanted) in [("0.2", 6.4), ("0.1", 3.2)] {
         running.done(&["set", "separation", separation]);
         let all = running.capture("atlas");
@@ -134,7 +134,7 @@ fn quad_is_not_for_a_window_without_stereo() {
     assert_eq!(running.done(&["get", "output"]), "panel\n");
     assert_eq!(running.done(&["get", "hud-depth"]), "0.0\n");
     assert_eq!(running.end(), (Some(0), String::new()));
-    // Started with it, other values can be set.
+    // Values other than those of the start can be set.
     let mut running = Running::controlled(&screen, &[("OUTPUT", "quad")]);
     assert_eq!(running.done(&["get", "views"]), "2\n");
     running.done(&["set", "hud-depth", "0.25"]);
@@ -172,7 +172,7 @@ fn quad_goes_and_comes_back_where_the_window_has_stereo() {
 fn get_says_what_is_in_force() {
     let screen = own_screen();
     let mut running = Running::controlled(&screen, &[("VIEWS", "5")]);
-    // Chosen by the layer: near 1, far 50.
+    // The focal depth that the layer chose: between near 1 and far 50.
     let chosen: f64 = running
         .done(&["get", "convergence"])
         .trim()
@@ -238,7 +238,7 @@ fn pictures_are_whole_files() {
     assert_eq!(running.capture("view:4").dimensions(), (96, 64));
     let depth = running.path("depth.png");
     let mut command = ctl(running.folder.path());
-    // Relative to whoever asks, not to the program.
+    // Paths are relative to the folder of `ctl`, not to that of the program.
     command.current_dir(running.folder.path());
     let (code, _, stderr) = run(command.args(["capture", "depth.png", "--what", "depth"]));
     assert_eq!(code, 0, "{stderr}");
@@ -305,7 +305,7 @@ fn what_is_wrong_changes_nothing_and_is_explained_by_one_sentence() {
         let (code, stdout, stderr) = running.ctl(arguments);
         assert_eq!((code, &*stdout), (2, ""), "{arguments:?}: {stderr}");
         assert!(stderr.contains(part), "{arguments:?}: {stderr}");
-        // Those of the command line are clap's.
+        // Mistakes of the command line are reported by clap.
         assert!(
             stderr.lines().count() == 1 || part.contains("required"),
             "{stderr}"
@@ -331,21 +331,21 @@ fn what_is_wrong_changes_nothing_and_is_explained_by_one_sentence() {
 fn rude_askers_do_no_harm() {
     let screen = own_screen();
     let mut running = Running::controlled(&screen, &[("VIEWS", "5")]);
-    // Gone before the answer comes: no SIGPIPE.
+    // The client leaves before the answer comes: no SIGPIPE.
     for _ in 0..20 {
         let mut stream = running.connect();
         stream
             .write_all(b"{\"get\": \"all\"}\n{\"get\": \"all\"}\n")
             .expect("sent");
     }
-    // A line without end.
+    // A line that never ends.
     let mut endless = running.connect();
     let _ = endless.write_all(&[b'x'; 100_000]);
     let mut answer = String::new();
     let _ = BufReader::new(&endless).read_line(&mut answer);
     assert!(answer.contains("more than 4096 bytes"), "{answer}");
     drop(endless);
-    // A line in pieces, then the end of what is sent.
+    // A line in pieces, then the end of the stream.
     let mut pieces = running.connect();
     for piece in ["{\"get\"", ": \"views\"}", "\n{\"get\": \"vie", "ws\"}\n"] {
         pieces.write_all(piece.as_bytes()).expect("sent");
@@ -355,7 +355,7 @@ fn rude_askers_do_no_harm() {
     let mut answers = String::new();
     pieces.read_to_string(&mut answers).expect("answers");
     assert_eq!(answers, "{\"values\":{\"views\":5}}\n".repeat(2));
-    // More of them than there is room for; the others are still served.
+    // More clients than there is room for; the program goes on serving the others.
     let mut crowd: Vec<_> = (0..9).map(|_| running.connect()).collect();
     let mut turned_away = String::new();
     crowd[8]
@@ -392,7 +392,7 @@ fn without_being_asked_for_there_is_no_socket() {
     let screen = own_screen();
     for options in [&[("VIEWS", "5")][..], &[("VIEWS", "5"), ("CONTROL", "0")]] {
         let mut running = Running::start(&screen, options);
-        // Some frames are shown.
+        // Lets the program show some frames.
         running.window();
         running.window();
         assert!(!running.path("manyview").exists());
@@ -451,7 +451,7 @@ fn the_command_finds_the_program_and_clears_what_dead_ones_left() {
     let (code, _, stderr) = running.ctl(&["--pid", "1", "get"]);
     assert_eq!((code, stderr.lines().count()), (3, 1), "{stderr}");
 
-    // A second program beside it.
+    // A second program beside the first.
     let mut command = layered(stays(), &[("VIEWS", "3"), ("CONTROL", "1")]);
     command
         .arg(running.path("stop"))
@@ -484,7 +484,7 @@ fn a_child_of_the_program_does_not_answer_in_its_place() {
     until("a socket", || socket.exists().then_some(()));
     let mut stream = UnixStream::connect(&socket).expect("it listens");
     writeln!(stream, "{{\"get\": \"views\"}}").expect("sent");
-    // Now the child draws; in this time it has drawn a hundred frames.
+    // Only the child draws until `gone` exists: about a hundred frames in this time.
     let short = Some(Duration::from_millis(700));
     stream.set_read_timeout(short).expect("a limit");
     assert!(stream.read(&mut [0; 1]).is_err(), "nobody answers");
@@ -508,7 +508,7 @@ fn another_user_is_not_heard() {
     let speaks = compiled("speaks", Compiled::Program, &[]);
     let copy = running.path("speaks");
     std::fs::copy(speaks, &copy).expect("copied");
-    // Doors that are opened to everybody, so that only the socket itself is left to refuse.
+    // Opens the folders to everybody, so that only the socket itself is left to refuse.
     let open = |path: &Path| {
         std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o777)).expect("set");
     };

@@ -1,4 +1,4 @@
-//! The documents say what the code does: commands run, options are known, blocks of TOML are read, links lead somewhere.
+//! The documents agree with the code: commands run, options exist, blocks of TOML are accepted, links lead somewhere.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -10,14 +10,14 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use support::manyview;
 
-/// In place of every program that a document starts.
+/// Stands in for every program that a document starts.
 const NO_PROGRAM: &str = "/no/such/program";
 const APP_NOT_FOUND: i32 = 127;
-/// Of `ctl` where no program listens.
+/// Status of `ctl` where no program listens.
 const NOBODY: i32 = 3;
-/// Of `calibrate show` without an X server.
+/// Status of `calibrate show` without an X server.
 const NO_SCREEN: i32 = 3;
-/// Of a command whose file is not there; its message names the file.
+/// Status of a command whose file is not there; its message names the file.
 const NO_FILE: i32 = 2;
 
 /// A document of the repository.
@@ -54,14 +54,14 @@ fn markdown(folder: &str) -> Vec<Document> {
     found
 }
 
-/// What a user reads: the README and the pages of the book.
+/// The user's documents: the README and the pages of the book.
 fn manual() -> Vec<Document> {
     let mut manual = vec![read("README.md")];
     manual.extend(markdown("docs"));
     manual
 }
 
-/// Those and what a developer reads.
+/// The user's documents and the developer's.
 fn documents() -> Vec<Document> {
     let others = ["ARCHITECTURE.md", "CONTRIBUTING.md", "examples/README.md"];
     manual()
@@ -70,7 +70,7 @@ fn documents() -> Vec<Document> {
         .collect()
 }
 
-/// The README is a first page; the manual is in the book.
+/// The README is a first page; the rest of the manual is in the book.
 const README_LINES: usize = 150;
 
 #[test]
@@ -99,7 +99,7 @@ const TABLE: [&str; 2] = [
     "\n<!-- end of what is generated -->",
 ];
 
-/// Text for a cell: options as code, and no bar that would end it.
+/// Text for a cell: options as code, bars escaped.
 fn cell(text: &str) -> String {
     let code = |word: &str| {
         let name = word.trim_end_matches([',', ';', '.', ')']);
@@ -259,7 +259,7 @@ fn the_commands_of_the_documents_are_accepted() {
             std::fs::write(folder.path().join(name), block).expect("written");
         }
     }
-    // The picture that an earlier line takes of a program.
+    // The picture that an earlier command of the documents writes.
     let panel = image::RgbImage::new(96, 54);
     panel.save(folder.path().join("panel.png")).expect("saved");
     let quilt = folder.path().join("scene_qs4x2a1.png");
@@ -284,7 +284,7 @@ fn the_commands_of_the_documents_are_accepted() {
         command
             .current_dir(folder.path())
             .env("XDG_RUNTIME_DIR", folder.path())
-            // No window before whoever runs this.
+            // Opens no window on the screen of the person who runs the tests.
             .env_remove("DISPLAY")
             .args(options.split_whitespace());
         if app {
@@ -381,7 +381,7 @@ fn the_pictures_of_the_readme_are_small() {
     }
 }
 
-/// Kilobytes, and lines of the table of words, that a newcomer reads before the code.
+/// Limits of what a newcomer reads before the code: bytes, and lines of the table of words.
 const ARCHITECTURE_BYTES: usize = 15 * 1024;
 const WORDS: usize = 20;
 
@@ -411,7 +411,7 @@ fn is_source(path: &str, sources: &[String]) -> bool {
         .any(|file| file.ends_with(&tail) || file.contains(&within))
 }
 
-/// All files of the repository that a text may name, with a slash before.
+/// All files of the repository that a text may name, with a leading slash.
 fn sources(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder").flatten() {

@@ -1,4 +1,4 @@
-//! `manyview doctor` tells what a program would meet, by contexts that it really makes.
+//! `manyview doctor` tells what a program would find, from contexts that it really creates.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -42,7 +42,7 @@ fn probe<'a>(findings: &'a Value, api: &str) -> &'a Value {
 
 #[test]
 fn every_api_has_a_context_with_the_layer_in_it() {
-    // A caller's own settings change nothing about what is possible.
+    // The caller's own settings do not change the answer.
     let (status, stdout, stderr) = doctor(&["--json"], &[("MANYVIEW_VIEWS", "1")]);
     assert_eq!(status, Some(0), "{stderr}");
     let findings: Value = serde_json::from_str(&stdout).expect("JSON");

@@ -1,6 +1,6 @@
-//! Generated fragment stages against the fixed one, pixel by pixel.
+//! Generated fragment stages against the driver's fixed-function one, pixel by pixel.
 //!
-//! `tests/fixed/ffcheck.c` draws each case both ways: this file writes the cases and the shaders, and judges.
+//! `tests/fixed/ffcheck.c` draws each case both ways: this file writes the cases and the shaders, and judges the pictures.
 
 #[path = "fixed/check.rs"]
 mod check;
@@ -52,7 +52,7 @@ fn write(directory: &Path, number: usize, case: &Fragments) {
     );
 }
 
-/// The cases that the generator accepts, the first `count` of them: what is refused is drawn by the driver's own stage.
+/// The first `count` cases that the generator accepts: the others are drawn by the driver's own stage.
 fn accepted(count: usize, make: fn(usize) -> Fragments) -> Vec<Fragments> {
     let cases = (0..).map(make);
     let defined = cases.filter(|case| match generate_fragment(&case.key, &limits()) {
@@ -105,9 +105,9 @@ fn judge(found: &[Difference], folder: &Path, passes: impl Fn(usize, &Difference
 fn random_state_looks_like_the_fixed_stage() {
     let cases = accepted(CASES, case);
     let (found, folder) = draw(&cases);
-    // Measured on llvmpipe 22.3.6: 382 of 400 are equal bit by bit. Fog sums in another order than Mesa's, which has its
-    // factors multiplied out: one step, or two in two pixels. Lines have their gradients from pixels beside them, to which
-    // perspective goes on as far as rounding lets it: 12 pixels of lines are up to 30 steps off.
+    // Measured on llvmpipe 22.3.6: 382 of 400 are equal bit by bit. Fog is summed in another order than Mesa's, which multiplies its
+    // factors out: one step, or two in two pixels. Lines take their gradients from the pixels beside them, where perspective is
+    // extrapolated with a large rounding error: 12 pixels of lines are up to 30 steps off.
     let mut lines = Difference::default();
     for (case, &one) in cases.iter().zip(&found) {
         if case.text.contains("draw=GL_LINES") {
@@ -131,7 +131,7 @@ fn gradients_of_the_windows_own_grid_are_the_drivers() {
     let mut sum = Difference::default();
     found.iter().for_each(|&one| sum.add(one));
     eprintln!("{:.1} dB", psnr(&sum));
-    // Where a level of detail is between two, llvmpipe's own gradients are now and then rounded to the other side.
+    // Where a level of detail lies between two, llvmpipe's own gradients sometimes round to the other one.
     judge(&found, &folder, |_, one| {
         one.coverage == 0 && one.over8 * 10 <= one.covered
     });
@@ -141,22 +141,22 @@ fn gradients_of_the_windows_own_grid_are_the_drivers() {
 #[test]
 fn discarding_keeps_views_apart() {
     let (found, folder) = draw(&accepted(60, discarding));
-    // Vertices in a tile are rounded otherwise than in a window of their own: a pixel between two triangles may be the other's.
+    // Vertices in a tile round differently than in a window of their own: a pixel between two triangles may show either.
     judge(&found, &folder, |_, one| {
         one.over1 * 1_000 <= one.pixels && one.coverage * 10_000 <= one.pixels
     });
 }
 
-/// Floors of the test of the level of detail, for each filter and spacing.
+/// Floors that the test of the level of detail draws, for each filter and spacing.
 const FLOORS: usize = 8;
 
-/// Peak signal to noise ratio of red, green and blue in decibels, over what is covered.
+/// Peak signal to noise ratio of red, green and blue in decibels, over the covered pixels.
 fn psnr(found: &Difference) -> f64 {
     let mean = found.squares as f64 / (3 * found.covered) as f64;
     10.0 * (255.0 * 255.0 / mean).log10()
 }
 
-/// Floors with one spacing: what differs, summed.
+/// The sum of the differences of all floors with one spacing.
 fn floors(spacing: u32, filter: &str, grid: bool) -> Difference {
     let mut cases: Vec<_> = (0..FLOORS)
         .map(|seed| floor(seed, spacing, filter))
@@ -186,7 +186,7 @@ fn sparse_columns_have_the_windows_level_of_detail() {
         let without = psnr(&floors(spacing, trilinear, false));
         assert!(without < 30.0, "{spacing}: {without:.1} dB without");
     }
-    // Levels are not blended: few pixels have another one, but those are far off.
+    // Levels are not blended: few pixels take another level, but those are far off.
     let sum = floors(8, "GL_LINEAR_MIPMAP_NEAREST", true);
     assert!(sum.over1 * 500 < sum.covered, "{sum:?}");
 }

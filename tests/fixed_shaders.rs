@@ -1,6 +1,6 @@
 //! Generated programs against the fixed-function pipeline, pixel by pixel.
 //!
-//! `tests/fixed/ffcheck.c` draws each case both ways: this file writes the cases and the shaders, and judges.
+//! `tests/fixed/ffcheck.c` draws each case both ways: this file writes the cases and the shaders, and judges the pictures.
 
 #[path = "fixed/cases.rs"]
 mod cases;
@@ -17,10 +17,10 @@ use manyview::fixed::{Limits, Primitive, VertexLayer, generate};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Random cases. The first third of the numbers is as good a sample as any, so shorten here when in a hurry.
+/// Random cases. The first third is as good a sample as any, so shorten here when in a hurry.
 const CASES: usize = 300;
 
-/// What llvmpipe (Mesa 22.3.6) has.
+/// The limits of llvmpipe (Mesa 22.3.6).
 fn limits() -> Limits {
     Limits {
         glsl: 450,
@@ -32,10 +32,10 @@ fn limits() -> Limits {
     }
 }
 
-/// The gate. One view of filled polygons or points: every pixel covered by the same draw, at most 2 steps off, and
-/// at most 0.03 % of the pixels more than one. A view that is shifted and moved to its tile has its vertices rounded
-/// otherwise than those of a matrix of its own, so a pixel where two surfaces meet may show the other one; lines
-/// (one pixel wide, by the diamond-exit rule) may gain or lose a pixel. Those are judged by their sum.
+/// The gate. One view of filled polygons or points: every pixel is covered by the same draw, at most 2 steps off, and at most 0.03 % of the
+/// pixels are more than one step off. A view that is shifted and moved to its tile has its vertices rounded differently from those of a
+/// matrix of its own, so a pixel where two surfaces meet may show either; lines (one pixel wide, by the diamond-exit rule) may gain or lose
+/// a pixel. Those are judged by their sum.
 fn passes(found: &Difference, case: &Case) -> bool {
     let lines = case.key.target.primitive == Primitive::Lines;
     if lines || case.views > 1 {
@@ -44,7 +44,7 @@ fn passes(found: &Difference, case: &Case) -> bool {
     found.worst <= 2 && found.coverage == 0 && found.over1 * 10_000 <= found.pixels * 3
 }
 
-/// The gate of a class of cases. Pixels gained or lost, and those more than 8 steps off, in parts per million.
+/// The gate for the sum of a class of cases: pixels gained or lost, and those more than 8 steps off, in parts per million.
 fn sum_passes(found: &Difference, coverage: u64, outliers: u64) -> bool {
     found.over1 * 10_000 <= found.pixels * 3
         && found.over8 * 1_000_000 <= found.pixels * outliers

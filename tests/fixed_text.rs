@@ -1,4 +1,4 @@
-//! The generator's text and decisions, without a driver.
+//! Text and decisions of the generators, without a driver.
 
 use manyview::fixed::{
     Amplifier, Argument, BaseFormat, Clip, ColorMaterial, Combine, Combiner, Diagonal, Dialect,
@@ -375,7 +375,7 @@ fn views_that_fit_one_draw() {
         ),
         ..FixedKey::default()
     };
-    // 11 components: position, colour, two distances, the primitive's number. 1024 / (3 · 11) = 31.
+    // 11 components a vertex: position, colour, two distances, the primitive's number. 1024 / (3 · 11) = 31.
     assert_eq!(
         batch(&key, &limits()),
         31,

@@ -1,4 +1,4 @@
-//! Drawing to the front buffer is seen after a flush, without a swap.
+//! A picture drawn to the front buffer is visible after a flush, without a swap.
 #![forbid(unsafe_code)]
 
 mod support;

@@ -1,6 +1,6 @@
-//! The hard cases: `manyview bench --hard` measures, and every bound holds but for those of `MISSES`, whose reasons are known.
+//! The hard cases: `manyview bench --hard` measures them, and every bound holds but for those of `MISSES`, whose reasons are known.
 //!
-//! What no longer misses its bound has to leave that list.
+//! A case that meets its bound again has to leave that list.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use support::{demo, library, manyview, refused, run};
 
-/// Runs all cases under some configurations and compares what is missed with what is known to be.
+/// Runs all cases under some configurations and compares the misses with the known ones.
 #[track_caller]
 fn check(strategies: &[&str]) {
     library();
@@ -84,7 +84,7 @@ fn every_layout_holds_its_bounds() {
     check(&others);
 }
 
-/// The scenes and the table know each other.
+/// Every scene of the program has a row of the table, and the other way round.
 #[test]
 fn every_scene_has_a_case() {
     let (status, list, stderr) = run(support::bare(demo("hard"))

@@ -1,5 +1,5 @@
-//! However a program comes by OpenGL, on whatever threads and windows: each of its frames reads back as without the layer, and
-//! every one was drawn in several views.
+//! Programs get OpenGL in many ways, on several threads and windows: each of their frames reads back as without the layer, and each is
+//! drawn in several views.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -19,8 +19,8 @@ fn build(name: &str, parts: &[&str], kind: Compiled, libraries: &[&str]) -> Path
     built(name, &sources, kind, libraries)
 }
 
-/// Runs the host bare and under the layer; `plugin`: it opens one, and how. The report is that of the last context to swap, with so
-/// many frames.
+/// Runs the host bare and under the layer. `plugin`: how the host opens its plugin, if it does. The report is that of the last context to
+/// swap, and has `frames` frames.
 fn same(what: &str, plugin: Option<&str>, frames: u64) {
     let screen = own_screen();
     let host = build(
@@ -29,7 +29,7 @@ fn same(what: &str, plugin: Option<&str>, frames: u64) {
         Compiled::Program,
         &["-lGL", "-lEGL", "-lX11", "-lpthread", "-ldl"],
     );
-    // Bound as it is opened, its table is read-only afterwards.
+    // A library that is bound when it is opened has a read-only table afterwards.
     let (name, binding) = match plugin {
         Some("deep") => ("plugin-now", "-Wl,-z,relro,-z,now"),
         _ => ("plugin", "-Wl,-z,lazy"),
@@ -62,7 +62,7 @@ fn same(what: &str, plugin: Option<&str>, frames: u64) {
     let text = std::fs::read_to_string(&report).expect("the layer was there");
     let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(report["frames"], frames, "{report}");
-    // A clear and a primitive for each line; in the last frame of two windows or APIs the other one's do not count.
+    // A clear and a primitive for each line. With two windows or APIs, draws of the other context in the last frame do not count.
     let draws = report["draws"]["replay"].as_u64().unwrap_or(0);
     assert!(draws >= 8, "{report}");
     assert_eq!(report["gl_errors"], 0, "{report}");

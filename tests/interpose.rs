@@ -1,6 +1,6 @@
-//! The picture of 8 views reaches the screen by every way into a program: the command, variables only, programs that load GL at
-//! run time, and glretrace. Each picture is compared bit by bit with the CPU reference made of the atlas of the same frame of a
-//! second run, through the mask of [`Display::mask`].
+//! The picture of 8 views reaches the screen by every way of loading the layer: the command, variables only, programs that load GL at run
+//! time, and glretrace. Each picture is compared bit by bit with the CPU reference, which interleaves the atlas of the same frame of a
+//! second run through [`Display::mask`].
 #![forbid(unsafe_code)]
 
 mod support;
@@ -16,10 +16,10 @@ use support::{bare, demo, has, layered, manyview, record, rgb, run_until, screen
 const VIEWS: u32 = 8;
 const FRAME: &str = "30";
 const SIZE: (u32, u32) = (300, 220);
-/// Of the screen that the tests bring.
+/// Size of the screen that the tests start.
 const SCREEN: (u32, u32) = (1920, 1200);
 
-/// glxgears turns with the clock, so it gets one of its own: 0.02 s from one look at it to the next.
+/// glxgears turns with the clock, so it gets a clock of its own: 0.02 s from one reading to the next.
 const GLXGEARS: [&str; 6] = [
     "faketime",
     "-f",
@@ -37,7 +37,7 @@ fn tiles(atlas: &RgbImage, views: u32) -> Vec<RgbImage> {
         .collect()
 }
 
-/// The picture of a panel: of the whole screen under X with its own window system, where windows lie in the corner; elsewhere the
+/// The picture of a panel: under X with its own window system it is that of the whole screen, with the window in its corner; elsewhere the
 /// picture is the screen.
 fn panel(api: &str, atlas: &RgbImage, display: &Display, views: u32) -> RgbImage {
     let tiles = tiles(atlas, views);
@@ -55,7 +55,7 @@ fn same(expected: &RgbImage, actual: &RgbImage, what: &str) {
     within(0, expected, actual, what);
 }
 
-/// Equal but for some LSB.
+/// Checks that two pictures are equal but for some LSB.
 #[track_caller]
 fn within(lsb: u8, expected: &RgbImage, actual: &RgbImage, what: &str) {
     assert_eq!(expected.dimensions(), actual.dimensions(), "{what}");
@@ -64,12 +64,12 @@ fn within(lsb: u8, expected: &RgbImage, actual: &RgbImage, what: &str) {
         differing, 0,
         "{what}: pixels that differ by more than {lsb} LSB"
     );
-    // The views differ from each other, or the comparison would show nothing.
+    // If the views did not differ, the comparison would show nothing.
     let first = actual.get_pixel(0, 0);
     assert!(actual.pixels().any(|pixel| pixel != first), "{what}: empty");
 }
 
-/// The views of an atlas are not all the same picture.
+/// Checks that the views of an atlas are not all the same picture.
 #[track_caller]
 fn differ(atlas: &RgbImage, views: u32) {
     let tiles = tiles(atlas, views);
@@ -197,7 +197,7 @@ fn glretrace_of_a_recording() {
         "--frames",
         "40",
     ];
-    // It ends by itself, however slow the machine is.
+    // The trace ends by itself, however slow the machine is.
     let trace = record(&screen, &program, 120, "gl", folder.path());
     let program = ["glretrace", trace.to_str().expect("UTF-8")];
     panel_is_the_reference(|what, out| {
@@ -208,7 +208,7 @@ fn glretrace_of_a_recording() {
     });
 }
 
-/// A demo, its frame 2, by variables: the atlas, what `--what output` writes, and what the window shows.
+/// Frame 2 of a demo, set up by variables: the atlas, the picture of `--what output`, and the window's pixels.
 fn demo_pictures(api: &str, options: &[(&str, &str)]) -> (RgbImage, RgbImage, Option<RgbImage>) {
     let screen = support::own_screen();
     let folder = tempfile::tempdir().expect("a folder");
@@ -258,8 +258,8 @@ fn every_display_and_api() {
     }
 }
 
-/// The window's picture of a layout: the reference's, to 1 LSB where texels are blended, because floats may round the other
-/// way. Where the window is sRGB-capable, as all of Mesa's are, the layer blends in linear light, the reference never does.
+/// Compares the window's picture of a layout with the reference's. Where texels are blended, floats may round the other way: 1 LSB. Where
+/// the window is sRGB-capable, as all of Mesa's are, the layer blends in linear light and the reference never does.
 #[track_caller]
 fn shows(tiles: &[RgbImage], layout: Layout, reference: &RgbImage, window: &RgbImage, what: &str) {
     if let Layout::View(_) = layout {
@@ -275,7 +275,7 @@ fn linear(tiles: &[RgbImage], layout: Layout) -> RgbImage {
     let views = tiles.len() as u32;
     let (columns, rows) = layout.grid(views);
     let (width, height) = SIZE;
-    // Cell, the two texels and the weight of the second.
+    // Cell, the two texels, and the weight of the second.
     let tap = |at: u32, size: u32, cells: u32| {
         let cell = (2 * at + 1) * cells / (2 * size);
         let place = (f64::from(at) + 0.5) * f64::from(cells) - f64::from(cell * size) - 0.5;
@@ -318,7 +318,7 @@ fn encode(v: f64) -> u8 {
     (s * 255.0).round() as u8
 }
 
-/// The picture written has all pixels of all tiles; the window's is the same, resampled to the window.
+/// The written picture has all pixels of all tiles; the window's is the same, resampled to the window.
 #[test]
 fn quilts_rows_and_single_views() {
     for (api, output, layout, views) in [
@@ -358,7 +358,7 @@ fn quilts_rows_and_single_views() {
     }
 }
 
-/// The window of a program without the layer is what the tests think it is: what the demo reads back.
+/// Without the layer the window shows the picture that the demo reads back, as the other tests assume.
 #[test]
 fn the_window_shows_what_a_program_draws() {
     let screen = support::own_screen();

@@ -1,4 +1,4 @@
-//! `--keys`: keys that change the views of a running program, which gets them all the same.
+//! `--keys`: keys that change the views of a running program, which receives them as well.
 #![forbid(unsafe_code)]
 
 #[path = "control/running.rs"]
@@ -24,7 +24,7 @@ fn start(screen: &Screen, options: &[(&str, &str)]) -> (Running, User, u32) {
     let running = Running::controlled(screen, &all);
     let user = User::at(screen.display());
     let window = until("a window", || user.windows().first().copied());
-    // Its first frame opens the keys, and an answer comes after a frame.
+    // The first frame opens the keys, and an answer comes after a frame.
     running.done(&["get"]);
     (running, user, window)
 }
@@ -83,7 +83,7 @@ fn keys_change_the_views_and_the_program_gets_them() {
 
     let got = std::fs::read_to_string(running.path("keys")).expect("keys");
     let got: Vec<_> = got.lines().filter(|key| !key.starts_with("ffe")).collect();
-    // The last one went to the window within, which is ours: X gives it to nobody else.
+    // The last key went to the inner window, which is ours: X sends it to nobody else.
     let expected = [
         "ff55", "ff55", "ff55", "ff55", "ff56", "ff56", "ff50", "ff57", "6b", "6a", "6a", "6f",
         "6d", "6d",
@@ -136,7 +136,7 @@ fn without_the_option_nothing_is_opened_and_nothing_happens() {
         let open = targets.filter(|to| to.to_string_lossy().starts_with("socket:"));
         open.count()
     };
-    // Those of `manyview ctl`, which has just been answered, go with one of the next frames.
+    // The sockets of `manyview ctl`, which has just been answered, close in one of the next frames.
     let sockets = |running: &Running| {
         let samples = (0..20).map(|_| {
             std::thread::sleep(std::time::Duration::from_millis(25));

@@ -36,7 +36,7 @@ fn files(folder: &str) -> BTreeMap<PathBuf, String> {
     found
 }
 
-/// The code of a file without comments, strings left as they are; good enough to look for words.
+/// The code of a file without comments, strings left as they are; precise enough to search for words.
 fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.lines()
         .map(|line| line.split("//").next().unwrap_or_default())
@@ -56,7 +56,7 @@ fn modules() -> Vec<String> {
     names
 }
 
-/// The modules that a line names by `crate::`; of `crate::{a, b}` all.
+/// The modules that a line names by `crate::`; all of those in `crate::{a, b}`.
 fn named(line: &str) -> Vec<String> {
     let word = |text: &str| -> String {
         text.chars()
@@ -111,7 +111,7 @@ fn a_module_imports_only_from_those_above_it() {
     for (path, text) in files("src") {
         let module = path.iter().nth(1).and_then(|name| name.to_str());
         let module = module.expect("a name").trim_end_matches(".rs");
-        // The command and the root are above the flow.
+        // The command and the root may import every module.
         let Some(own) = place(module) else {
             assert!(
                 ["lib", "main", "cli"].contains(&module),
@@ -120,7 +120,7 @@ fn a_module_imports_only_from_those_above_it() {
             );
             continue;
         };
-        // A use may be broken into lines: look at the whole statement.
+        // A `use` may span several lines: join the whole statement.
         let joined: String = code(&text).flat_map(|(_, line)| [line, " "]).collect();
         for statement in joined.split(';') {
             for name in named(statement) {
@@ -152,7 +152,7 @@ fn unsafe_is_in_the_shim_and_in_gl_only() {
         if path == Path::new("tests/layering.rs") {
             continue;
         }
-        // The generator of the tables writes the word.
+        // The generator of the tables writes the word into its output.
         let allowed = path.starts_with("src/gl") || path.starts_with("tests/registry");
         for (at, line) in code(&text) {
             if has_unsafe(line) {

@@ -1,4 +1,4 @@
-//! How large the parts of the source may be, and that files do not import each other in circles. Tests, and what is generated, are left out.
+//! Limits on the size of the source's parts, and no circular imports between files. Tests and generated files are left out.
 #![forbid(unsafe_code)]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -81,7 +81,7 @@ fn documentation(attributes: &[syn::Attribute]) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// What is measured of a source.
+/// The measures of a source.
 #[derive(Default)]
 struct Measured {
     /// The first folder or file below the crate's, which tells types of one name apart.
@@ -178,7 +178,7 @@ impl<'ast> Visit<'ast> for Measured {
     }
 }
 
-/// What is wrong with a type: it has more of something than `most` and no reason, or a reason and no need of it.
+/// Describes a type that breaks a limit: it has more than `most` without a reason in its documentation, or a reason that it does not need.
 fn judge(of: &Type, name: &str, count: usize, most: usize, what: &str) -> Option<String> {
     let reason = of
         .documentation
@@ -255,7 +255,7 @@ struct Named<'a> {
 }
 
 impl Named<'_> {
-    /// The deepest module on the way of a path.
+    /// Adds the deepest module of a path.
     fn name(&mut self, path: &[String]) {
         let mut at: Module = Vec::new();
         let mut rest = path;
@@ -278,7 +278,7 @@ impl Named<'_> {
                 break;
             }
         }
-        // What is above a module is the way to it, not what it needs.
+        // An ancestor of a module contains it and is not an import.
         if !self.own.starts_with(&at) {
             self.found.insert(at);
         }
@@ -345,7 +345,7 @@ fn imports(files: &BTreeMap<PathBuf, syn::File>, root: &str) -> BTreeMap<Module,
     files.iter().map(of).collect()
 }
 
-/// The modules that lead back to themselves.
+/// The modules that import themselves by way of others.
 fn circles(imports: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<String> {
     let reached = |from: &Module| {
         let mut reached: BTreeSet<&Module> = BTreeSet::new();

@@ -1,8 +1,8 @@
-//! Memory: what valgrind finds in the layer, and what contexts that come and go leave behind. The long run of a game is in
+//! Memory: valgrind's findings in the layer, and what contexts leave behind when they are destroyed. The long run of a game is in
 //! tests/soak.rs.
 //!
-//! Only what is ours counts: a report of valgrind's with a frame of `libmanyview.so` in a stack, unless the driver gives the same
-//! one without the layer. The reports are in `target/memory`.
+//! Only our own findings count: a report of valgrind's with a frame of `libmanyview.so` in a stack, unless the driver gives the same one
+//! without the layer. The reports are in `target/memory`.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -18,7 +18,7 @@ use support::{Compiled, bare, compiled, demo, has, layered, lines, scratch};
 
 const OURS: &str = "libmanyview.so";
 
-/// Frames by which two reports from inside the driver are the same.
+/// Innermost frames that have to agree for two reports from inside the driver to count as the same.
 const DEPTH: usize = 8;
 
 /// One of valgrind's reports.
@@ -26,7 +26,8 @@ const DEPTH: usize = 8;
 struct Found {
     kind: String,
     what: String,
-    /// Innermost first, each an object and a function or place in it; the first stack is where it happened, others say where the memory is from.
+    /// Innermost frame first, each an object and a function or address in it. The first stack is where the error happened; others say where
+    /// the memory comes from.
     stacks: Vec<Vec<String>>,
 }
 
@@ -48,7 +49,7 @@ fn elements<'a>(xml: &'a str, name: &str) -> Vec<&'a str> {
 
 fn found(xml: &str) -> Vec<Found> {
     let stack = |stack: &&str| {
-        // Drivers come without symbols and lie elsewhere in each run: frames are told by their distance from the first in the object.
+        // Drivers have no symbols and another address in each run: a frame is identified by its distance from the first one in the object.
         let mut first: HashMap<&str, i128> = HashMap::new();
         let mut frame = |frame| {
             let part = |name| element(frame, name);
@@ -88,8 +89,8 @@ fn found(xml: &str) -> Vec<Found> {
 }
 
 impl Found {
-    /// What happened inside of calls that are not ours: the frames up to the first of ours, all of them without the layer. At most
-    /// [`DEPTH`]: what the driver has put off it does in another call of ours than of the program's.
+    /// The kind and the innermost frames, up to the first of ours, or all of them without the layer; at most [`DEPTH`]. The limit is needed
+    /// because the driver may do deferred work in another call of ours than of the program's.
     fn inside(&self) -> (&str, &[String]) {
         let stack = self.stacks.first().map_or(&[][..], Vec::as_slice);
         let end = stack.iter().position(|frame| is_ours(frame));
@@ -105,7 +106,7 @@ fn is_ours(frame: &str) -> bool {
     frame.starts_with(OURS)
 }
 
-/// Those of the reports under the layer that are the layer's.
+/// The reports under the layer that are not the driver's alone.
 fn ours<'a>(bare: &[Found], layer: &'a [Found]) -> Vec<&'a Found> {
     let known: HashSet<(&str, &[String])> = bare
         .iter()
@@ -120,7 +121,7 @@ fn ours<'a>(bare: &[Found], layer: &'a [Found]) -> Vec<&'a Found> {
         .collect()
 }
 
-/// What valgrind finds in a program.
+/// Runs a program under valgrind and returns the findings.
 fn watch(name: &str, mut program: Command) -> Vec<Found> {
     let out = scratch("memory").join(format!("{name}.xml"));
     program
@@ -134,7 +135,7 @@ fn watch(name: &str, mut program: Command) -> Vec<Found> {
     found(&xml)
 }
 
-/// valgrind with its report, to be followed by a program.
+/// valgrind with its options; the program and its arguments follow.
 fn valgrind(name: &str, strategy: Option<&str>) -> Command {
     let mut command = match strategy {
         None => bare("valgrind"),
@@ -149,7 +150,7 @@ fn valgrind(name: &str, strategy: Option<&str>) -> Command {
             "--errors-for-leak-kinds=definite",
             "--error-limit=no",
             "--num-callers=60",
-            // Drivers are unloaded before the end.
+            // Drivers are unloaded before the report is written.
             "--keep-debuginfo=yes",
             "--xml=yes",
         ])
@@ -157,7 +158,7 @@ fn valgrind(name: &str, strategy: Option<&str>) -> Command {
     command
 }
 
-/// Runs a program bare and under strategies; what is ours fails the test.
+/// Runs a program bare and under strategies; a finding of ours fails the test.
 fn clean(name: &str, program: &Path, arguments: &[&str], strategies: &[&str]) {
     if !has("valgrind") {
         return;
@@ -244,7 +245,7 @@ fn full_memory_of_random_calls() {
     );
 }
 
-/// Bytes in use after some contexts and after sixty more.
+/// Bytes in use that sixty more contexts leave behind.
 fn grown(mut program: Command) -> u64 {
     let bytes: Vec<u64> = lines(&mut program)
         .lines()
@@ -254,7 +255,7 @@ fn grown(mut program: Command) -> u64 {
     bytes[1].saturating_sub(bytes[0])
 }
 
-/// A record of a context is some kilobytes; a context of the driver's is hundreds.
+/// A leak would show: our record of a context takes some kilobytes, a context of the driver hundreds.
 #[test]
 fn contexts_that_come_and_go_leave_nothing() {
     let program = compiled("contexts", Compiled::Program, &["-lEGL", "-lGL"]);

@@ -1,4 +1,4 @@
-//! Frames that are the same in all views are drawn once: the picture of the panel is as it would be if all views had been drawn.
+//! Frames that are the same in all views are drawn once: the panel shows the same picture as if all views had been drawn.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::path::Path;
 use support::{demo, manyview, rgb, screen, succeed};
 
-/// The first frames of a demo, and how many of all that it drew were drawn once.
+/// The first frames of a demo, and how many of all its frames were drawn once.
 fn frames(demonstration: &[&str], options: &[&str], count: u32) -> (Vec<RgbImage>, u64) {
     let folder = tempfile::tempdir().expect("a folder");
     let report = folder.path().join("report.json");
@@ -30,7 +30,7 @@ fn drawn_once(report: &Path) -> u64 {
     report["frames_drawn_once"].as_u64().expect("a number")
 }
 
-/// Views in layers all lie at the origin, so that what is the same in them is so in every bit.
+/// Compares with and without the optimisation. Views in layers all lie at the origin, so mono frames are equal there bit by bit.
 #[track_caller]
 fn same(demonstration: &[&str], options: &[&str], count: u32) -> (u64, Vec<RgbImage>) {
     let options = [options, &["--atlas", "layers"]].concat();
@@ -51,18 +51,18 @@ fn same(demonstration: &[&str], options: &[&str], count: u32) -> (u64, Vec<RgbIm
     (once, saved)
 }
 
-/// Menu, menu over menu, scene, menu with what the scene has left in the stencil.
+/// A menu, a menu over a menu, a scene, and a menu after the scene's stencil.
 #[test]
 fn a_menu_is_drawn_once_and_a_scene_in_all_views() {
     for strategy in ["replay", "instanced", "geometry"] {
         let (once, pictures) = same(&["menu"], &["--strategy", strategy], 48);
-        // The frame after a scene is still drawn in all views, and so are those in which the views may have other stencils.
+        // The frame after a scene is still drawn in all views, as are those in which the stencils of the views may differ.
         assert!((22..=24).contains(&once), "{strategy}: {once}");
         assert!(pictures[13] != pictures[1]);
     }
 }
 
-/// What is not the middle view of the panel: eyes, other grids, other filters, single views.
+/// Outputs that show more than the own view: two eyes, other grids, other filters, single views.
 #[test]
 fn outputs_that_show_more_than_one_view_get_them() {
     let (once, _) = same(&["menu"], &["--output", "rows"], 20);
@@ -80,7 +80,7 @@ fn outputs_that_show_more_than_one_view_get_them() {
     }
 }
 
-/// Copies of the frame, the accumulation buffer, what is read back, display lists, depths without a scene.
+/// Commands that read earlier pictures: copies of the frame, the accumulation buffer, readback, display lists, depths without a scene.
 #[test]
 fn what_looks_at_other_views_finds_them() {
     for name in ["echo", "blur", "readback", "lists", "sky", "room"] {

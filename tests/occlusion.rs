@@ -1,5 +1,5 @@
-//! Views with what an occlusion camera sees (`--strategy occlusion`): its picture is that of the CPU reference, holes get what is there,
-//! and the program's own view is untouched.
+//! Occlusion cameras (`--strategy occlusion`): the reference image equals that of the CPU reference, disoccluded surfaces are filled from
+//! it, and the program's own view is untouched.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -18,14 +18,14 @@ use support::{
 const VIEWS: usize = 5;
 const OWN: usize = 2;
 const SIZE: [u32; 2] = [400, 300];
-/// As `src/layer/occlusion.rs` has it.
+/// The constant of the same name in `src/layer/occlusion.rs`, pixels.
 const REACH: f64 = 30.0;
-/// Of cameras that see far behind the things of `gaps`, and of such as see half of what is behind its bars.
+/// Separation of cameras that see far behind the occluders of `gaps`, and of those that see half of the wall behind its bars.
 const WIDE: f64 = 0.03;
 const NARROW: f64 = 0.012;
 const CONVERGENCE: f64 = 6.0;
 
-/// The third frame of a demo, by a strategy: the first one has no map.
+/// The third frame of a demo by a strategy: the first one has no distortion map yet.
 fn shown(
     demonstration: &[&str],
     what: &str,
@@ -59,7 +59,7 @@ fn views(demonstration: &[&str], strategy: &str, holes: &str) -> (Vec<RgbImage>,
     ((0..VIEWS).map(view).collect(), report)
 }
 
-/// What `hard --case gaps` is made of: the wall and rectangles before it, left, right, low, high and distance.
+/// The rectangles of `hard --case gaps` in front of its wall: left, right, low, high and distance.
 const BOXES: [[f64; 5]; 4] = [
     [-0.9, 0.6, -2.0, 2.5, 6.0],
     [1.4, 1.5, -4.0, 4.0, 6.5],
@@ -75,7 +75,7 @@ fn boxes() -> impl Iterator<Item = [f64; 5]> {
     bars.chain(BOXES)
 }
 
-/// Through a place of the picture in pixels from the top left: x and y at depth 1.
+/// The ray through a point of the picture, in pixels from the top left: x and y at depth 1.
 fn ray(x: f64, y: f64) -> [f64; 2] {
     let [width, height] = SIZE.map(f64::from);
     [
@@ -84,7 +84,7 @@ fn ray(x: f64, y: f64) -> [f64; 2] {
     ]
 }
 
-/// The wall there: 1/w, and the square of its pattern with how far within it, as a part of a square.
+/// The wall where a ray meets it: 1/w, the colour of its pattern, and the distance from the edge of the square, in squares.
 fn wall([x, y]: [f64; 2]) -> (f64, [u8; 3], f64) {
     // Its corners lie at depth 26 on the left and 20 on the right, x from -30 to 30: w = 23 - x/10 at (x·w, y·w, -w).
     let w = 23.0 / (1.0 + x / 10.0);
@@ -98,7 +98,7 @@ fn wall([x, y]: [f64; 2]) -> (f64, [u8; 3], f64) {
     (1.0 / w, colour, inside[0].min(inside[1]))
 }
 
-/// What is nearest at a place of the picture, as 1/w.
+/// The nearest surface at a point of the picture, as 1/w.
 fn nearest(x: f64, y: f64) -> f64 {
     let [u, v] = ray(x, y);
     let hit = |[left, right, low, high, w]: &[f64; 5]| {
@@ -108,8 +108,8 @@ fn nearest(x: f64, y: f64) -> f64 {
     boxes.fold(wall([u, v]).0, f64::max)
 }
 
-/// Of a reference image of that scene: places of the wall that are hidden in the picture and lie beside what hides them, pixels of what
-/// does, and how many of both are not as the CPU reference has them.
+/// Counts in a reference image of that scene: samples of the wall that the own view hides behind the broad rectangle, pixels of that
+/// rectangle, and how many of both differ from the CPU reference.
 fn measured(picture: &RgbImage) -> [usize; 3] {
     let [width, height] = SIZE;
     let places = VIEWS as f64 / 2.0 - 0.5;
@@ -124,13 +124,13 @@ fn measured(picture: &RgbImage) -> [usize; 3] {
             .map(|x| nearest(middle(x).0, middle(x).1) as f32)
             .collect();
         let row = map.row(&inverses);
-        // Where the wall at a place in the picture comes to lie.
+        // The x at which the reference image shows the wall that lies at x in the undistorted picture.
         let moved = |x: f64| {
             let distortion: Option<&RowDistortion> = row.get(x as usize / 2)?.as_ref();
             let (inverse, ..) = wall(ray(x, middle(0).1));
             distortion.map(|distortion| x + distortion.at(x, inverse))
         };
-        // What is hidden behind the broad one, on its right side, in quarters of pixels.
+        // The strip of the wall that the broad rectangle hides at its right edge, in quarters of pixels.
         let edge = (0.6 / 6.0 / 0.8 + 1.0) * f64::from(width) / 2.0;
         let inside = (-2.0 / 6.0..2.5 / 6.0).contains(&ray(0.0, middle(0).1)[1]);
         let quarters = (0..120).map(|at| edge - 30.0 + f64::from(at) / 4.0);
@@ -139,7 +139,7 @@ fn measured(picture: &RgbImage) -> [usize; 3] {
                 continue;
             };
             let (_, expected, within) = wall(ray(x, middle(0).1));
-            // At the edges of the pattern a pixel may be of the next square.
+            // At the edges of the pattern a pixel may belong to the next square.
             if within < 0.15 {
                 continue;
             }
@@ -147,7 +147,7 @@ fn measured(picture: &RgbImage) -> [usize; 3] {
             let is = picture.get_pixel(at as u32, y).0;
             wrong += usize::from(is.iter().zip(expected).any(|(a, b)| a.abs_diff(b) > 2));
         }
-        // What is in front is where it is.
+        // The front surface keeps its place.
         for x in (0..width).filter(|&x| (inverses[x as usize] - 1.0 / 6.0).abs() < 1e-6) {
             seen += 1;
             let is = picture.get_pixel(x, y).0;
@@ -157,7 +157,7 @@ fn measured(picture: &RgbImage) -> [usize; 3] {
     [hidden, seen, wrong]
 }
 
-/// `part`: how much of it may be, at edges.
+/// `part`: the fraction of hidden samples that may be wrong, at edges.
 fn assert_distorted(picture: &RgbImage, what: &str, part: f64) {
     let [hidden, seen, wrong] = measured(picture);
     println!("{what}: {hidden} hidden, {seen} in front, {wrong} wrong");
@@ -180,12 +180,12 @@ fn the_reference_image_is_that_of_distorted_rays() {
     assert_distorted(&picture, "fixed function", 0.02);
 }
 
-/// Ways of `bars.c`: with shaders, and of fixed function, where surfaces as large as the wall's squares have to be cut, but in the list.
+/// Arguments of `bars.c`: first with shaders, then in fixed function, whose large surfaces have to be subdivided except in the list.
 const SHADED: [&str; 6] = ["matrix", "begin", "old", "coord", "new", "instanced"];
 
 const FIXED: [&str; 6] = ["strips", "fans", "polygons", "quads", "indexed", "list"];
 
-/// Those that take no part, and why.
+/// Arguments that draw nothing into the reference image, and why.
 const REFUSED: [(&str, &str); 2] = [
     ("several", "the shader writes to more than one image"),
     ("geometry", "its vertices are placed after the vertex stage"),
@@ -195,7 +195,7 @@ fn bars() -> PathBuf {
     compiled("bars", Compiled::Program, &["-lEGL", "-lGL"])
 }
 
-/// The third frame of it.
+/// The third frame of `bars.c`.
 fn bars_shown(way: &str, what: &str, strategy: &str) -> (RgbImage, Value) {
     bars_of(&bars(), way, what, strategy)
 }
@@ -234,7 +234,7 @@ fn strips_and_fans_are_cut_and_lists_are_drawn() {
     }
 }
 
-/// A program that writes no red (for coloured glasses, say) has samples moved all the same.
+/// A program that writes no red (for an anaglyph, say) still has its samples moved.
 #[test]
 fn colours_that_are_not_written_have_depths() {
     let wrong = |way: &str| {
@@ -259,12 +259,12 @@ fn depths_of_16_bits_tell_as_much() {
         let (picture, report) = bars_of(&coarse, "strips", "atlas", strategy);
         let made = &report["frames_synthesised"]["into_tiles"];
         assert!(made.as_u64() > Some(0), "{report}");
-        // Four bytes of colour and two of depth, in place of four and four.
+        // Four bytes of colour and two of depth in place of four and four.
         let [usual, less] = [&usual, &report].map(|told| told["view_bytes"].as_u64());
         assert_eq!(usual.map(|bytes| bytes * 3), less.map(|bytes| bytes * 4));
         let off = pixels_over(&fine, &picture, 8);
         println!("{strategy}: {off} pixels");
-        // Silhouettes whose place is rounded otherwise.
+        // Silhouettes whose place rounds differently.
         assert!(
             off * 500 <= u64::from(fine.width() * fine.height()),
             "{strategy}: {off}"
@@ -313,8 +313,8 @@ fn programs_know_nothing_of_it() {
     }
 }
 
-/// Scenes, the part of the depth image's holes that is left at most, and the part of what is filled that may be
-/// wrong: single pixels at edges. Behind some of it nothing is drawn.
+/// Scenes, the largest fraction of the depth image's holes that stay, and of the filled pixels that may be wrong: single pixels at edges.
+/// Behind some holes nothing is drawn.
 const SCENES: [(&[&str], f64, f64); 4] = [
     (&["hard", "--case", "gaps"], 0.35, 0.05),
     (&["teapot"], 0.75, 0.02),
@@ -322,7 +322,7 @@ const SCENES: [(&[&str], f64, f64); 4] = [
     (&["crowd", "--profile", "core"], 0.93, 0.05),
 ];
 
-/// Columns at the sides of the picture, beyond which no view of it sees.
+/// Columns at the sides of the picture that no view of it sees beyond.
 const SIDE: u32 = 24;
 
 #[test]

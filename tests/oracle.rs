@@ -1,12 +1,12 @@
-//! Every view of every demo against what the demo itself draws for that view, in plain fixed function and without the layer.
+//! Every view of every demo against the picture that the demo itself draws for that view, in plain fixed function and without the layer.
 //!
 //! One run under the layer gives all views (`--what atlas`); the oracle's pictures come from `--view i/N`, at the origin for
 //! `layers` and at the tile's own offset for `side-by-side`, because float rounding moves with the offset. Replay has to be
 //! equal bit by bit, the other strategies have to pass [`Gate::DESIGN`]. How far side-by-side tiles are from the oracle at
 //! the origin is reported and not asserted.
 //!
-//! Multisampled windows: Mesa's glReadPixels answers them unresolved (aliased), so there the oracle is what the X window
-//! really shows. The layer resolves properly and equals that.
+//! Multisampled windows: Mesa's glReadPixels returns them unresolved (aliased), so there the oracle is the X window's own pixels. The layer
+//! resolves properly and equals those.
 //!
 //! Figures: one table a test, and `target/oracle/figures.jsonl`. Failures: triptychs in `target/oracle/failures/`.
 #![forbid(unsafe_code)]
@@ -38,7 +38,7 @@ const LIMITS: Limits = Limits {
     layers: 2048,
 };
 const EYE_SPACING: &str = "0.3";
-/// Cameras so little nearer to each other that nothing but rounding can tell.
+/// A spacing that differs so little that only rounding can tell.
 const EYE_SPACING_ROUNDED: &str = "0.299999";
 const FOCAL_DEPTH: &str = "8";
 
@@ -48,23 +48,23 @@ const LAYOUTS: [(&str, AtlasLayout); 2] = [
     ("side-by-side", AtlasLayout::SideBySide),
 ];
 
-/// What keeps views beside each other apart under the strategies that draw all of them at once, where it is asked for.
+/// How views side by side are kept apart under the strategies that draw all of them at once, where that layout is asked for.
 const CLIPS: [(&str, AtlasLayout); 4] = [
     ("distances", AtlasLayout::SideBySide),
     ("discard", AtlasLayout::SideBySide),
     ("both", AtlasLayout::SideBySide),
     ("cut", AtlasLayout::SideBySide),
 ];
-/// Vertices that a shader moves to their tile are rounded otherwise than by a viewport there. Measured on llvmpipe 22.3:
-/// at most 42 of 66,000 pixels differ, 1 by more than 8 steps.
+/// Vertices that a shader moves to their tile round differently from those that a viewport moves. Measured on llvmpipe 22.3: at most 42 of
+/// 66,000 pixels differ, 1 by more than 8 steps.
 const BESIDE: Gate = Gate {
     differing: 0.001,
     over_one_per_million: None,
     outliers_per_million: 16.0,
 };
 
-/// Of thousands of triangles narrower than a pixel, edges pass pixels' centres within the rounding of a shift after the program's own
-/// product rather than before it: beyond the gate. Measured: at most 4 of 66,000 pixels.
+/// Grass has thousands of triangles narrower than a pixel. A shift after the program's own product rounds differently from one before it,
+/// and some edges pass the centre of a pixel by that: beyond the gate. Measured: at most 4 of 66,000 pixels.
 const BLADES: Gate = Gate {
     differing: Gate::DESIGN.differing,
     over_one_per_million: Gate::DESIGN.over_one_per_million,
@@ -77,16 +77,16 @@ struct Oracle<'a> {
     api: &'a str,
     screen: &'a Screen,
     folder: &'a Path,
-    /// By camera (twice its number, counted from the middle), canvas width and offset: the pictures of the frames.
+    /// Frames by camera (2i - (N - 1)), canvas width and offset.
     drawn: HashMap<(i64, u32, u32), Vec<RgbImage>>,
 }
 
-/// A view among N, the width of its canvas, and its left edge there.
+/// View, number of views, width of the canvas, and left edge of the view there.
 type Place = (u32, u32, u32, u32);
 
 impl Oracle<'_> {
     fn view(&mut self, view: u32, views: u32, canvas: u32, x: u32) -> &[RgbImage] {
-        // Cameras of different N fall together: only 2i - (N - 1) counts.
+        // Views of different N have the same camera where 2i - (N - 1) is equal.
         let key = (i64::from(2 * view) - i64::from(views - 1), canvas, x);
         if !self.drawn.contains_key(&key) {
             let pictures = self.draw((view, views, canvas, x), EYE_SPACING);
@@ -141,13 +141,13 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// The option that takes the layout.
+    /// The variable that sets the layout, without `MANYVIEW_`.
     fn option(&self) -> &'static str {
         let clips = CLIPS.iter().any(|(name, _)| *name == self.layout);
         if clips { "CLIP" } else { "ATLAS" }
     }
 
-    /// The views in order, for each frame; and how many draws went which way.
+    /// The views in order, for each frame; and how many draws took which path.
     fn capture(
         &self,
         scene: &Scene,
@@ -207,7 +207,7 @@ impl Run<'_> {
     }
 }
 
-/// How many draws went which way, from the report.
+/// How many draws took which path, from the report.
 fn ways(report: &Path) -> String {
     let read = || -> Option<String> {
         let json: serde_json::Value = serde_json::from_slice(&std::fs::read(report).ok()?).ok()?;
@@ -231,9 +231,9 @@ fn may_be_split(scene: &Scene, compared: &Comparison) -> bool {
         && compared.differing_fraction() < 0.01
 }
 
-/// Bloom and samples: where a bright sample lies on an edge to within a millionth of the cameras' distance, the program's own picture depends on its
-/// rounding by more than the gate allows (measured: 113 of 66,000 pixels, worst by 15, with cameras that much nearer). Then a picture is right that passes the
-/// gate for either rounding.
+/// Bloom with samples: where a bright sample lies on an edge to within a millionth of the camera spacing, the program's own picture depends
+/// on its rounding by more than the gate allows (measured with cameras that much nearer: 113 of 66,000 pixels, worst by 15). A picture that
+/// passes the gate for either rounding is then right.
 fn may_be_rounded(scene: &Scene) -> bool {
     scene.demo == "passes" && scene.arguments.contains(&"--samples-inside")
 }
@@ -266,11 +266,11 @@ struct Row {
     origin: Worst,
     ways: String,
     failed: u64,
-    /// Pictures with a primitive that Mesa has split.
+    /// Pictures with a primitive that Mesa has split ([`may_be_split`]).
     split: u64,
 }
 
-/// The colour that most of the picture's edge has: what nothing covers.
+/// The colour of most pixels at the picture's edge: the background.
 fn background(picture: &RgbImage) -> Rgb<u8> {
     let (width, height) = picture.dimensions();
     let mut counts = BTreeMap::<[u8; 3], u32>::new();
@@ -285,7 +285,7 @@ fn background(picture: &RgbImage) -> Rgb<u8> {
         .map_or([0; 3], |(colour, _)| colour))
 }
 
-/// Compares everything and fails at the end, so that the table is whole.
+/// Compares everything and fails at the end, so that the table is complete.
 fn check(name: &str, api: &str, views: &[u32], strategies: &[&'static str]) {
     check_in(name, api, views, strategies, &LAYOUTS);
 }
@@ -316,7 +316,8 @@ fn check_in(
     for &views in views {
         for &(layout, kind) in layouts {
             for &strategy in strategies {
-                // The strategies that draw all views at once put them into layers whatever atlas is asked for.
+                // Strategies that draw all views at once put them into layers, whatever atlas is asked for, unless the test is about
+                // tiles.
                 let kind = match strategy {
                     "replay" => kind,
                     _ if layouts == CLIPS => kind,
@@ -395,7 +396,7 @@ fn compare(expected: &RgbImage, actual: &RgbImage) -> Comparison {
     Comparison::new(expected, actual, Some(background(expected))).expect("one size")
 }
 
-/// Writes what a person looks at; returns where.
+/// Writes a triptych for a person to look at and returns its path.
 fn keep(name: &str, expected: &RgbImage, actual: &RgbImage) -> String {
     let folder = scratch("oracle/failures");
     let path = folder.join(format!("{name}.png"));
@@ -461,7 +462,7 @@ fn report(name: &str, api: &str, views: &[u32], rows: &BTreeMap<(&str, &str), Ro
     join(&parts, &scratch("oracle").join("figures.jsonl"));
 }
 
-/// All tests' lines in one file. Tests are processes of their own under nextest: one at a time, by a lock on the folder.
+/// Joins the lines of all tests into one file. Under nextest each test is a process: one at a time, by a lock on the folder.
 fn join(parts: &Path, out: &Path) {
     use rustix::fs::{FlockOperation, flock};
     let lock = std::fs::File::open(parts).expect("a folder");
@@ -479,7 +480,7 @@ fn join(parts: &Path, out: &Path) {
     std::fs::write(out, all).expect("written");
 }
 
-/// The short set for `make test`: all of it on GLX, one number of views on the others.
+/// The numbers of views of `make test`: all on GLX, one on the other APIs.
 fn short(api: &str) -> &'static [u32] {
     match api {
         "glx" => &[1, 2, 5, 8],
@@ -517,7 +518,7 @@ oracle! {
     osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_depth passes_samples passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
 }
 
-/// Surfaces of other kinds, by replay.
+/// Windows that are sRGB or multisampled, or have no read buffer at the swap, by replay.
 macro_rules! surfaces {
     ($($api:ident: $($scene:ident)*;)*) => {
         mod surfaces { $( mod $api { $(
@@ -558,7 +559,7 @@ es! {
     passes_es3_copies: [5];
 }
 
-/// Views beside each other, by the strategies that draw all of them at once.
+/// Views side by side, by the strategies that draw all of them at once.
 macro_rules! beside {
     ($($scene:ident)*) => {
         mod beside { $(

@@ -1,5 +1,5 @@
-//! Outputs that depend on where the window lies, and those for two eyes, against pictures put together here from the tiles of the
-//! same frame of a second run.
+//! Outputs that depend on the place of the window, and those for two eyes, against pictures that this file puts together from the tiles of
+//! the same frame of a second run.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -10,9 +10,9 @@ use manyview::display::{Display, Placement};
 use manyview::interleave::reference;
 use support::{Compiled, Screen, compiled, layered, own_screen, rgb, succeed};
 
-/// Places of the window in tests/support/c/moves.c, and a frame that is shown there.
+/// Places of the window in tests/support/c/moves.c, and a frame that each is shown in.
 const PLACES: [(i32, i32, usize); 3] = [(7, 5, 2), (8, 5, 4), (8, 6, 6)];
-/// Of the screen that tests bring.
+/// Size of the screen that the tests start.
 const SCREEN: (u32, u32) = (1920, 1200);
 
 /// Frames 1 to 6 of the program that moves its window.
@@ -20,7 +20,7 @@ fn frames(screen: &Screen, views: u32, options: &[(&str, &str)], what: &str) -> 
     frames_of(screen, views, options, what, &[])
 }
 
-/// As [`frames`], with arguments for the program.
+/// [`frames`] with arguments for the program.
 fn frames_of(
     screen: &Screen,
     views: u32,
@@ -37,7 +37,7 @@ fn frames_of(
         ("CAPTURE_OUT", out.to_str().expect("UTF-8")),
         ("CAPTURE_FRAMES", "1..6"),
         ("CAPTURE_WHAT", what),
-        // Far enough apart to be seen in 96 pixels.
+        // Far enough apart for a visible disparity in 96 pixels.
         ("EYE_SPACING", "0.3"),
         ("FOCAL_DEPTH", "8"),
     ];
@@ -76,7 +76,7 @@ fn same(expected: &RgbImage, actual: &RgbImage, lsb: i32, what: &str) {
     assert_eq!(wrong, 0, "{what}: pixels that differ by more than {lsb}");
 }
 
-/// Two eyes by pixels of the screen: exact, also after the window moved by one pixel to the right, and by one down.
+/// Interlaced stereo follows the pixels of the screen: exact also after the window moved by one pixel to the right, and by one down.
 #[test]
 fn interlaced_outputs_follow_the_window() {
     let screen = own_screen();
@@ -129,7 +129,7 @@ fn drawables_of_windows_follow_them() {
     assert_ne!(plain[1], plain[3], "the phase moved");
 }
 
-/// The same under EGL, where the window is given as such or by its address.
+/// The same under EGL, which takes the window itself or its address.
 #[test]
 fn surfaces_of_egl_follow_their_windows() {
     let screen = own_screen();
@@ -218,14 +218,14 @@ fn filtered_panels_are_the_reference() {
     for (word, filter) in [("blend", Filter::Blend), ("gaussian", Filter::Gaussian)] {
         let shown = frames(&screen, 7, &[("DISPLAY", name), ("FILTER", word)], "output");
         let expected = reference::filtered(&tiles, &mask, filter).expect("a picture");
-        // Floats of the driver may round the other way.
+        // The driver's floats may round the other way.
         same(&expected, &shown[1], 1, word);
         assert_ne!(shown[1], nearest[1], "{word} does something");
     }
 }
 
-/// The own view, and its depth as captured, by the same rule written once more: white is the nearest, black the farthest that was
-/// drawn but for one pixel in 200, steps are even in the depth buffer.
+/// The own view beside its captured depth, by an implementation of its own: white is the nearest and black the farthest depth that was
+/// drawn, without the extreme 0.5 % on each side; grey is linear in the depth buffer.
 fn beside_depth(own: &RgbImage, depth: &[f64], size: (u32, u32)) -> RgbImage {
     let (width, height) = own.dimensions();
     let mut drawn: Vec<f64> = depth.iter().copied().filter(|d| *d < 1.0).collect();
@@ -312,7 +312,7 @@ fn depth_beside_colour() {
     }
 }
 
-/// Light of the glasses, in floats: by the tables as published, written out here again.
+/// The picture through coloured glasses, in floats, by the published matrices.
 fn mixed(left: &RgbImage, right: &RgbImage, l: [[f64; 3]; 3], r: [[f64; 3]; 3]) -> RgbImage {
     let linear = |v: u8| {
         let v = f64::from(v) / 255.0;
@@ -398,7 +398,7 @@ fn anaglyphs() {
         let output = format!("anaglyph:{kind}");
         let shown = frames(&screen, 3, &[("OUTPUT", &output)], "output");
         let expected = mixed(&tiles[0], &tiles[2], left, right);
-        // Floats of the driver may round the other way.
+        // The driver's floats may round the other way.
         same(&expected, &shown[1], 1, &output);
     }
     let plain = frames(&screen, 3, &[("OUTPUT", "anaglyph")], "output");
@@ -431,7 +431,7 @@ fn whole_and_half_pictures() {
         0,
         "tb",
     );
-    // Of two texels the mean, rounded half up.
+    // The mean of two texels, rounded half up.
     let half_width = RgbImage::from_fn(width, height, |x, y| {
         let (tile, x) = (&tiles[(x / (width / 2)) as usize], 2 * (x % (width / 2)));
         mean(tile.get_pixel(x, y), tile.get_pixel(x + 1, y))

@@ -1,5 +1,5 @@
-//! Programs with framebuffers of their own: what they know of them is the same under the layer; what is the same in all views is drawn
-//! once; what is not has the parallax of each view. (Pictures of whole scenes: tests/oracle.rs.)
+//! Programs with framebuffers of their own: their state reads back the same under the layer, passes that are the same in all views are
+//! drawn once, and the others have the parallax of each view. (Pictures of whole scenes: tests/oracle.rs.)
 #![forbid(unsafe_code)]
 
 mod support;
@@ -10,7 +10,7 @@ use support::{Compiled, bare, compiled, demo, layered, lines, screen, succeed};
 #[test]
 fn a_program_knows_of_its_framebuffers_what_it_knows_without_the_layer() {
     let program = compiled("offscreen", Compiled::Program, &["-lEGL", "-lGL"]);
-    // Before OpenGL 4.3 no layer of an array is a texture of its own.
+    // Before OpenGL 4.3 a layer of an array cannot be a texture of its own.
     let old = Some(("MESA_GL_VERSION_OVERRIDE", "4.2COMPAT"));
     for (atlas, driver) in [("side-by-side", None), ("layers", None), ("layers", old)] {
         let expected = lines(bare(&program).envs(driver));
@@ -22,7 +22,7 @@ fn a_program_knows_of_its_framebuffers_what_it_knows_without_the_layer() {
         }
         assert_eq!(told.lines().count(), expected.lines().count());
         let [left, own, right] = extents(&all, [255, 0, 255]);
-        // At depth 3, moved by ±0.4 · (3 − 4) / 3 in 32 columns, blitted to 64: the left camera's to the right.
+        // At depth 3, moved by ±0.4 · (3 − 4) / 3 in 32 columns, blitted to 64: to the right for the left camera.
         for (moved, shift) in [(left[0] - own[0], 4.3), (right[1] - own[1], -4.3)] {
             assert!(
                 (moved - shift).abs() <= 2.0,
@@ -32,7 +32,7 @@ fn a_program_knows_of_its_framebuffers_what_it_knows_without_the_layer() {
     }
 }
 
-/// The draws of a number of frames that went to the driver once, as they were, and those that were replayed.
+/// Counts of draws in some frames: those that went to the driver once, unchanged, and those that were replayed.
 fn draws(frames: &str, arguments: &[&str]) -> [u64; 2] {
     let folder = tempfile::tempdir().expect("a folder");
     let report = folder.path().join("report.json");
@@ -117,7 +117,7 @@ fn a_lamp_s_map_is_drawn_once_also_in_a_square_window() {
         let arguments = ["--size", size];
         let [few, more] = ["3", "4"].map(|frames| draws(frames, &arguments));
         let [once, replayed] = [0, 1].map(|way| more[way] - few[way]);
-        // One clear and eleven things that throw shadows.
+        // One clear and eleven things that cast shadows.
         assert_eq!(once, 12, "{size}");
         assert!(replayed > 20, "{size}: {replayed}");
     }
@@ -142,7 +142,7 @@ fn an_explanation_names_passes_and_keeps_shaders_and_rules_change_them() {
     let count = |list: &str, word: &str| list.lines().filter(|l| l.contains(word)).count();
     assert_eq!(count(&list, " framebuffer 1 "), 11, "{list}");
     assert!(count(&list, " pass 2 ") > 10, "{list}");
-    // The things of the scene have one program, whose shaders are there.
+    // All things of the scene share one program, which has both its shaders.
     let thing = list
         .lines()
         .find(|l| l.contains(" pass 2 ") && l.contains("shader ="));

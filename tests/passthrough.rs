@@ -1,4 +1,4 @@
-//! The layer that does nothing, or that nobody sees: pictures and answers are the program's own, and cost next to nothing.
+//! The layer off, or with one view: pictures and answers are the program's own, and the cost is close to nothing.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -23,19 +23,19 @@ const DEMOS: [&str; 13] = [
     "immediate",
 ];
 
-/// A program with the layer there and doing nothing.
+/// A program under a layer that draws nothing of its own.
 fn idle(program: &Path, how: &str, report: &Path) -> Command {
     let report = report.to_str().expect("UTF-8");
     match how {
         "one view" => layered(program, &[("VIEWS", "1")]),
-        // Frames are watched then.
+        // With a report the layer watches the frames.
         "one view, report" => layered(program, &[("VIEWS", "1"), ("REPORT", report)]),
         "disabled" => layered(program, &[("VIEWS", "8"), ("DISABLE", "1")]),
         _ => panic!("no such way: {how}"),
     }
 }
 
-/// The bytes of two frames, as the demo writes them.
+/// The bytes of two frames as the demo writes them.
 fn frames(command: &mut Command, api: &str, folder: &Path) -> Vec<Vec<u8>> {
     let screen = screen();
     command
@@ -103,8 +103,8 @@ fn every_yes_disables() {
     }
 }
 
-/// Lines of `readback` with the name of an object that the program was given. With the layer some names are taken, so the
-/// program gets others; whether there is a name at all must not change.
+/// Lines of `readback` with the name of an object that the program was given. The layer takes some names, so the program gets others;
+/// whether there is a name at all must not change.
 const NAMES: [&str; 5] = [
     "first framebuffer name = ",
     "next texture name = ",
@@ -114,19 +114,19 @@ const NAMES: [&str; 5] = [
     "attachment 0x8ce0 0x8cd1 = ",
 ];
 
-/// Lines that are missing with the layer, and that is known: an error inside begin/end is told once, and Mesa tells it twice,
-/// as its glGetError is an error there as well and the layer answers for the driver.
+/// Lines that are known to be missing with the layer. Mesa reports an error inside begin/end twice, because its glGetError is an error
+/// there as well; the layer answers for the driver and reports it once.
 const KNOWN: [&str; 2] = [
     "error after glBindFramebuffer in begin/end = 0x0502",
     "error after glGetError in begin/end = 0x0502",
 ];
 
-/// A line that differs on pbuffers: Mesa 22.3 ignores glClearNamedFramebufferfv of framebuffer 0 there (it clears windows, and
-/// OpenGL 4.5 section 17.4.3.1 makes no difference); the layer clears.
+/// A line that differs on pbuffers: Mesa 22.3 ignores glClearNamedFramebufferfv of framebuffer 0 there (it clears windows, and OpenGL 4.5
+/// section 17.4.3.1 does not tell the two apart); the layer clears.
 const PBUFFER: &str = "named clear colour = ";
 
-/// Lines of pixels, left out where windows are multisampled: Mesa reads those back unresolved, the layer resolved (which is
-/// what the window shows: tests/oracle.rs).
+/// Lines of pixels, left out where windows are multisampled: Mesa reads those back unresolved, the layer resolved, as the window shows them
+/// (tests/oracle.rs).
 const PIXELS: [&str; 4] = [" colour = ", " depth = ", " stencil = ", "own pixel = "];
 
 fn answers(command: &mut Command, api: &str, more: &[&str], pixels: bool) -> Vec<String> {
@@ -216,13 +216,13 @@ fn median(values: &mut [f64]) -> f64 {
     values[values.len() / 2]
 }
 
-/// The aim is 1.05; machines that run tests are noisy, so only more than 1.25 fails.
+/// The aim is a ratio of 1.05; machines that run tests are noisy, so only more than 1.25 fails.
 #[test]
 fn cost_of_an_idle_layer() {
     const ROUNDS: usize = 9;
     let folder = tempfile::tempdir().expect("a folder");
     let report = folder.path().join("report.json");
-    // One screen for all runs: starting one beside them would be noise.
+    // One screen for all runs: starting a server beside them would be noise.
     let _screen = screen();
     let mut failures = Vec::new();
     for (what, name, arguments) in [

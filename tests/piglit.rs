@@ -1,9 +1,8 @@
 //! piglit, the tests of OpenGL implementations: the same results with the layer as without it.
 //!
-//! Most of its tests draw off screen (`-fbo`), where the layer has nothing to do but to stay out of the way. So there are runs "in windows"
-//! as well: there every test draws to framebuffer 0, which the layer redirects. A result that differs and is not in
-//! `tests/piglit/known.txt`, with the reason, is a failure; so is a line of that file that no longer differs (which also says that
-//! the layer was there).
+//! Most of its tests draw off screen (`-fbo`), where the layer only has to stay out of the way. So there are runs "in windows" as well:
+//! there every test draws to framebuffer 0, which the layer redirects. A result that differs and is not in `tests/piglit/known.txt` with
+//! its reason is a failure. So is a line of that file that no longer differs, which also shows that the layer was there.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -51,7 +50,7 @@ const fn mode(
     }
 }
 
-/// A bare run before those that are compared with it.
+/// Modes; each bare run comes before those that are compared with it.
 const MODES: [Mode; 8] = [
     bare_mode("bare", false),
     mode("off", &[("VIEWS", "3"), ("DISABLE", "1")], false, false),
@@ -73,23 +72,23 @@ const MODES: [Mode; 8] = [
     ),
 ];
 
-/// Which tests of piglit.
+/// A choice of piglit's tests.
 #[derive(Clone, Copy)]
 enum Tests<'a> {
-    /// By their names, each in a process of its own.
+    /// By name, each in a process of its own.
     Named(&'a [String]),
-    /// By their names in a collection, several in one process.
+    /// By name in a collection, several in one process.
     Grouped(&'a [String], &'a str),
-    /// What its regular expressions find in one of its collections.
+    /// Those of a collection that regular expressions match.
     Found(&'a [&'a str], &'a str),
 }
 
-/// Of fixed function, and those that are programs.
+/// Tests of fixed function, and those that are programs of their own.
 const ALL: Tests<'static> = Tests::Found(
     &[r"spec@!opengl 1\.", r"spec@!opengl 2\.", "fixed"],
     "quick_gl",
 );
-/// Programs with shaders that are run.
+/// Programs with shaders.
 const SHADERS: Tests<'static> = Tests::Found(
     &[
         r"spec@glsl-1\.[123]0@execution",
@@ -102,7 +101,7 @@ const LEFT_OUT: &str = "polygon-mode-facing";
 const SUBSET: &str = include_str!("piglit/subset.txt");
 const KNOWN: &str = include_str!("piglit/known.txt");
 
-/// What piglit says of one test.
+/// piglit's result of one test.
 #[derive(Debug, PartialEq, Eq)]
 struct Outcome {
     result: String,
@@ -111,7 +110,7 @@ struct Outcome {
 
 type Outcomes = BTreeMap<String, Outcome>;
 
-/// A result that is not the one of the bare run.
+/// A result that differs from that of the bare run.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Difference {
     mode: &'static str,
@@ -195,7 +194,7 @@ fn piglit_folder() -> PathBuf {
         .expect("the folder of piglit's programs")
 }
 
-/// A folder that stands for piglit's own, whose programs are run without `-fbo` and so in windows.
+/// A folder in place of piglit's own, whose programs are run without `-fbo` and so in windows.
 fn windows_folder(folder: &Path) -> PathBuf {
     let (piglit, ours) = (piglit_folder(), folder.join("windows"));
     let _ = fs::remove_dir_all(&ours);
@@ -235,7 +234,7 @@ fn run(mode: &Mode, tests: Tests, name: &str, screen: &Screen, folder: &Path) ->
     command
         .args("piglit run -p glx -j 1 --timeout 60 -o -l quiet".split(' '))
         .env("PIGLIT_COMPRESSION", "none");
-    // Its progress is one line that is written again and again.
+    // piglit rewrites its progress in one line, which only a terminal can show.
     if !std::io::stderr().is_terminal() {
         command.stdout(Stdio::null());
     }
@@ -310,7 +309,7 @@ fn read(path: &Path) -> Outcomes {
         .collect()
 }
 
-/// What differs: by subtest where both runs came to it, else by test.
+/// The results that differ: of subtests where both runs reached them, else of tests.
 fn differences(mode: &'static str, before: &Outcomes, after: &Outcomes) -> Vec<Difference> {
     let mut found = Vec::new();
     let mut note = |test: String, bare: &str, layered: &str| {
@@ -355,7 +354,7 @@ fn result<'a>(outcomes: &'a Outcomes, test: &str) -> Option<&'a str> {
     }
 }
 
-/// The tests of piglit that differences are in.
+/// The tests of piglit that have a difference.
 fn tests_of(differences: &[Difference]) -> Vec<String> {
     let names: BTreeSet<_> = differences
         .iter()
@@ -405,7 +404,7 @@ fn check(tests: Tests, name: &str, chosen: impl Fn(&Mode) -> bool) {
         if new.is_empty() {
             continue;
         }
-        // Some tests have one result now and another one then, also without the layer: only what differs twice does.
+        // Some tests are nondeterministic without the layer, too: only a result that differs twice counts.
         let again = tests_of(&new);
         let again = match tests {
             Tests::Named(_) => Tests::Named(&again),

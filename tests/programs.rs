@@ -34,15 +34,15 @@ use std::time::Instant;
 use support::{has, own_screen, scratch};
 use table::Program;
 
-/// What a person may ask for by a variable.
+/// A variable by which a person chooses what runs.
 fn wish(name: &str) -> Option<String> {
     std::env::var(name).ok().filter(|value| !value.is_empty())
 }
 
-/// Where rows are kept.
+/// The document that holds the rows.
 const DOCUMENT: &str = "docs/compatibility.md";
 
-/// The rows that the document has.
+/// The rows that the document already has.
 fn kept(table: &[Program]) -> BTreeMap<String, Row> {
     let mut rows = row::rows(&fs::read_to_string(DOCUMENT).unwrap_or_default());
     for program in table {
@@ -66,7 +66,7 @@ fn write(table: &[Program], rows: &BTreeMap<String, Row>) {
     fs::write(DOCUMENT, row::document(&in_order(table, rows))).expect("written");
 }
 
-/// Runs programs; the document has the row of each as soon as it is there.
+/// Runs programs; each row is written to the document as soon as it is there.
 fn run(programs: Vec<&Program>, table: &[Program]) {
     let jobs = wish("MANYVIEW_PROGRAMS_JOBS").map_or(1, |n| n.parse().expect("a number of jobs"));
     let count = programs.len();
@@ -75,7 +75,7 @@ fn run(programs: Vec<&Program>, table: &[Program]) {
     std::thread::scope(|scope| {
         for _ in 0..jobs {
             scope.spawn(|| {
-                // Windows that cover each other have undefined pixels: a screen for each.
+                // A screen for each program: windows that cover each other have undefined pixels.
                 let screen = own_screen();
                 loop {
                     let next = queue.lock().expect("the queue").next();
@@ -129,7 +129,7 @@ fn programs_are_compatible() {
         .args(["scripts/packages.sh", "--optional"])
         .args(packages)
         .status();
-    // A package that is not to be had is a row of the table.
+    // A package that cannot be had is a row of the table as well.
     status.expect("sh");
     run(programs, &table);
 

@@ -1,4 +1,4 @@
-//! `--prove`: what is equal is told so, what differs is told with the draw that brought it, and the program notices nothing.
+//! `--prove`: equal frames are reported as equal, a difference is reported with the draw that caused it, and the program notices nothing.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -17,7 +17,7 @@ fn summary(report: &Path) -> Summary {
     serde_json::from_value(json(report)["proof"].clone()).expect("a proof")
 }
 
-/// A demo under `manyview run --prove 5`: what the report says of it, and what stands on stderr.
+/// A demo under `manyview run --prove 5`: the summary of the report, and stderr.
 fn proved(name: &str, options: &[&str], arguments: &[&str]) -> (Summary, String) {
     library();
     let folder = tempfile::tempdir().expect("a folder");
@@ -121,11 +121,11 @@ fn a_program_that_clears_nothing_is_compared_frame_by_frame() {
     let proof = small(&[], &["keeps"]);
     assert_eq!((proof.frames, proof.carried), (8, 8), "{proof:?}");
     assert_eq!(proof.verdict(), "equal");
-    // Frames by replay take over what stands there, too.
+    // Frames by replay start from the same content of the window, so the speed-up is measured.
     assert!(proof.speed_up.is_some(), "{proof:?}");
     let proof = small(&[("VIEW_SCALE", "0.5")], &["keeps"]);
     assert_eq!((proof.frames, proof.carried), (8, 8), "{proof:?}");
-    // Where views have fewer pixels they cannot, so nothing is timed.
+    // Tiles with fewer pixels than the window cannot take it over, so nothing is timed.
     assert!(proof.speed_up.is_none(), "{proof:?}");
 }
 
@@ -151,7 +151,7 @@ fn a_program_reads_the_same_in_frames_that_are_proved() {
         let mut command = layered(demo("readback"), &[&common[..], options].concat());
         let output = succeed(screen.give(command.args(["--frames", "3"])));
         let text = String::from_utf8(output.stdout).expect("text");
-        // The second atlas has names of its own, so the program is given others.
+        // The second atlas takes names of its own, so the program is given others.
         let names = [
             "name = ",
             "BINDING_2D[0] = ",

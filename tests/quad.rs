@@ -1,6 +1,6 @@
-//! Output `quad`: two eyes in the left and the right buffer of a stereo window, and what is shown where there is none.
+//! Output `quad`: two eyes in the left and right buffer of a stereo window, and the fallback where the driver has no such window.
 //!
-//! No driver for Xvfb has stereo windows, so tests/support/c/stereo.c stands for one.
+//! No driver for Xvfb has stereo windows, so tests/support/c/stereo.c stands in for one.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -14,9 +14,9 @@ use support::{
 };
 
 const VIEWS: &str = "3";
-/// Far enough apart to be seen in 96 pixels.
+/// Far enough apart for a visible disparity in 96 pixels.
 const CAMERAS: [(&str, &str); 2] = [("EYE_SPACING", "0.3"), ("FOCAL_DEPTH", "8")];
-/// Ways to choose a window, as the program's arguments.
+/// Ways to choose a visual, as the program's arguments.
 const WAYS: [&[&str]; 7] = [
     &["visual"],
     &["config"],
@@ -48,7 +48,7 @@ fn shown(folder: &Path, output: &str, what: &str, program: &Path, words: &[&str]
     command
 }
 
-/// Of the frame that is captured: one view.
+/// One view of the captured frame.
 fn view(screen: &Screen, view: u32, program: &Path, words: &[&str]) -> RgbImage {
     let folder = tempfile::tempdir().expect("a folder");
     let what = format!("view:{view}");
@@ -69,7 +69,7 @@ fn notes(folder: &Path) -> Vec<String> {
     serde_json::from_value(report["notes"].clone()).expect("notes")
 }
 
-/// About stereo, among notes on the driver.
+/// The sentences about stereo among the notes on the driver.
 fn about_stereo(notes: &[String]) -> Vec<&String> {
     notes
         .iter()
@@ -77,8 +77,8 @@ fn about_stereo(notes: &[String]) -> Vec<&String> {
         .collect()
 }
 
-/// Runs with the library that stands for a driver with stereo windows; answers what the program said, and the left and the right
-/// buffer if it has both.
+/// Runs with the library that stands in for a driver with stereo windows; returns the program's stdout, and the left and the right buffer
+/// if it has both.
 fn in_stereo(
     screen: &Screen,
     command: &mut Command,
@@ -89,7 +89,7 @@ fn in_stereo(
     let driver = compiled("stereo", Compiled::Library, &["-ldl"]);
     let mut preload = driver.into_os_string();
     if layer {
-        // Behind the layer, which then finds it before the driver.
+        // Preloaded after the layer, which then finds it before the driver.
         let mut both = library().into_os_string();
         both.push(":");
         both.push(&preload);
@@ -142,7 +142,7 @@ fn other_outputs_leave_the_window_alone() {
     }
 }
 
-/// Where the driver finds no such window, the program has its own one, with the first view and a sentence in the report.
+/// Where the driver has no such window, the program gets its own one, with the first view and a sentence in the report.
 #[test]
 fn without_stereo_the_first_view_is_shown() {
     let screen = own_screen();
@@ -186,7 +186,7 @@ fn windows_of_egl_show_the_first_view() {
     assert!(said[0].contains("no window of EGL has"), "{notes:?}");
 }
 
-/// The launcher says it.
+/// `capture` warns of it.
 #[test]
 fn capture_says_that_there_is_no_stereo_window() {
     let screen = own_screen();

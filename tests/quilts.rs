@@ -1,4 +1,4 @@
-//! Quilts: what they are called when they are captured, and the way back to a panel.
+//! Quilts: the names of captured quilts, and the way back to a panel.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -7,10 +7,10 @@ use image::{Rgb, RgbImage};
 use std::path::Path;
 use support::{demo, library, manyview, own_screen, refused, rgb, run, succeed};
 
-/// Of the window in the left top corner of the screen, and so of each view.
+/// Size of the window in the top left corner of the screen, and so of each view.
 const SIZE: &str = "96x72";
 
-/// Captures frame 3 of a demo and answers what was printed on stdout.
+/// Captures frame 3 of a demo and returns its stdout.
 fn capture(folder: &Path, views: &str, options: &[&str]) -> String {
     library();
     let screen = own_screen();
@@ -45,7 +45,7 @@ fn files(folder: &Path) -> Vec<String> {
     names
 }
 
-/// To a quilt and back to the picture of the panel, bit by bit.
+/// A captured quilt gives the picture of the panel back, bit by bit.
 #[test]
 fn a_quilt_that_is_woven_is_what_the_window_shows() {
     for (views, grid, panel) in [("8", "4x2", "slanted8"), ("5", "3x2", "lenticular-5")] {
@@ -96,7 +96,7 @@ fn names_that_are_complete_stay_and_placeholders_are_filled() {
 #[test]
 fn panels_of_another_size_and_filters() {
     let folder = tempfile::tempdir().expect("a folder");
-    // Views of one colour each, in a picture that is no multiple of 3 x 2, and of which the name has them the other way round.
+    // Views of one colour each, in a picture whose sides are no multiples of 3 and 2; the name has rows and columns exchanged.
     let quilt = RgbImage::from_fn(98, 33, |x, y| {
         let view = (x / 32).min(2) + if y < 17 { 3 } else { 0 };
         Rgb([40 * view as u8; 3])

@@ -1,5 +1,5 @@
-//! Random sequences of legal and illegal GL calls: what a program can know of its state, its errors and its pixels is the
-//! same without the layer and with it.
+//! Random sequences of legal and illegal GL calls: the state, errors and pixels that a program can read are the same without the layer and
+//! with it.
 //!
 //! `tests/random` makes them, each from a seed alone. A failure names the seeds and how to repeat one: `--trace` prints its
 //! calls, `--drop` leaves out some of them (the head of `tests/random/main.c`).
@@ -14,11 +14,11 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use support::{Screen, bare, layered, own_screen};
 
-/// Classes of calls that are not made in one sequence: after a swap the front buffer of a window is undefined in part. Mesa 22.3
-/// reads from it what was there before, the layer what was shown.
+/// Classes of calls that no sequence has together: after a swap the front buffer of a window is partly undefined. There Mesa 22.3 reads the
+/// earlier content, the layer the picture that was shown.
 const APART: [&str; 2] = ["front", "swaps"];
 
-/// Seeds that are known to differ, and what it is.
+/// Seeds that are known to differ, and the reason.
 const KNOWN: [(u64, &str); 6] = [
     (104_533, COLOUR),
     (
@@ -38,11 +38,11 @@ const KNOWN: [(u64, &str); 6] = [
 ];
 const COLOUR: &str = "Mesa alone sets the colour from before a list's vertices again after it (ARCHITECTURE, Measured)";
 
-/// Sequences in one process; a crash costs only these.
+/// Sequences in one process; a crash loses only these.
 const BATCH: u64 = 50;
-/// Sequences of a hundred on which Mesa alone may be nondeterministic ([`is_nondeterministic`]).
+/// Number of sequences in a hundred that may be nondeterministic in Mesa alone ([`is_nondeterministic`]).
 const TWO_MINDS: u64 = 3;
-/// How often a sequence that differs is asked again.
+/// How often a sequence that differs is repeated.
 const AGAIN: usize = 8;
 /// How many failures are shown.
 const SHOWN: usize = 5;
@@ -81,7 +81,7 @@ impl Side<'_> {
             .args(["--seed", &first.to_string(), "--count", &count.to_string()])
             .args(["--without", without])
             .args(more)
-            // Most of the time goes into compiling shaders for a few triangles each.
+            // Most of the time goes into compiling shaders that draw a few triangles each.
             .env("GALLIVM_PERF", "nopt")
             .stderr(Stdio::null());
         if let Some(screen) = self.screen {
@@ -94,7 +94,7 @@ impl Side<'_> {
     fn lines(&self, mut command: Command) -> (Vec<String>, bool) {
         let output = command.output().expect("it starts");
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        // Shaders draw within the gate of `metric`, not bit by bit: there only what the program is told is compared.
+        // Shaders draw within the gate of `metric`, not bit by bit: with them only state and errors are compared.
         let told = |line: &str| match line.split_once(" pixels ") {
             Some((told, _)) if self.strategy != "replay" => told.to_owned(),
             _ => line.to_owned(),
@@ -108,7 +108,7 @@ fn seed(line: &str) -> Option<u64> {
     line.strip_prefix("seed ")?.split(' ').next()?.parse().ok()
 }
 
-/// The first line that differs for one seed, with everything that was asked.
+/// The first line that differs for one seed, with every result printed.
 fn explain(bare: &Side, layer: &Side, seed: u64, without: &str) -> String {
     let lines = |side: &Side| side.lines(side.command(seed, 1, without, &["--verbose"]));
     let (expected, actual) = (lines(bare), lines(layer));
@@ -124,10 +124,10 @@ fn explain(bare: &Side, layer: &Side, seed: u64, without: &str) -> String {
     )
 }
 
-/// Whether Mesa alone answers otherwise when something happens in between that no program could see (`--disturb`), or when lists are
-/// compiled in pieces (`--apart`), or when it is asked again, and the layer differs in nothing else. Mesa 22.3 takes some things from what was drawn before: the
-/// texture coordinates of pictures, which edges a loop has, what glPopAttrib puts back, the current values after a list; and some
-/// from memory that nobody has written. Such a sequence has no right answer.
+/// Whether Mesa alone gives other answers, and the layer differs in nothing else: when calls come in between that no program could notice
+/// (`--disturb`), when lists are compiled in pieces (`--apart`), or when the sequence is repeated. Some results of Mesa 22.3 depend on
+/// earlier draws: the texture coordinates of pictures, the edges of a loop, the state that glPopAttrib restores, the current values after a
+/// list; others depend on uninitialised memory. Such a sequence has no right answer.
 fn is_nondeterministic(bare: &Side, layer: &Side, seed: u64, without: &str) -> bool {
     let words = |side: &Side, more: &[&str]| -> Vec<String> {
         let (lines, _) = side.lines(side.command(seed, 1, without, more));
@@ -140,7 +140,7 @@ fn is_nondeterministic(bare: &Side, layer: &Side, seed: u64, without: &str) -> b
     let repeats = others.iter().all(|words| *words == expected);
     others.extend([words(bare, &["--disturb"]), words(bare, &["--apart"])]);
     let other = |i: usize| others.iter().any(|words| words[i] != expected[i]);
-    // What differs only among others is a failure as well, where the answer is always the same.
+    // A difference in those other runs alone is no excuse while the bare answer repeats and equals the layer's.
     (expected != actual || !repeats)
         && others
             .iter()
@@ -182,7 +182,7 @@ fn compare_without(
             let actual = run(&layer, first, count);
             (expected.join().expect("no panic").0, actual)
         });
-        // Mesa itself crashes at times; it goes on with the next sequence.
+        // Mesa itself crashes at times; the run goes on with the next sequence.
         let reached = expected.last().and_then(|line| seed(line));
         let end = reached.map_or(first, |last| last + 1);
         compared += end - first;

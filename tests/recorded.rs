@@ -1,5 +1,5 @@
-//! Programs that know nothing of us: recorded once with apitrace, repeated with and without the layer. The middle view of 7 is
-//! the program's own, so by replay every frame that is read back has the same bytes.
+//! Programs that were not written for the layer: recorded once with apitrace, repeated with and without it. The middle view of 7 is the
+//! program's own, so by replay every frame that is read back has the same bytes.
 //!
 //! The very first frame is left out: it shows an undefined buffer and varies without the layer as well.
 #![forbid(unsafe_code)]
@@ -11,15 +11,15 @@ use std::path::Path;
 use std::process::Stdio;
 use support::{Screen, bare, has, layered, record, rgb, screen, succeed};
 
-/// What is recorded.
+/// A program to record.
 struct Program {
     /// Program and arguments.
     command: &'static [&'static str],
     /// apitrace's name of the API.
     api: &'static str,
-    /// What repeats it.
+    /// The command that repeats its trace.
     retrace: &'static str,
-    /// How long it takes to show some dozens of frames.
+    /// Seconds until it has shown some dozens of frames.
     seconds: u32,
 }
 
@@ -68,7 +68,7 @@ fn repeat(
     } else {
         bare(program.retrace)
     };
-    // Ends with a separator: the prefix is a folder.
+    // A path that ends with a separator: the prefix is a folder.
     let prefix = format!("{}/", out.display());
     command
         .args(["-S", "*/frame", "-s", &prefix])
@@ -149,7 +149,7 @@ fn check(program: &Program) {
             path.display()
         );
     }
-    // Something was to be seen.
+    // The last picture is not one plain colour.
     let (last, _) = expected.last_key_value().expect("frames");
     let picture = rgb(&folder.path().join("bare").join(last));
     assert!(

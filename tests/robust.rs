@@ -1,4 +1,4 @@
-//! Nothing that a machine or a program does to the layer ends the program: it works, or one line says why not.
+//! No machine or program makes the layer end a program: it works, or one line says why not.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -26,14 +26,14 @@ fn inside(wrapper: &[&str], command: &Command) -> Command {
     outer
 }
 
-/// Runs a program on the tests' screen; stderr as text. A signal, or 20 seconds, is never all right.
+/// Runs a program on the tests' screen; returns its status and stderr. A signal, or 20 seconds, always fails.
 #[track_caller]
 fn run(command: &mut Command) -> (i32, String) {
     let screen = screen();
     let mut command = inside(&["timeout", "-k", "2", "20"], command);
     let Output { status, stderr, .. } = screen.give(&mut command).output().expect("it starts");
     let stderr = String::from_utf8_lossy(&stderr).into_owned();
-    // timeout ends with 128 and the signal of the program, 124 or 137 after its own.
+    // timeout returns 128 plus the program's signal, and 124 or 137 where it ended the program itself.
     let code = status.code().filter(|code| *code < 124);
     (
         code.unwrap_or_else(|| panic!("{command:?}: {status}\n{stderr}")),
@@ -41,7 +41,7 @@ fn run(command: &mut Command) -> (i32, String) {
     )
 }
 
-/// Lines of ours; other libraries may speak as well.
+/// Our own lines; other libraries may write to stderr as well.
 fn ours(stderr: &str) -> Vec<&str> {
     stderr
         .lines()
@@ -49,7 +49,7 @@ fn ours(stderr: &str) -> Vec<&str> {
         .collect()
 }
 
-/// A folder, and in it the names of a report and a picture.
+/// A folder, and the paths of a report and a picture in it.
 fn files() -> (TempDir, String, String) {
     let folder = tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
@@ -62,7 +62,7 @@ fn report(path: &str) -> serde_json::Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// The program ran as without the layer: the same last frame.
+/// Checks that the program drew the same last frame as without the layer.
 #[track_caller]
 fn unharmed(command: &mut Command, name: &str, variables: &[(&str, &str)]) -> String {
     let (_folder, _, picture) = files();
@@ -113,7 +113,7 @@ fn a_driver_that_says_it_is_old() {
                     (0, 0),
                     "{version} {strategy}: {report}"
                 );
-                // Asked for and not there: the report has the reason.
+                // A strategy that is asked for and not available: the report has the reason.
                 let reasons = report["fallbacks"]
                     .as_object()
                     .map_or(0, serde_json::Map::len);
@@ -135,11 +135,11 @@ fn a_driver_that_says_it_is_old() {
     }
 }
 
-/// The command says it before the program starts, or the layer does and the program runs on.
+/// The command reports it before the program starts, or the layer reports it and the program runs on.
 #[test]
 fn more_views_than_the_driver_has_layers() {
     let (_folder, file, _) = files();
-    // 2048 layers are plenty; a window that no texture of this driver can hold once per view is what does not fit.
+    // 2048 layers are enough; the window is too large for a texture of this driver to hold it once per view.
     for (views, layout, size) in [
         ("256", "layers", "1900x1100"),
         ("256", "side-by-side", "1900x1100"),
@@ -147,7 +147,7 @@ fn more_views_than_the_driver_has_layers() {
         let options = [("VIEWS", views), ("ATLAS", layout), ("REPORT", &*file)];
         let mut command = layered(demo("gears"), &options);
         command.args(["--frames", "2", "--size", size]);
-        // Address space, so that a driver that would take the memory does not take the machine's.
+        // Limits the address space, so that a driver that takes the memory does not take the machine's.
         let (code, stderr) = run(&mut inside(&["prlimit", "--as=3000000000", "--"], &command));
         assert_eq!(code, 0, "{layout}: {stderr}");
         assert_eq!(ours(&stderr).len(), 1, "{layout}: one line: {stderr}");
@@ -177,7 +177,7 @@ fn wrong_variables_are_one_line_and_the_program_runs() {
     assert_eq!(ours(&stderr).len(), 1, "{stderr}");
 }
 
-/// Not told that there is GL, not disturbed, nothing said.
+/// A program that looks for GL without linking it finds none through the layer, and nothing is written.
 #[test]
 fn a_program_without_gl() {
     let program = compiled("nogl", Compiled::Program, &["-ldl"]);
@@ -189,7 +189,7 @@ fn a_program_without_gl() {
     assert_eq!((code, &*stderr), (0, ""));
 }
 
-/// As libmujoco's loader: the first name that is there decides which window system it takes itself to be in.
+/// Like libmujoco's loader: the first exported name that it finds decides which window system it assumes.
 #[test]
 fn a_program_that_asks_for_every_window_system() {
     let program = compiled("half", Compiled::Program, &["-ldl"]);
@@ -198,7 +198,7 @@ fn a_program_that_asks_for_every_window_system() {
     assert_eq!((code, &*stderr), (0, ""));
 }
 
-/// It links libGL and never makes a context.
+/// A program that links libGL and never makes a context.
 #[test]
 fn a_program_that_never_draws() {
     let (code, stderr) = run(layered(demo("gears"), &[("VIEWS", "5")]).arg("--help"));
@@ -244,7 +244,7 @@ fn a_program_that_forks_while_it_draws() {
     assert_eq!(report(&file)["frames"], 2);
 }
 
-/// apitrace's own wrapper, on either side of ours.
+/// apitrace's own wrapper, before ours and after it.
 #[test]
 fn beside_another_wrapper() {
     if !has("apitrace") {
@@ -284,7 +284,7 @@ fn beside_another_wrapper() {
     }
 }
 
-/// Names of GL and its window systems, and dlsym; nothing else gets between a program and its libraries.
+/// Exported names are those of GL and its window systems, and dlsym; no other can come between a program and its libraries.
 #[test]
 fn only_hooked_names_are_exported() {
     if !has("nm") {

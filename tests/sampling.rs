@@ -1,5 +1,5 @@
-//! Views drawn with fewer pixels: the picture of a panel against that of views drawn at the size of the window, and programs that no
-//! smaller tile can hold.
+//! Views with fewer pixels: the picture of a panel against that of views at the size of the window, and programs that a smaller tile cannot
+//! hold.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -47,7 +47,7 @@ fn decibels(name: &str, scale: &str, options: &[&str]) -> f64 {
 const LENTICULAR: [&str; 4] = ["--display", "lenticular-8", "--views", "8"];
 const SLANTED: [&str; 4] = ["--display", "slanted8", "--views", "8"];
 
-/// Every column of the window is one of a tile: what is left are edges, whose corners are rounded to parts of larger pixels.
+/// Every column of the window is a column of some tile: only edges differ, whose corners round to parts of larger pixels.
 #[test]
 fn whole_pixels_are_drawn_where_the_panel_shows_them() {
     for name in ["gears", "mesh"] {
@@ -85,7 +85,7 @@ fn instances_reach_the_same_columns() {
     assert!(fewer >= 30.0, "{fewer} dB");
 }
 
-/// Nine fortieths of the pixels both ways; of a lens sheet's columns more is left than of pixels that are simply fewer.
+/// Both have nine fortieths of the pixels; columns that follow the lens sheet keep more of the picture than pixels that are simply fewer.
 #[test]
 fn a_lens_sheet_is_better_served_by_its_lenses() {
     for name in ["teapot", "gears", "clip"] {
@@ -96,7 +96,7 @@ fn a_lens_sheet_is_better_served_by_its_lenses() {
     }
 }
 
-/// Whatever has a size in pixels is drawn in fewer pixels, or in the window's own where that cannot be.
+/// Sizes in pixels are drawn in fewer pixels, or at the window's own resolution where that is impossible.
 #[test]
 fn what_a_tile_cannot_hold_is_given_up_in_time() {
     for (name, scale, part) in [
@@ -126,8 +126,8 @@ fn what_a_tile_cannot_hold_is_given_up_in_time() {
     }
 }
 
-/// The program is told what it would be told without: its viewport, widths, level of detail and matrices are its own between its
-/// calls. What it reads of pictures is not the same.
+/// The program reads its own state between its calls: viewport, widths, level of detail and matrices. Only pixels that it reads back
+/// differ.
 #[test]
 fn the_state_of_the_program_is_its_own() {
     let answers = |scale: &str| {
@@ -140,7 +140,7 @@ fn the_state_of_the_program_is_its_own() {
         String::from_utf8(output.stdout).expect("text")
     };
     let (exact, coarse) = (answers("1"), answers("auto"));
-    // Pictures are answered as hashes.
+    // Pixels are printed as hashes.
     let hash = |line: &str| {
         let value = line.rsplit(" = ").next().unwrap_or_default();
         value.len() == 16 && value.bytes().all(|b| b.is_ascii_hexdigit())

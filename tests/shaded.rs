@@ -1,5 +1,5 @@
-//! Programs with shaders of their own: what they know of them, of their uniforms and of their errors is the same under the layer, whose
-//! variants are linked anew, follow the uniforms, and outlive what is deleted as the program does.
+//! Programs with shaders of their own: shaders, uniforms and errors read back the same under the layer, whose variants are linked again
+//! with them, follow the uniforms, and outlive deleted objects as the program does.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -23,7 +23,7 @@ fn a_program_knows_of_its_shaders_what_it_knows_without_the_layer() {
         let (told, all) = views.shown(&mut layered(&program, &[]));
         assert_eq!(told, expected, "{atlas}");
         let [left, own, right] = extents(&all, [0, 255, 0]);
-        // Moved by ±0.4 · (2 − 4) / 2 in 64 columns: the nearer one of the two quads, the left camera's to the right.
+        // Moved by ±0.4 · (2 − 4) / 2 in 64 columns: the nearer of the two quads, to the right for the left camera.
         for (moved, shift) in [(left[0] - own[0], 12.8), (right[1] - own[1], -12.8)] {
             assert!(
                 (moved - shift).abs() <= 1.5,

@@ -1,6 +1,7 @@
-//! Real shaders, of programs and of piglit, are rewritten; what the driver compiled before it compiles after, with the same interface.
+//! Real shaders, of programs and of piglit, are rewritten; a shader that the driver compiles before the rewrite compiles after it, with the
+//! same interface.
 //!
-//! `make shaders` unpacks the programs. Their shaders are files of their own, or strings in what is executed.
+//! `make shaders` unpacks the programs. Their shaders are files of their own, or strings in the executable.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -13,11 +14,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use support::target_folder;
 
-/// Of programs, as files and strings, that the driver compiles as they are.
+/// Shaders of programs, as files and strings, that the driver has to compile unchanged.
 const LEAST: usize = 200;
-/// For one rewrite, the median.
+/// Median time of one rewrite.
 const LONGEST_MICROSECONDS: f64 = 5000.0;
-/// So that the one that a driver does not survive is easy to find.
+/// Shaders per call of the probe: few enough to find one that crashes a driver.
 const AT_ONCE: usize = 2000;
 const WAYS: [&str; 3] = ["replay", "layers", "tiles"];
 const ENDINGS: [&str; 13] = [
@@ -35,10 +36,10 @@ const ENDINGS: [&str; 13] = [
     "fsh",
     "comp",
 ];
-/// Linking it takes Mesa for ever, as it is: piglit wants to see that other drivers do better.
+/// Mesa takes for ever to link it, also unchanged: piglit checks that other drivers are faster.
 const ENDLESS: &str = "inline-explosion";
 
-/// What OpenArena's renderer puts before its shaders.
+/// The prefix of OpenArena's renderer to its shaders.
 const OPENARENA: &str = "#version 150\n#define attribute in\n#define texture2D texture\n#define textureCubeLod textureLod\n\
      #define shadow2D texture\n#define M_PI 3.14159265358979323846\n#define MAX_SHADER_DEFORM_PARMS 7\n";
 
@@ -65,7 +66,7 @@ fn is_shader(path: &Path) -> bool {
     ending.is_some_and(|ending| ENDINGS.contains(&ending)) && !name.contains(ENDLESS)
 }
 
-/// Shaders between zero bytes of an executable, with a name that says their stage.
+/// Shaders between zero bytes of an executable, each with a file extension for its stage.
 fn strings(path: &Path) -> Vec<(&'static str, String)> {
     let mut bytes = Vec::new();
     let mut file = fs::File::open(path).expect("a file");
@@ -86,7 +87,7 @@ fn strings(path: &Path) -> Vec<(&'static str, String)> {
             _ => "frag",
         };
         match stage {
-            // Both stages in one text, as goxel has them.
+            // Both stages in one text, as in goxel.
             _ if text.contains("#ifdef VERTEX_SHADER") => vec![
                 ("vert", format!("#define VERTEX_SHADER\n{text}")),
                 ("frag", format!("#define FRAGMENT_SHADER\n{text}")),
@@ -106,7 +107,7 @@ fn strings(path: &Path) -> Vec<(&'static str, String)> {
     all.flatten().collect()
 }
 
-/// Shaders of programs, each text once.
+/// Shaders of programs, each distinct text once.
 fn of_programs(unpacked: &Path, written: &Path) -> Vec<PathBuf> {
     let mut seen = BTreeMap::new();
     fs::create_dir_all(written).expect("a folder");
@@ -130,7 +131,7 @@ fn of_programs(unpacked: &Path, written: &Path) -> Vec<PathBuf> {
     seen.into_values().collect()
 }
 
-/// What the probe says of files.
+/// The probe's answers about files.
 fn probed(files: &[PathBuf]) -> Vec<Value> {
     let mut lines = Vec::new();
     for files in files.chunks(AT_ONCE) {
@@ -138,7 +139,7 @@ fn probed(files: &[PathBuf]) -> Vec<Value> {
         let mut probe = probe
             .args(["rewrite", "-"])
             .env("LIBGL_ALWAYS_SOFTWARE", "1")
-            // Mesa takes a text that is in its cache for good, also if it got there from a context of the other API.
+            // Mesa does not check a text again that is in its cache, even if a context of the other API put it there.
             .env("MESA_SHADER_CACHE_DISABLE", "true")
             .env("MESA_GLSL_CACHE_DISABLE", "true")
             .stdin(Stdio::piped())
@@ -150,7 +151,7 @@ fn probed(files: &[PathBuf]) -> Vec<Value> {
             .map(|path| format!("{}\n", path.display()))
             .collect();
         let mut stdin = probe.stdin.take().expect("a pipe");
-        // It reads all names before it says anything.
+        // The probe reads all names before it answers.
         stdin.write_all(names.as_bytes()).expect("names");
         drop(stdin);
         let output = probe.wait_with_output().expect("an end");
@@ -169,7 +170,7 @@ fn probed(files: &[PathBuf]) -> Vec<Value> {
     lines
 }
 
-/// Counts of what came out, and what should not have.
+/// Counts of outcomes, and the failures.
 #[derive(Default)]
 struct Sum {
     compiled: usize,
@@ -230,7 +231,7 @@ impl Sum {
     }
 }
 
-/// A mistake is reported in its line also where lines were added before it.
+/// Lines that the rewrite adds do not change the line number in a compiler message.
 #[test]
 fn messages_name_the_program_s_lines() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,4 +1,4 @@
-//! `manyview calibrate show`: the window's pixels, the keys, the file.
+//! `manyview calibrate show`: the pixels of its window, its keys, its file.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -23,10 +23,10 @@ const LEFT: u32 = 0xff51;
 const PAGE_UP: u32 = 0xff55;
 const ESCAPE: u32 = 0xff1b;
 
-/// What Xvfb's only monitor has.
+/// Size of Xvfb's only monitor.
 const MONITOR: (u32, u32) = (1920, 1200);
 
-/// A window that shows something, and the user before it.
+/// A window that shows a pattern, and the user before it.
 struct Shown {
     child: Child,
     lines: Lines<BufReader<ChildStdout>>,
@@ -60,12 +60,12 @@ impl Shown {
         }
     }
 
-    /// The next line that it says; a picture is then on the screen.
+    /// The next line of its output; the picture is then on the screen.
     fn line(&mut self) -> String {
         self.lines.next().expect("a line").expect("text")
     }
 
-    /// What is on the screen; the rest of the monitor is black.
+    /// The pixels of the window; the rest of the monitor is black.
     #[track_caller]
     fn same(&self, expected: &RgbImage, what: &str) {
         let mut whole = RgbImage::new(MONITOR.0, MONITOR.1);
@@ -82,7 +82,7 @@ impl Shown {
     }
 }
 
-/// A picture of what a mask file says, with a colour for each view.
+/// The picture of a mask file, with a colour for each view.
 fn through(mask: &Path, colour: impl Fn(u16) -> [u8; 3]) -> RgbImage {
     let mask = ImageReader::open(mask)
         .expect("a mask")
@@ -99,7 +99,7 @@ fn white(wanted: u16) -> impl Fn(u16) -> [u8; 3] {
     move |view| if view == wanted { [255; 3] } else { [0; 3] }
 }
 
-/// A panel file with everything that has to be kept, and where its masks go.
+/// A panel file with entries that have to be kept, and the folder of its masks.
 struct Panel {
     folder: TempDir,
 }
@@ -122,7 +122,7 @@ impl Panel {
         self.path(name).to_str().expect("UTF-8").to_owned()
     }
 
-    /// The mask that the command makes of a file.
+    /// The mask that the command writes for a panel file.
     fn mask(&self, file: &str) -> PathBuf {
         let out = self.path("mask.png");
         let mut command = manyview();
@@ -161,7 +161,7 @@ fn the_pattern_on_the_screen_is_the_one_of_the_file() {
         let window = Shown::start(&screen, &arguments);
         let expected = rgb(&out);
         let limit = Instant::now() + LIMIT;
-        // Nothing is said for scripts: the pattern does not change.
+        // The pattern does not change, so the command prints no line to wait for.
         while window
             .user
             .picture(window.window)
@@ -188,7 +188,7 @@ fn keys_change_the_sheet_and_the_picture_and_the_file_has_it() {
     );
     window.same(&through(&panel.mask("panel.toml"), white(3)), "as it was");
 
-    // Steps for 640x400: a stripe is 0.0148 of pitch, 0.0133 of slant, 5.3 of offset.
+    // Steps for 640x400: one press changes the pitch by 0.0148, the slant by 0.0133, the offset by 5.3.
     window.user.press(&[UP]);
     assert!(
         window
@@ -236,7 +236,7 @@ fn keys_change_the_sheet_and_the_picture_and_the_file_has_it() {
     window.same(&through(&panel.mask("out.toml"), halves), "halves");
     window.user.press(&[u32::from(b'i')]);
     assert!(window.line().contains("inverted true"));
-    // A key without a meaning says nothing and changes nothing.
+    // A key without a meaning prints nothing and changes nothing.
     window.user.press(&[u32::from(b'x')]);
     window.user.press(&[0xff0d]);
     assert!(window.line().contains("inverted true"));
@@ -296,7 +296,7 @@ fn what_cannot_be_shown_is_refused_in_one_sentence() {
     );
 }
 
-/// What docs/calibration.md promises to an eye, by rays through a sheet whose description may be wrong.
+/// The symptoms that docs/calibration.md describes, by rays through a sheet whose description may be wrong.
 #[test]
 fn an_eye_sees_what_is_wrong() {
     const SIZE: (u32, u32) = (640, 400);
@@ -324,7 +324,7 @@ fn an_eye_sees_what_is_wrong() {
         let shown = fit.picture().expect("a mask");
         see(&shown, &optics, &setup, eye, &|| ()).expect("seen")
     };
-    // White stripes along a line: at their edges the eye sees one colour and not the other.
+    // White stripes along a line; at their edges an eye sees a part of the colours.
     let stripes = |line: &mut dyn Iterator<Item = u8>| {
         let lit: Vec<_> = line.enumerate().filter(|(_, light)| *light > 100).collect();
         lit.windows(2)

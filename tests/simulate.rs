@@ -1,4 +1,4 @@
-//! `manyview simulate` as its users meet it.
+//! `manyview simulate` from its user's side.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -8,7 +8,7 @@ use std::path::Path;
 use support::{manyview, refused, run};
 use tempfile::tempdir;
 
-/// A folder with the picture of a panel: 5 views that are grey, darker to the left.
+/// A folder with the picture of a panel: 5 grey views, the darker the farther left.
 fn panel_of_greys() -> tempfile::TempDir {
     let folder = tempdir().expect("a folder");
     let grey = |x: u32, _| image::Luma([50 * (x % 5) as u8]);

@@ -1,9 +1,9 @@
-//! The long run: a game plays its demo again and again, in 8 views under the layer and beside it without the layer. Memory,
-//! descriptors and the layer's GL names are flat, but for what the game itself grows by.
+//! The long run: a game plays its demo again and again, in 8 views under the layer and beside it without the layer. Memory, descriptors and
+//! the layer's GL names stay constant, except for the game's own growth.
 //!
-//! `make soak` plays for `SOAK_MINUTES` (240 unless given). Results are in target/soak, or in `SOAK_FOLDER`: the samples as CSV, a
-//! chart, and one line in result.txt. `SOAK_LIBRARY` is the library to be tested, if not the one just built: a run of hours should
-//! not be disturbed by the next build. `SOAK_PROGRAM` chooses one of [`PROGRAMS`].
+//! `make soak` plays for `SOAK_MINUTES` (240 unless given). Results are in target/soak, or in `SOAK_FOLDER`: the samples as CSV, a chart,
+//! and one line in result.txt. `SOAK_LIBRARY` is the library to test instead of the one just built, so that the next build does not disturb
+//! a run of hours. `SOAK_PROGRAM` chooses one of [`PROGRAMS`].
 #![forbid(unsafe_code)]
 
 mod support;
@@ -30,7 +30,7 @@ struct Program {
 }
 
 const PROGRAMS: [Program; 1] = [
-    // The demo is begun again every 400 frames, which deletes and loads all textures. 10 frames a second leave the machine to
+    // The demo starts again every 400 frames, which deletes and loads all textures. 10 frames a second leave time on the machine to
     // others.
     Program {
         name: "openarena",
@@ -74,9 +74,9 @@ const PROGRAMS: [Program; 1] = [
     },
 ];
 
-/// Between two samples. The report is written as often as frames are shown.
+/// Time between two samples. The report is written as often as frames are shown.
 const PAUSE: Duration = Duration::from_secs(5);
-/// Between two lines for who waits.
+/// Time between two lines of progress.
 const LINES: Duration = Duration::from_secs(300);
 
 fn wish(name: &str) -> Option<String> {
@@ -108,7 +108,7 @@ impl Side {
                 command
             }
         };
-        // nice becomes the game, and so does its script: the child is the game.
+        // `nice` and the script both exec, so the child is the game itself.
         command
             .args(["-n", "19"])
             .args(program.command)
@@ -127,7 +127,7 @@ impl Side {
         }
     }
 
-    /// Takes a sample, or says how the game ended.
+    /// Takes a sample, or returns how the game ended.
     fn look(&mut self, hours: f64) -> Result<(), String> {
         if let Some(status) = self.child.try_wait().expect("a child") {
             let minutes = hours * 60.0;

@@ -1,5 +1,5 @@
-//! Synthesised views of depths (`--strategy depth-image`): they are those of the CPU reference, the panel's picture is that of the
-//! views, the program's own view is untouched, and what no depth tells of is drawn in each view.
+//! Synthesised views (`--strategy depth-image`): they equal those of the CPU reference, the panel's picture is interleaved from them, the
+//! program's own view is untouched, and whatever depths cannot describe is drawn in each view.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -16,7 +16,7 @@ const VIEWS: u32 = 5;
 const OWN: u32 = 2;
 const MAGENTA: [u8; 3] = [255, 0, 255];
 
-/// One frame of a demo as the layer shows it, and the report.
+/// Writes one frame of a demo under the layer to `out` and returns the report.
 fn shown(demonstration: &[&str], what: &str, options: &[&str], out: &Path) -> Value {
     let report = out.with_extension("json");
     let (name, arguments) = demonstration.split_first().expect("a demo");
@@ -52,7 +52,7 @@ fn made(report: &Value) -> [u64; 2] {
     })
 }
 
-/// Why views were made within the frames.
+/// Why views were synthesised within the frames.
 fn reasons(report: &Value) -> Vec<String> {
     let all = report["fallbacks"].as_object().expect("an object");
     all.keys().cloned().collect()
@@ -70,7 +70,7 @@ fn depth_image(demonstration: &[&str], own: &RgbImage, [near, far]: [f64; 2]) ->
     shown(demonstration, "depth", &["--views", "5"], &out);
     let depths = image::open(&out).expect("a picture").into_luma16();
     let inverse = |depth: u16| match depth {
-        // Nothing was drawn there.
+        // The background.
         u16::MAX => -1.0,
         depth => {
             let depth = f64::from(depth) / f64::from(u16::MAX);
@@ -125,7 +125,7 @@ fn views_are_those_of_the_reference() {
                 let differs: Vec<bool> = both.map(differs).collect();
                 let wrong = differs.iter().zip(&expected.holes);
                 let wrong = wrong.filter(|(differs, hole)| **differs && !**hole).count() as f64;
-                // How far a picture is from what is drawn, in holes.
+                // Sum of the errors of a picture against the drawn one, in holes.
                 let error = |picture: &RgbImage| {
                     let pairs = exact[at]
                         .pixels()
@@ -152,7 +152,7 @@ fn views_are_those_of_the_reference() {
                 println!(
                     "{scene:?} {atlas} view {view}: {wrong} pixels wrong, holes {filled} and {reference} from what is drawn, {odd} of {holes} holes"
                 );
-                // Single pixels where a ray passes an edge within the depths' 16 bits.
+                // Single pixels where a ray passes an edge within the precision of 16-bit depths.
                 assert!(
                     wrong <= 0.0005 * pixels,
                     "{scene:?} {atlas} view {view}: {wrong}"
@@ -210,7 +210,7 @@ fn a_panel_s_picture_is_that_of_its_views() {
     }
 }
 
-/// Those that make views, and have the same bounds.
+/// Options that synthesise views, all with the same bounds.
 const WAYS: [&[&str]; 4] = [
     &["--strategy", "depth-image"],
     &["--strategy", "occlusion"],
@@ -218,7 +218,7 @@ const WAYS: [&[&str]; 4] = [
     &["--strategy", "hybrid", "--true-views", "3"],
 ];
 
-/// Scenes with something that depths do not tell of, what ends them, and how close the worst view is to what is drawn, in dB.
+/// Scenes with draws that depths cannot describe, the kind of draw that ends synthesis, and the least PSNR of the worst view, in dB.
 const HARD: [(&[&str], &str, f64); 11] = [
     (&["gears"], "", 31.0),
     (&["gears", "--samples", "4"], "", 35.0),
@@ -273,7 +273,7 @@ fn programs_with_pictures_of_their_own_are_drawn_in_each_view() {
     }
 }
 
-/// Scenes of `hard` that do not hold the bound, and why.
+/// Scenes of `hard` that exceed the bound, and why.
 const APART: [(&str, &str); 5] = [
     (
         "answers",
@@ -293,10 +293,10 @@ const APART: [(&str, &str); 5] = [
         "vertices at 1,000,000 are rounded otherwise in each view",
     ),
 ];
-/// What is allowed of a view's pixels, in parts of all, outside holes: single pixels at silhouettes.
+/// Largest fraction of a view's pixels outside holes that may be wrong: single pixels at silhouettes.
 const OUTSIDE: f64 = 0.0005;
 
-/// Outside holes nothing is seen that is not there, or beside it; where depths do not tell, everything is as it is drawn.
+/// Outside holes no wrong surface is seen; where depths do not suffice, everything is drawn in each view.
 #[test]
 fn hard_scenes_are_right_outside_of_holes() {
     let mut list = support::bare(demo("hard"));
@@ -330,7 +330,7 @@ fn hard_scenes_are_right_outside_of_holes() {
             );
             let pixels = f64::from(exact[0].width() * exact[0].height());
             match APART.iter().find(|(apart, _)| *apart == name) {
-                // Two views know more than one, and may hold it.
+                // With two true views the bound may be met.
                 Some((_, why)) if !way.contains(&"hybrid") => {
                     assert!(worst as f64 > OUTSIDE * pixels, "{name}: {why}");
                 }
@@ -344,8 +344,8 @@ fn hard_scenes_are_right_outside_of_holes() {
     }
 }
 
-/// Pixels that are no holes, which are marked or have something before them, and more than 8 steps beyond all that is within a pixel of
-/// them.
+/// Pixels outside holes that are more than 8 steps beyond the range of the drawn picture within a pixel of them. `marked` is the view with
+/// its holes marked.
 fn odd(exact: &RgbImage, made: &RgbImage, marked: &RgbImage) -> usize {
     let (width, height) = exact.dimensions();
     let all = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
@@ -355,7 +355,7 @@ fn odd(exact: &RgbImage, made: &RgbImage, marked: &RgbImage) -> usize {
     .count()
 }
 
-/// What was shown straight from the own view has no other views; what is drawn over it has them all the same.
+/// A frame that the panel showed straight from the own view has no tiles of the others; draws over it still appear in all views.
 #[test]
 fn a_program_that_does_not_clear_draws_on() {
     let program = support::compiled("onward", support::Compiled::Program, &["-lEGL", "-lGL"]);
@@ -384,7 +384,7 @@ fn a_program_that_does_not_clear_draws_on() {
         let (exact, panel) = (picture("replay"), picture("depth-image"));
         let told = std::fs::read_to_string(&report).expect("a report");
         let report: Value = serde_json::from_str(&told).expect("JSON");
-        // Two frames begin a scene, two go on with it, two end it; after that nothing is made of depths.
+        // Two frames begin a scene, two go on with it, two end it; after that nothing is synthesised.
         assert_eq!(made(&report), [4, 2], "{report}");
         // Columns at the edges of four squares, in four of five views.
         let wrong = pixels_over(&exact, &panel, 8);
@@ -393,8 +393,8 @@ fn a_program_that_does_not_clear_draws_on() {
     }
 }
 
-/// Quake's engines blend light with a surface by drawing it again, and draw the weapon in the hand in a part of the depth range: all of
-/// that belongs to the scene. Glass by other vertices, or by the same ones that stand elsewhere now, or of which the other side is seen, does not.
+/// Quake's engines blend light with a surface by drawing it again, and draw the weapon in a part of the depth range: all of that belongs to
+/// the scene. Glass does not: it has other vertices, or the same ones moved since, or shows their other side.
 #[test]
 fn another_pass_over_a_surface_has_its_depths() {
     let program = support::compiled("over", support::Compiled::Program, &["-lEGL", "-lGL"]);
@@ -451,7 +451,7 @@ fn another_pass_over_a_surface_has_its_depths() {
     }
 }
 
-/// The other strategies know nothing of what the own view hides; of three true views, two see it from the other side.
+/// One true view has no samples of the surfaces that it hides; with three, two see them from the sides.
 #[test]
 fn what_one_true_view_hides_another_shows() {
     let cameras = ["--separation", "0.04", "--convergence", "8"];
@@ -466,7 +466,7 @@ fn what_one_true_view_hides_another_shows() {
     assert!(one >= 600 && three * 10 <= one, "{one} and {three} holes");
 }
 
-/// What is shown of `over` through a panel of five views, and what is reported.
+/// The picture of `over` through a panel of five views, and the report.
 fn over(strategy: &[(&str, &str)], arguments: [&str; 2]) -> (RgbImage, Value) {
     let program = support::compiled("over", support::Compiled::Program, &["-lEGL", "-lGL"]);
     let folder = tempfile::tempdir().expect("a folder");
@@ -487,7 +487,7 @@ fn over(strategy: &[(&str, &str)], arguments: [&str; 2]) -> (RgbImage, Value) {
     (rgb(&out), serde_json::from_str(&told).expect("JSON"))
 }
 
-/// Colours and depths are cleared one after the other, while the last picture was shown straight from what is drawn.
+/// Colours and depths are cleared by separate commands, after a frame that was shown straight from the own view.
 #[test]
 fn clears_of_their_own_begin_a_scene() {
     let frames = ["clears", "6"];
@@ -497,7 +497,7 @@ fn clears_of_their_own_begin_a_scene() {
     }
 }
 
-/// Frames that take no time to speak of, at a rate of one a second: views are added, one after the other, until all are drawn.
+/// Frames that cost next to nothing, with a budget of a second each: true views are added one after the other until all are drawn.
 #[test]
 fn all_views_are_drawn_where_there_is_time() {
     let governed = [("STRATEGY", "hybrid"), ("FPS", "1")];
@@ -511,7 +511,7 @@ fn all_views_are_drawn_where_there_is_time() {
     assert_eq!(steps, [2, 3, 4, 5], "{drawn:?}");
     assert_eq!(pixels_over(&exact, &last, 0), 0);
 
-    // What is cleared once only is there in views that join as well.
+    // Pixels that were cleared only once are in the views that join as well.
     let frames = ["once", "60"];
     let (exact, _) = over(&[("STRATEGY", "replay")], frames);
     let (joined, report) = over(&governed, frames);

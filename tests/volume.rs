@@ -1,4 +1,4 @@
-//! `manyview volume` as its users meet it, and slices of a reference image against those of the geometry.
+//! `manyview volume` from its user's side, and slices of a reference image against those of the geometry.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -20,7 +20,7 @@ const SMALL: RotatingScreen = RotatingScreen {
     ..RotatingScreen::POPESCU
 };
 
-/// A folder with a stack: a white square to the right of the middle, across the viewer's sight.
+/// A folder with a stack: a white square to the right of the middle, at a right angle to the viewer's direction.
 fn stack_of_a_square() -> tempfile::TempDir {
     let folder = tempdir().expect("a folder");
     let corner = |x: f32, y: f32| Vertex {
@@ -54,7 +54,7 @@ fn an_eye_sees_a_stack() {
     let lit = |picture: &image::RgbImage, x, y| picture.get_pixel(x, y).0[0] > 60;
     let seen = simulate(&[]);
     assert_eq!(seen.dimensions(), (720, 480));
-    // An inch is some 46 pixels.
+    // An inch has some 46 pixels.
     assert!(lit(&seen, 452, 240) && !lit(&seen, 268, 240) && !lit(&seen, 452, 340));
     assert_eq!(simulate(&["--eye", "0,0,50in"]), seen, "the viewer");
     let behind = simulate(&["--eye", "0, 0, -50"]);
@@ -144,7 +144,7 @@ fn sliced(demonstration: &[&str], of: &str, eyes: &[&str]) -> Vec<RgbImage> {
     seen.collect()
 }
 
-/// Without a screen.
+/// The command that starts a demo without a screen.
 fn started(demonstration: &[&str]) -> Vec<OsString> {
     let (name, arguments) = demonstration.split_first().expect("a demo");
     let mut command = vec![demo(name).into_os_string()];
@@ -189,7 +189,7 @@ fn the_viewer_sees_the_programs_own_picture() {
     command.arg(&out).arg("--").args(started(&gears));
     succeed(command.env_remove("DISPLAY"));
     let own = rgb(&out);
-    // Pixels to an inch before the middle of the display: of what is simulated, whose sphere has 0.96 of the height, and of the program's
+    // Pixels per inch at the middle of the display: of the simulated picture, whose sphere takes 0.96 of the height, and of the program's
     // picture, whose corners touch the sphere 2.5 inches farther back.
     let simulated = 0.96 * 320.0 * (2500.0_f64 - 25.0).sqrt() / 5.0 / 50.0;
     let program = 250.0 / (18.75_f64.sqrt() * 50.0 / 52.5);
@@ -202,7 +202,7 @@ fn the_viewer_sees_the_programs_own_picture() {
         for x in 4..396 {
             let pixels = (y - 3..=y + 3).flat_map(|y| (x - 3..=x + 3).map(move |x| (x, y)));
             let covered = pixels.filter(|&(x, y)| own.get_pixel(x, y).0 != own.get_pixel(0, 0).0);
-            // A voxel is a pixel of these pictures; two around it are the edges'.
+            // A voxel is about a pixel of these pictures; edges may reach two pixels farther.
             match covered.count() {
                 49 => {
                     let light = around(seen, at(x, y), 2);
@@ -230,7 +230,7 @@ fn the_viewer_sees_the_programs_own_picture() {
 fn what_is_hidden_from_the_program_is_there_for_eyes_beside_the_viewer() {
     let gaps = ["hard", "--case", "gaps"];
     let eyes = ["-4,0,50", "4,0,50"];
-    // Squares of the wall, which fills the picture, where no voxel shines.
+    // Squares of the wall, which fills the picture, in which no voxel is lit.
     let holes = |of: &str| {
         let seen = sliced(&gaps, of, &eyes);
         let dark = |seen: &RgbImage| {
@@ -265,7 +265,7 @@ fn what_cannot_be_sliced_is_one_line_and_status_2() {
     };
     into("src", "which is no part of a stack");
     into("no-such-folder/stack", "is not there");
-    // A program whose pictures have no depth.
+    // A program whose frames have no depth.
     let mut command = manyview();
     command.args(["volume", "slice", "--frame", "4", "--out", out, "--"]);
     let (code, _, said) = run(command.args(started(&["prims"])).env_remove("DISPLAY"));

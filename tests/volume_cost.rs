@@ -1,4 +1,4 @@
-//! What slices cost from the whole geometry and from reference images of it, how far these are apart, and how they look.
+//! The cost of slices from the whole geometry and from reference images of it, how far the two are apart, and how they look.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -11,11 +11,12 @@ use support::{geometry, target_folder};
 
 const SCREEN: RotatingScreen = RotatingScreen::POPESCU;
 
-/// The paper's picture.
+/// The picture size of the paper.
 const EXPERIMENT: Experiment = Experiment { size: [720, 480] };
 
-/// A model, by how much its reference image has to be faster, and how much of what the viewer sees may be lost, %. Nothing is asked of the smallest, whose
-/// image is finer than itself. Half a pixel of an image around its silhouettes and what is seen edge-on are lost, which is most where things are thin.
+/// A model, the speed-up that its reference image has to reach, and the per cent of the viewer's pixels that may be lost. The smallest
+/// model has no speed-up to reach: its image is finer than itself. A reference image loses half a pixel around silhouettes and surfaces
+/// that are seen edge-on, which costs most where things are thin.
 const SCENES: [(&str, f64, f64); 3] = [
     ("knot", 0.0, 1.5),
     ("statues", 8.5, 4.5),
@@ -25,13 +26,13 @@ const SCENES: [(&str, f64, f64); 3] = [
 /// Corners of the cube of viewpoints, inches.
 const HALF: f64 = 4.0;
 
-/// What is wrong at most, %. Samples of a reference image that were bent are farther apart than pixels, and what is between two of them may lie
-/// beside the surface.
+/// Largest part of the pixels that may be wrong, %. Samples of distorted rays are farther apart than pixels, and a point interpolated
+/// between two of them may lie beside the surface.
 const WRONG: f64 = 1.0;
 
 const ROUNDS: usize = 15;
 
-/// Milliseconds of both ways to lit voxels, medians of rounds in turns, and the voxels.
+/// Milliseconds from each source to lit voxels (medians of rounds in turns), and the volumes.
 fn measured(ways: [&dyn Fn() -> Volume; 2]) -> [(f64, Volume); 2] {
     let mut times = [Vec::new(), Vec::new()];
     for _ in 0..ROUNDS {
@@ -47,7 +48,7 @@ fn measured(ways: [&dyn Fn() -> Volume; 2]) -> [(f64, Volume); 2] {
     })
 }
 
-/// What is seen from the front, 4 inches to the left, and from the side.
+/// Writes the pictures that are seen from the front, from 4 inches to the left, and from the side.
 fn look(slices: &Slices, name: &str) {
     let folder = target_folder().with_file_name("volume");
     std::fs::create_dir_all(&folder).expect("a folder");
@@ -72,7 +73,7 @@ fn percent(part: usize, whole: usize) -> f64 {
     100.0 * part as f64 / whole.max(1) as f64
 }
 
-/// Its pictures are in `target/volume`.
+/// The pictures are in `target/volume`.
 #[test]
 #[ignore = "takes minutes and gigabytes"]
 fn cost_of_slices() {

@@ -1,4 +1,4 @@
-//! What the end of a frame costs: the interleave pass over a plain copy of a picture of the same size, in one run.
+//! The cost of the end of a frame: the time of the interleave pass over that of a plain copy of a picture of the same size, in one run.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -7,12 +7,12 @@ use manyview::interleave::cost::Cost;
 use std::process::Command;
 use support::{library, target_folder};
 
-/// Views of full size, and the ratio from which on the pass has become another one: with branches, 8 views took some 20. That is no aim.
-/// The aims, 2.5 for 8 views and 6 for 45, are nearly met at 8 views by masks that repeat, and missed by the others (ARCHITECTURE.md);
-/// other work on the cores adds a third, as it takes from the memory that 45 views have to be read from.
+/// Number of full-size views, and the ratio from which on the pass must have regressed: with branches, 8 views took some 20. This is not
+/// the aim. The aims, 2.5 for 8 views and 6 for 45, are nearly met for 8 views by masks that repeat, and missed by the others
+/// (docs/measured.md). Other work on the cores adds a third, since 45 views are bound by memory.
 const LARGEST: [(u32, f64); 2] = [(8, 7.0), (45, 15.0)];
 
-/// A size and a number of views as the probe takes them, none for all.
+/// Costs by the probe for a size and a number of views, or for all of them.
 fn costs(arguments: &[&str]) -> Vec<Cost> {
     library();
     let mut probe = Command::new(target_folder().join("manyview-probe"));
@@ -51,7 +51,7 @@ fn cost_of_the_interleave_pass() {
     }
 }
 
-/// Minutes, and gigabytes of memory.
+/// Takes minutes, and gigabytes of memory.
 #[test]
 #[ignore = "takes minutes and gigabytes"]
 fn cost_of_the_interleave_pass_at_every_size() {

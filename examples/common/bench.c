@@ -25,7 +25,7 @@ static long long clock_ns(clockid_t which)
     return (long long)t.tv_sec * 1000000000 + t.tv_nsec;
 }
 
-/* A CPU that draws for the GL answers timer queries as well, but with times of its own making. */
+/* Drivers that draw on the CPU answer timer queries as well, but not with GPU times. */
 static int is_software(const char *renderer)
 {
     static const char *const names[] = {"llvmpipe", "softpipe", "swrast", "Software", "SWR", NULL};
@@ -37,7 +37,7 @@ static int is_software(const char *renderer)
 
 static void find_gpu_clock(const char *renderer)
 {
-    /* Part of OpenGL 3.3, whose core contexts have no such string. */
+    /* Timer queries are part of OpenGL 3.3, whose core contexts have no such string. */
     int part = atof((const char *)glGetString(GL_VERSION)) >= 3.3;
     const char *extensions = part ? NULL : (const char *)glGetString(GL_EXTENSIONS);
     GLint bits = 0;

@@ -71,12 +71,11 @@ void demo_scissor_off(void)
         glDisable(GL_SCISSOR_TEST);
 }
 
-/* View i of N: the camera moved by e along its x axis, sheared so that depth X keeps its place:
- * row0' = row0 + sep * row3 - sep * conv * (0,0,0,1), sep = A e / X, conv = X, A = P[0][0].
- * Without the last term everything is infinitely far. */
+/* View i of N: the camera moves by e along its x axis, with the frustum sheared so that depth X keeps its place: row0' = row0 + sep * row3 -
+ * sep * conv * (0,0,0,1), sep = A e / X, conv = X, A = P[0][0]. Without the last term everything is infinitely far. */
 static double last_separation; /* of the last perspective projection, per unit of clip-space w */
 
-/* Moves a column-major projection (row r, column c is p[4 * c + r]); 0 where it stays as it is. */
+/* Moves a column-major projection (row r, column c is p[4 * c + r]); returns 0 where it stays the same. */
 static int move_view(GLfloat p[16], int infinitely_far)
 {
     double e = (view_index - (view_count - 1) / 2.0) * eye_spacing;

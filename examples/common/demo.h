@@ -1,5 +1,5 @@
-/* The frame that every demo program hangs in: options, window, views, picture files.
- * A demo supplies demo_setup(), demo_frame() and demo_options[]; common/demo.c has main(). */
+/* The main program of every demo: options, window, views, picture files.
+ * A demo defines demo_setup(), demo_frame() and demo_options[]; common/demo.c has main(). */
 #ifndef DEMO_H
 #define DEMO_H
 
@@ -13,7 +13,7 @@
 #include <GL/glext.h>
 #endif
 
-/* ---- what a demo supplies ---- */
+/* ---- defined by a demo ---- */
 struct demo_option {
     const char *name; /* "--vbo"; the list ends with a null name */
     const char *help;
@@ -23,33 +23,33 @@ struct demo_option {
 extern const struct demo_option demo_options[];
 #define DEMO_NO_OPTIONS const struct demo_option demo_options[] = {{0}}
 
-/* 1: the window has to have an accumulation buffer, 2: where windows have them. A demo that needs none leaves it out. */
+/* 1: the window has to have an accumulation buffer; 2: only where windows can have one. Other demos leave it out. */
 extern int demo_accumulation;
 void demo_setup(void);          /* once, with the context current */
 void demo_frame(int frame);     /* draws frame number 0, 1, 2, ...; the same picture for the same number */
 
-/* ---- what a demo may use ---- */
+/* ---- used by a demo ---- */
 extern int demo_width, demo_height; /* size of the picture (--size) */
 extern int demo_x, demo_y;          /* where it begins in the window (--offset) */
 extern int demo_es;                 /* 2 or 3 in a context of OpenGL ES (--profile es2, es3), else 0 */
 
 double demo_time(int frame);        /* 0.02 s a frame */
 
-/* Like glViewport and glScissor (which it also enables), from the corner of the picture. */
+/* Like glViewport and glScissor (whose test it also enables), relative to the corner of the picture. */
 void demo_viewport(int x, int y, int width, int height);
 void demo_scissor(int x, int y, int width, int height);
 void demo_scissor_off(void);
 
-/* To be called after every change of a perspective GL_PROJECTION matrix: with --view it puts the
- * matrix of that view in its place. It touches no orthographic matrix. */
+/* Has to follow every change of a perspective GL_PROJECTION matrix: with --view it replaces the matrix by that of the view. Orthographic
+ * matrices stay as they are. */
 void demo_projection_done(void);
-/* The same for a projection that goes to shaders, column-major: with --view it becomes that of the view. */
+/* The same for a column-major projection for shaders: with --view it becomes that of the view. */
 void demo_view(GLfloat projection[16]);
 /* Loads a perspective projection and calls demo_projection_done(). fovy in degrees. */
 void demo_perspective(double fovy, double aspect, double z_near, double z_far);
-/* The same for what is infinitely far in every view. */
+/* The same for a sky, which is infinitely far in every view. */
 void demo_perspective_sky(double fovy, double aspect, double z_near, double z_far);
-/* To be called after an orthographic GL_PROJECTION matrix of a flat display: --hud-depth moves it as a whole. */
+/* Has to follow an orthographic GL_PROJECTION matrix of a flat display: --hud-depth shifts the display as a whole. */
 void demo_flat_done(void);
 
 typedef void (*demo_function)(void);
@@ -65,23 +65,23 @@ void demo_box(double x, double y, double z); /* half sizes, around the origin */
 GLuint demo_checker(int size, int squares, const GLubyte a[3], const GLubyte b[3]);
 
 /* ---- shaders.c ---- */
-/* A linked program; the attribute `position` is at 0, `normal` at 1. In OpenGL ES texts of GLSL 1.20 and 3.30 are taken for ones of
- * 1.00 and 3.00 es. */
+/* A linked program; the attribute `position` is at 0, `normal` at 1. In OpenGL ES, shaders of GLSL 1.20 and 3.30 are compiled as 1.00 and 3.00
+ * es. */
 GLuint demo_program(const char *vertex, const char *fragment);
-/* The same of any stages, null where there is none: vertex, tessellation control and evaluation, geometry, fragment. */
+/* A linked program of any stages, null for those without: vertex, tessellation control and evaluation, geometry, fragment. */
 GLuint demo_stages(const char *const texts[5]);
-/* A new buffer, left bound; without data it is one that is written often. */
+/* A new buffer, left bound; without data it is for frequent updates. */
 GLuint demo_buffer(GLenum target, const void *data, size_t size);
-/* Fails where the context is older; 42 is OpenGL 4.2. */
+/* Fails where the context is older than `version`; 42 is OpenGL 4.2. */
 void demo_needs(int version);
 typedef GLfloat demo_matrix[16]; /* column-major */
 void demo_times(demo_matrix out, const demo_matrix a, const demo_matrix b);
 void demo_inverse(demo_matrix out, const demo_matrix m); /* of one that has an inverse */
 /* A perspective projection, not yet that of a view. fovy in degrees. */
 void demo_frustum(demo_matrix out, double fovy, double aspect, double z_near, double z_far);
-/* A camera, y upwards, and the way back from what it sees. */
+/* The matrix of a camera with y upwards, and its inverse. */
 void demo_look(demo_matrix out, demo_matrix back, const double from[3], const double to[3]);
-/* Turned about (u, v, 0) of length 1, then moved. */
+/* Rotated about the unit vector (u, v, 0), then translated. */
 void demo_turned(demo_matrix out, double angle, double u, double v, double x, double y, double z);
 
 /* ---- png.c ---- */

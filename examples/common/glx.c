@@ -8,7 +8,7 @@ static Display *display;
 static Window win;
 static GLXContext context;
 
-/* The config is only found where the visual is chosen by it. */
+/* Chooses a visual, and its config where the visual is chosen by config. */
 static XVisualInfo *choose(const struct demo_window *w, GLXFBConfig *config)
 {
     int screen = DefaultScreen(display);
@@ -78,7 +78,7 @@ static int frame_end(void)
 
 static demo_function proc(const char *name) { return (demo_function)glXGetProcAddressARB((const GLubyte *)name); }
 
-/* Drawing what another window covers is cheaper. */
+/* A covered window is cheaper to draw, which would falsify timings. */
 static void raise_window(void)
 {
     XRaiseWindow(display, win);

@@ -1,4 +1,4 @@
-/* Into memory, without any window system. A frame ends with glFinish. */
+/* Draws into memory, without any window system. A frame ends with glFinish. */
 #include "demo.h"
 #include <GL/osmesa.h>
 #include <stdlib.h>

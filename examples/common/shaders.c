@@ -1,10 +1,10 @@
-/* Programs of shaders and their matrices, for demos that bring their own. */
+/* Shader programs and matrices, for demos that have shaders. */
 #include "demo.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* What OpenGL ES has instead of the first line of a text, which is left out. */
+/* The first line for OpenGL ES, in place of the text's own, which is skipped. */
 static const char *first_line(const char **text)
 {
     static const struct { const char *desktop, *es; } lines[] = {
@@ -50,7 +50,7 @@ GLuint demo_stages(const char *const texts[5])
     glBindAttribLocation(program, 0, "position");
     glBindAttribLocation(program, 1, "normal");
     glLinkProgram(program);
-    /* As programs do that keep no more than they need. */
+    /* Detaches and deletes the shaders, as many programs do. */
     for (int k = 0; k < 5; k++)
         if (texts[k]) {
             glDetachShader(program, stages[k]);

@@ -1,4 +1,4 @@
-/* A few solids, drawn the old way. */
+/* A few solids by glBegin and glEnd. */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>

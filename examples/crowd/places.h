@@ -1,4 +1,4 @@
-/* Who is in the crowd of crowd.c, and where. */
+/* The members of the crowd of crowd.c, and their places. */
 #include <math.h>
 
 enum { PAWNS = 140, LOW = 40, HIGH = 40, GEMS = 80, CROWD = PAWNS + LOW + HIGH + GEMS };
@@ -18,7 +18,7 @@ static void hue(GLubyte colour[4], double h, double middle, double swing)
     colour[3] = 255;
 }
 
-/* Where everybody is: pawns in circles, rings over them in two wreaths, gems in a spiral. */
+/* Moves everybody: pawns in circles, rings over them in two wreaths, gems in a spiral. */
 static void move(struct one *o, double t)
 {
     static const int circle[] = {12, 20, 28, 36, 44};

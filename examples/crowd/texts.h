@@ -1,6 +1,6 @@
 /* The shaders of crowd.c. Each text follows a #version line and, with --pulled, a #define of it. */
 #define CAMERA "layout(std140) uniform Camera { mat4 view; mat4 projection; vec4 sun; } camera;\n"
-/* Where an instance stands: an attribute, or what its number finds in a texture buffer, two texels an instance. */
+/* The place of an instance: an attribute, or two texels of a texture buffer that its number selects. */
 #define PLACE \
     "#ifdef PULLED\n" \
     "uniform samplerBuffer crowd;\n" \
@@ -95,7 +95,7 @@ static const char vertex_floor[] = CAMERA
 static const char fragment_floor[] = LIGHT
     "in vec3 paint;\n"
     "void main() { shown = vec4(light(paint, 0.1, 0.0), 1.0); }\n";
-/* The display: rectangles, or on its map a dot for each of the crowd. */
+/* The display: rectangles, or a dot on its map for each member of the crowd. */
 static const char vertex_flat[] = PLACE
     "layout(location = 0) in vec3 corner;\n"
     "layout(location = 4) in vec4 colour;\n"

@@ -1,4 +1,4 @@
-/* Cases of what a program is told, and of which vertex and which instance is which. */
+/* Cases of answers to a program's queries, and of the identity of vertices and instances. */
 #include "hard.h"
 #include <stdio.h>
 
@@ -17,7 +17,7 @@ static void things(void)
     send_immediate(0);
 }
 
-/* Occlusion queries, selection, feedback, pixels read: every answer is about the program's own view. */
+/* Occlusion queries, selection, feedback, pixels read back: every answer is about the program's own view. */
 static void draw_answers(int frame)
 {
     static GLfloat returned[4096];

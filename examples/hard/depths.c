@@ -1,9 +1,9 @@
-/* Cases of depth: what lies in the plane of the camera, coplanar surfaces, other depth ranges, passes that have to meet exactly. */
+/* Cases of depth: surfaces through the plane of the camera, coplanar surfaces, other depth ranges, passes that have to match exactly. */
 #include "hard.h"
 #include <math.h>
 
-/* Triangles from before the camera through its plane to far behind it. The sides of the first two nearly run along the sides of the
- * picture, where a cut is least certain. */
+/* Triangles from in front of the camera through its plane to far behind it. The sides of the first two nearly run along the sides of the
+ * picture, where clipping is least certain. */
 static void through_camera(double ratio)
 {
     static const unsigned rgb[4] = {0xff4040, 0x40ff40, 0x4040ff, 0xffff40};
@@ -37,7 +37,7 @@ static void part(double s0, double t0, double s1, double t1, double out[4][3])
     }
 }
 
-/* Decals in the very plane of a slanting wall, before it by polygon offset alone. */
+/* Decals in the plane of a slanting wall, kept in front by polygon offset alone. */
 static void draw_decals(int frame)
 {
     (void)frame;
@@ -56,8 +56,8 @@ static void draw_decals(int frame)
     glDisable(GL_DEPTH_TEST);
 }
 
-/* A wedge before a slope that is pushed back by GL_POLYGON_OFFSET_FILL with a factor alone: of the green wedge, which sinks into it row by
- * row, as much is seen as the offset is large. Orthographic slopes have one slope everywhere, so the area is the offset. */
+/* A wedge in front of a slope that is pushed back by GL_POLYGON_OFFSET_FILL with a factor alone. The wedge sinks into the slope row by row, so
+ * its visible green area measures the offset. Orthographic slopes have one slope everywhere. */
 static void draw_offset_gauge(int frame)
 {
     (void)frame;
@@ -72,7 +72,7 @@ static void draw_offset_gauge(int frame)
     glOrtho(0, demo_width, 0, demo_height, 0, 256);
     glMatrixMode(GL_MODELVIEW);
     double w = demo_width, h = demo_height;
-    /* Depth 0.25 a pixel to the right: an offset of 1 is a quarter of a unit. */
+    /* A slope of depth 0.25 per pixel to the right: an offset of 1 is a quarter of a unit. */
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(20, 0);
     start(GL_TRIANGLE_FAN);
@@ -100,7 +100,7 @@ static void crossing(void)
     patch(third, 6, 6, c);
 }
 
-/* Rows 2 of matrices with near plane n: z at the near plane and infinitely far. */
+/* Sets row 2 of a matrix with near plane n, by the depths at the near plane and at infinity. */
 static void infinite(double n, double at_near, double at_infinity)
 {
     /* z_clip / w = -p10 + p14 / w with w = -z_eye. */
@@ -132,7 +132,7 @@ static void draw_infinite(int frame)
     glDisable(GL_DEPTH_TEST);
 }
 
-/* glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE) with depths from 1 to 0, where there is one. */
+/* glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE) with depths from 1 to 0, where it is available. */
 static void draw_zero_to_one(int frame)
 {
     typedef void (APIENTRY *clip_control)(GLenum, GLenum);
@@ -149,7 +149,7 @@ static void draw_zero_to_one(int frame)
     control(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
 }
 
-/* The range of depths turned round and cut in two: what is drawn into its near part is before everything. */
+/* The depth range inverted and split in two: draws into its near part are in front of everything. */
 static void draw_depth_range(int frame)
 {
     (void)frame;
@@ -197,7 +197,7 @@ static void after_passes(void)
     glDisable(GL_DEPTH_TEST);
 }
 
-/* Every red pixel is one that the pass after it has missed. */
+/* Red pixels show where the second pass has missed the first. */
 static void draw_equal_arrays(int frame)
 {
     (void)frame;
@@ -224,7 +224,7 @@ static void draw_equal_list(int frame)
     after_passes();
 }
 
-/* ftransform() has to give what fixed function does. */
+/* ftransform() has to give the position of fixed function. */
 static void setup_program(void)
 {
     PFNGLCREATESHADERPROC create = (PFNGLCREATESHADERPROC)demo_proc("glCreateShader");
@@ -256,7 +256,7 @@ static void draw_equal_program(int frame)
     after_passes();
 }
 
-/* Six planes of the program's own beside whatever keeps views apart. */
+/* Six clip planes of the program's own beside those that keep views apart. */
 static void draw_clip_planes(int frame)
 {
     (void)frame;

@@ -1,4 +1,4 @@
-/* Picks the case, and what all of them draw with. */
+/* Picks the case, and has the functions that all cases draw with. */
 #include "hard.h"
 #include <stdio.h>
 #include <stdlib.h>

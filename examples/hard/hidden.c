@@ -1,4 +1,4 @@
-/* Cases of what one view sees and another does not: hard for views that are made of one view and its depths. */
+/* Cases of disocclusion: surfaces that one view sees and another does not, hard for views that are synthesised from one view and its depths. */
 #include "hard.h"
 
 static void box(double left, double right, double low, double high, double z, unsigned light, unsigned dark)
@@ -8,7 +8,7 @@ static void box(double left, double right, double low, double high, double z, un
     patch(corner, 2, 4, rgb);
 }
 
-/* A wall that goes beyond the picture, and bars before it: broad ones, thin ones close to each other, and one cut by each edge. */
+/* A wall that extends beyond the picture, and bars in front of it: broad ones, thin ones close to each other, and one cut by each edge. */
 static void bars(void)
 {
     static const unsigned wall_rgb[2] = {0x7080a0, 0x506080};
@@ -31,7 +31,7 @@ static void draw_gaps(int frame)
     glDisable(GL_DEPTH_TEST);
 }
 
-/* What comes after it: lights that are added, depths that are cleared for something in the hand, and a flat display. */
+/* Draws over the scene: added lights, a weapon after a clear of the depths, and a flat display. */
 static void draw_layered(int frame)
 {
     (void)frame;

@@ -1,8 +1,8 @@
-/* Cases of where things stand: markers at known depths under all kinds of cameras. */
+/* Cases of position: markers at known depths under all kinds of cameras. */
 #include "hard.h"
 #include <math.h>
 
-/* Of all frusta here: |x| <= 0.8 and |y| <= 0.6 at depth 1. */
+/* The frustum of all cases here: |x| <= 0.8 and |y| <= 0.6 at depth 1. */
 static const double A = 1.25, B = 1 / 0.6;
 static const unsigned colours[] = {0xff0000, 0x00ff00, 0x0000ff, 0xffff00, 0xff00ff};
 
@@ -19,7 +19,7 @@ static void scene_projection_done(void)
     glMatrixMode(GL_MODELVIEW);
 }
 
-/* Five markers, at depths whose disparities keep them apart; with depths, so that nobody takes them for a sky. */
+/* Five markers at depths whose disparities keep them apart; they write depths, so that no rule takes them for a sky. */
 static void five(const double depth[5], const double w[5])
 {
     glEnable(GL_DEPTH_TEST);
@@ -49,7 +49,7 @@ static void draw_homogeneous(int frame)
     five(near_to_far, w);
 }
 
-/* Sides of a shadow volume: from an occluder to infinity, counted in the stencil buffer, seen from the front. */
+/* Sides of a shadow volume, from an occluder to infinity, counted in the stencil buffer, seen from the front. */
 static void draw_extruded(int frame)
 {
     (void)frame;
@@ -95,7 +95,7 @@ static void draw_extruded(int frame)
     glDisable(GL_STENCIL_TEST);
 }
 
-/* What turns and never moves, without depth, before anything else: infinitely far. */
+/* A sky: it turns and never moves, writes no depth, comes before everything else: infinitely far. */
 static void draw_sky(int frame)
 {
     (void)frame;
@@ -127,7 +127,7 @@ static void draw_sky(int frame)
     glDisable(GL_DEPTH_TEST);
 }
 
-/* A number times P times scales: mirrored cameras and cameras that look along +z. Only front faces are seen. */
+/* P with its axes and as a whole scaled: mirrored cameras and cameras that look along +z. Only front faces are visible. */
 static void scaled(double x, double z, double whole)
 {
     GLdouble all[16] = {whole, 0, 0, 0, 0, whole, 0, 0, 0, 0, whole, 0, 0, 0, 0, whole};
@@ -136,7 +136,7 @@ static void scaled(double x, double z, double whole)
     glFrustum(-1 / A, 1 / A, -1 / B, 1 / B, 1, 2000);
     glScaled(x, 1, z);
     scene_projection_done();
-    /* The pictures of the markers stay where they are: the modelview undoes it. */
+    /* The modelview undoes the scale, so that the markers keep their places. */
     glScaled(x, 1, z);
     tell_lens(A * x);
     glEnable(GL_CULL_FACE);
@@ -150,7 +150,7 @@ static void draw_turned(int frame) { (void)frame; scaled(-1, -1, 1); }
 static void draw_large_matrix(int frame) { (void)frame; scaled(1, 1, 1024); }
 static void draw_small_matrix(int frame) { (void)frame; scaled(1, 1, 1.0 / 1024); }
 
-/* The middle of the picture is far outside of it. */
+/* A frustum whose axis is far outside of the picture. */
 static void draw_off_axis(int frame)
 {
     (void)frame;
@@ -169,7 +169,7 @@ static void draw_off_axis(int frame)
     }
 }
 
-/* The camera's place and turn are in the projection matrix, as some engines have it. */
+/* The camera's position and rotation are in the projection matrix, as in some engines. */
 static void draw_camera(int frame)
 {
     (void)frame;
@@ -185,7 +185,7 @@ static void draw_camera(int frame)
     five(near_to_far, NULL);
 }
 
-/* A focal depth right before the near plane: --focal-depth 0.02. */
+/* A focal depth just before the near plane: --focal-depth 0.02. */
 static void draw_near_focus(int frame)
 {
     (void)frame;
@@ -196,7 +196,7 @@ static void draw_near_focus(int frame)
     five(depth, NULL);
 }
 
-/* Coordinates of the world are large, and what is seen of them is near: 20 bits of a float are gone before it is drawn. */
+/* World coordinates are large and the camera is near: transformation cancels 20 bits of a float. */
 static void draw_far_from_origin(int frame)
 {
     (void)frame;
@@ -211,7 +211,7 @@ static void draw_far_from_origin(int frame)
     glDisable(GL_DEPTH_TEST);
 }
 
-/* Cameras far from each other: things leave the picture, and are seen from beside. */
+/* Cameras far apart: things leave the picture, and are seen from the side. */
 static void draw_apart(int frame)
 {
     (void)frame;
@@ -231,7 +231,7 @@ static void draw_apart(int frame)
     glDisable(GL_DEPTH_TEST);
 }
 
-/* A display over everything: the same in all views. */
+/* A display over the whole picture: the same in all views. */
 static void draw_hud(int frame)
 {
     (void)frame;

@@ -1,9 +1,9 @@
-/* Cases of how things look: colours of vertices, light, textures, what is wider than its place. */
+/* Cases of appearance: vertex colours, light, textures, points and lines wider than their place. */
 #include "hard.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* Wide and smooth points and lines on the sides of the picture: what hangs over belongs to nobody. */
+/* Wide and smooth points and lines on the sides of the picture: the part beyond the side must not show in another view. */
 static void draw_wide(int frame)
 {
     (void)frame;
@@ -37,7 +37,7 @@ static void draw_wide(int frame)
     glLineWidth(1);
 }
 
-/* Every mode that has a provoking vertex, flat, each vertex of a colour of its own. */
+/* Every mode that has a provoking vertex, flat-shaded, with a colour for each vertex. */
 static void flat(GLenum convention)
 {
     static const GLenum modes[] = {GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON};
@@ -178,7 +178,7 @@ static void draw_normals(int frame)
 
 /* ---- small triangles ---- */
 
-/* A mesh whose cells are smaller than pixels, and slivers from side to side; edges meet other edges' middles. */
+/* A mesh whose cells are smaller than pixels, and slivers across the picture; some edges end in the middle of others. */
 static void draw_slivers(int frame)
 {
     (void)frame;
@@ -208,7 +208,7 @@ static void setup_checker(void)
     checker = demo_checker(64, 8, a, b);
 }
 
-/* Texture coordinates of 100,000: a float has 7 bits of a texel left. */
+/* Texture coordinates of 100,000: a float keeps 7 bits of a repeat, which is half a texel. */
 static void draw_texture(int frame)
 {
     (void)frame;
@@ -230,7 +230,7 @@ static void draw_texture(int frame)
 
 static GLuint levels;
 
-/* Level k of the texture has the grey 24 k: a pixel tells its level of detail to 1/24. */
+/* Level k of the texture has the grey 24 k: a pixel shows its level of detail to 1/24. */
 static void setup_levels(void)
 {
     glGenTextures(1, &levels);
@@ -249,7 +249,7 @@ static void setup_levels(void)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
 }
 
-/* A floor to the horizon, in focus where it is halfway. */
+/* A floor to the horizon, in focus half way. */
 static void draw_levels(int frame)
 {
     (void)frame;

@@ -1,4 +1,4 @@
-/* The shaders of passes.c, and which texture units their samplers have. */
+/* The shaders of passes.c, and the texture units of their samplers. */
 #define GLSL "#version 330 core\n"
 #define CAMERA "layout(std140) uniform Camera { mat4 view; mat4 projection; vec4 lamp, towards; } camera;\n"
 #define SURFACE /* colour and glow; the floor has tiles */ \

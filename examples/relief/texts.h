@@ -1,4 +1,4 @@
-/* The shaders of relief.c. All light is in world space; only what is projected goes through matrices. */
+/* The shaders of relief.c. All light is in world space; only positions go through matrices. */
 #define GLSL_330 "#version 330 core\n"
 #define GLSL_400 "#version 400 core\n"
 #define LAND /* smooth everywhere, so that a last bit makes no difference */ \
@@ -91,7 +91,7 @@ static const char evaluation_grass[] = EVALUATION
     "    corner = displaced();\n"
     "    gl_Position = vec4(corner, tint);\n" /* for the geometry shader, which projects */
     "}\n";
-/* In each pixel the true slope, however coarse the triangles, and whether hills stand before the sun. */
+/* Uses the true slope in each pixel, however coarse the triangles, and shadows by hills. */
 static const char fragment_land[] = GLSL_400 LAND LIGHT EARTH
     "in vec3 place;\n"
     "in float shade;\n"
@@ -107,7 +107,7 @@ static const char fragment_land[] = GLSL_400 LAND LIGHT EARTH
     "    shown = vec4(hazy(lit(shade * earth(place, n), n, open), place), 1.0);\n"
     "}\n";
 
-/* ---- and with grass, which a geometry shader makes of each triangle ---- */
+/* ---- the land with grass, which a geometry shader grows on each triangle ---- */
 
 static const char vertex_grass[] = GLSL_330 LAND
     "layout(location = 0) in vec2 position;\n"
@@ -158,7 +158,7 @@ static const char vertex_grass[] = GLSL_330 LAND
     "}\n"
 static const char geometry_grass[] = GLSL_330 GRASS
     "void main() { grow(float(gl_PrimitiveIDIn % 1000), gl_PrimitiveIDIn % 2 == 0 ? 1.0 : 0.93); }\n";
-/* Not by gl_PrimitiveIDIn: llvmpipe counts the triangles here, others may count the patches. */
+/* Without gl_PrimitiveIDIn: llvmpipe counts triangles here, others may count patches. */
 static const char geometry_both[] = GLSL_400 GRASS
     "void main() { grow(9.0 * corner[0].x + 7.0 * corner[0].z, gl_in[0].gl_Position.w); }\n";
 static const char fragment_grass[] = GLSL_330 LIGHT EARTH
@@ -208,7 +208,7 @@ static const char vertex_points[] = GLSL_330 LAND
     "        p += vec3(0.5 * sin(0.7 * time + drift), 0.25 * sin(1.1 * time + 2.0 * drift), 0.4 * cos(0.6 * time + drift));\n"
     "    gl_Position = vec4(p.x, p.y + height(p.xz), p.z, position.w);\n"
     "}\n";
-/* Squares that face the camera: made where it is at the origin, then projected. Three for a tree, one for a seed. */
+/* Squares that face the camera: built in eye space, then projected. Three for a tree, one for a seed. */
 static const char geometry_points[] = GLSL_330
     "layout(points) in;\n"
     "layout(triangle_strip, max_vertices = 12) out;\n"
@@ -262,7 +262,7 @@ static const char fragment_sky[] = GLSL_330 LIGHT
     "uniform vec3 window;\n" /* where it begins, how high it is */
     "out vec4 shown;\n"
     "void main() { shown = vec4(sky((gl_FragCoord.y - window.y) / window.z - 0.62), 1.0); }\n";
-/* A rectangle for an instance, by the number of its vertex, or for a point. */
+/* Rectangles by instance and vertex number, or points. */
 static const char vertex_flat[] = GLSL_330
     "layout(location = 0) in vec4 rectangle;\n"
     "layout(location = 1) in vec4 colour;\n"

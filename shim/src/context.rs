@@ -1,4 +1,4 @@
-//! Which context is current on which thread, and the guard that every hook passes.
+//! The context that is current on each thread, and the guard that every hook passes.
 
 use crate::control;
 use crate::deep;
@@ -15,7 +15,7 @@ use core::panic::AssertUnwindSafe;
 use manyview_core::gl::{Gl, Ptr, Real};
 use manyview_core::layer::{Frames, Layer};
 
-/// Per thread. No destructor: threads may call GL while they are torn down.
+/// The state of a thread. It has no destructor, because threads may call GL while they end.
 struct Thread {
     context: Cell<*mut Context>,
     provider: Cell<Option<Provider>>,
@@ -23,15 +23,15 @@ struct Thread {
     inside: Cell<Inside>,
 }
 
-/// Where a thread is between glBegin and glEnd. The driver is there as well, so that it refuses what has no place there; hooks
-/// pass everything on.
+/// Whether a thread is between glBegin and glEnd. There the driver is between them as well, so that it refuses commands that are
+/// not allowed; other hooks pass everything on.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Inside {
-    /// Not between them.
+    /// Not between glBegin and glEnd.
     Outside,
-    /// The calls are recorded.
+    /// Calls are recorded.
     Recorded,
-    /// The calls go to the driver.
+    /// Calls go to the driver.
     Direct,
 }
 
@@ -41,7 +41,7 @@ thread_local! {
     };
 }
 
-/// The real functions for this thread: of whoever made its context current.
+/// The driver's functions for this thread: those of the provider that made its context current.
 pub(crate) fn real() -> &'static Real {
     let provider = THREAD.with(|t| t.provider.get()).unwrap_or_else(|| {
         if Provider::Gl.loaded() {
@@ -65,12 +65,12 @@ pub(crate) fn inside() -> Inside {
     THREAD.with(|t| t.inside.get())
 }
 
-/// At glBegin and glEnd.
+/// Notes glBegin and glEnd.
 pub(crate) fn set_inside(inside: Inside) {
     THREAD.with(|t| t.inside.set(inside));
 }
 
-/// Runs with hooks passed through: around real functions that may call exported names, and around our own work.
+/// Runs `f` with all hooks passing calls on: around functions of the driver that may call exported names, and around our own work.
 pub(crate) fn guarded<R>(f: impl FnOnce() -> R) -> R {
     THREAD.with(|t| t.depth.set(t.depth.get() + 1));
     let r = f();
@@ -78,8 +78,8 @@ pub(crate) fn guarded<R>(f: impl FnOnce() -> R) -> R {
     r
 }
 
-/// The layer of the current context, without a guard: for work that can neither panic nor call GL. None between glBegin and
-/// glEnd, where a call has no effect but an error.
+/// Runs `f` on the layer of the current context without the guard, for work that can neither panic nor call GL. None between glBegin
+/// and glEnd, where a call has no effect but an error.
 #[inline]
 pub(crate) fn peek<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
     if inside() == Inside::Outside {
@@ -89,7 +89,7 @@ pub(crate) fn peek<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
     }
 }
 
-/// As [`peek`], between glBegin and glEnd as well.
+/// As [`peek`], but also between glBegin and glEnd.
 #[inline]
 pub(crate) fn peek_inside<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
     if THREAD.with(|t| t.depth.get()) > 0 {
@@ -102,7 +102,7 @@ pub(crate) fn peek_inside<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
     .flatten()
 }
 
-/// The context that this thread has current. What it is given to does not release it.
+/// Runs `f` on the context that this thread has current. `f` must not release it.
 #[inline]
 fn current<R>(f: impl FnOnce(&Context) -> R) -> Option<R> {
     let context = THREAD.with(|t| t.context.get());
@@ -113,8 +113,9 @@ fn current<R>(f: impl FnOnce(&Context) -> R) -> Option<R> {
     Some(f(unsafe { &*context }))
 }
 
-/// The guard of every hook that does something: the current context's layer and driver, unless there is none, the call comes from
-/// inside the layer or the driver or between glBegin and glEnd, or the layer is off. A panic turns the layer off for good.
+/// The guard of every hook that does something: runs `f` on the driver and the layer of the current context. None if there is no
+/// context, if the call comes from inside the layer or the driver or between glBegin and glEnd, or if the layer is off. A panic turns
+/// the layer off for good.
 pub(crate) fn enter<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
     with_context(|gl, _, work| work.layer.as_mut().map(|l| f(gl, l))).flatten()
 }
@@ -152,14 +153,14 @@ fn with_context<R>(f: impl FnOnce(&Gl, &Context, &mut Work) -> R) -> Option<R> {
     .flatten()
 }
 
-/// Turns the layer off for good, and whoever controls it is told.
+/// Turns the layer off for good and closes the control socket.
 fn give_up(why: &str) {
     if turn_off(why) {
         control::close(control::State::Closed);
     }
 }
 
-/// The context that was current on this thread with a drawable; used to tell whether MakeCurrent changes anything.
+/// Whether this thread already has a context current with a drawable, so that MakeCurrent changes nothing.
 pub(crate) fn is_current(provider: Provider, handle: Ptr, drawable: Drawable) -> bool {
     let is = |c: &Context| {
         c.key == (provider, handle) && c.drawable.get() == drawable && !registry::is_destroyed(c)
@@ -172,10 +173,10 @@ pub(crate) fn draws_to(drawable: Drawable) -> bool {
     current(|c| c.drawable.get() == drawable) == Some(true)
 }
 
-/// After a successful MakeCurrent of the program: takes the context over, or takes up again what it had. A null handle or no
-/// drawable means that the thread has nothing to draw to.
+/// After a successful MakeCurrent of the program: sets up the layer of the context, or resumes the one that it has. With a null handle
+/// or without a drawable, the thread has nothing to draw to.
 pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Drawable>) {
-    // The driver, or the layer, does this for a call that has its own hook.
+    // The call comes from the driver or the layer, inside a call that has a hook of its own.
     if THREAD.with(|t| t.depth.get()) > 0 {
         return;
     }
@@ -212,7 +213,7 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
                 l.abandon(gl);
                 work.layer = None;
             }
-            // Nothing is shown of such a context, and so no frame brings it the values of the others.
+            // Such a context shows no frames, at which it would get the values of the process.
             Some(l) if l.is_hidden() => live::adopt(l),
             _ => {}
         }
@@ -237,8 +238,8 @@ fn attach(gl: &Gl, key: Key, work: &mut Work, width: u32, height: u32) -> Result
     Ok(())
 }
 
-/// This thread has no context of ours any more; the record of one that was destroyed while it was current goes. Its GL objects
-/// go with the context.
+/// Releases the context of this thread. The record of a context that was destroyed while it was current is freed. Its GL objects end
+/// with the context.
 fn release() {
     let context = THREAD.with(|t| t.context.replace(core::ptr::null_mut()));
     if context.is_null() {
@@ -254,15 +255,15 @@ fn release() {
     forget(unsafe { registry::release(context) });
 }
 
-/// A context that nobody has any more.
+/// Frees the record of a destroyed context.
 fn forget(context: Option<Box<Context>>) {
     if let Some(layer) = context.and_then(|c| c.work.into_inner().layer) {
         layer.leave();
     }
 }
 
-/// The program destroys a context. GL calls it only when it is current nowhere; until then the handle stays valid, and whoever has
-/// it current frees the record.
+/// The program destroys a context. GL destroys it only when it is current on no thread. Until then the handle stays valid, and the thread
+/// that has it current frees the record.
 pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
     let (unused, last) = registry::destroy((provider, handle));
     if last {
@@ -272,7 +273,7 @@ pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
     shares::destroyed(provider, handle);
 }
 
-/// End of a frame on a drawable: shows it. `swap` is the program's own call.
+/// The end of a frame on a drawable: shows the frame and makes the program's own call, `swap`.
 pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> R {
     write_back_shared();
     let ours = drawable.is_none_or(draws_to);
@@ -297,7 +298,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
             if let Some(l) = &mut work.layer {
                 l.count_frame();
                 live::adopt(l);
-                // First: a picture that a key has asked for is no client's.
+                // Keys come first, so that no client of the socket gets a picture that a key asked for.
                 keys::after(l, || drawable::window(c.drawable.get()));
                 control::after(l);
             }
@@ -310,7 +311,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
     r
 }
 
-/// The program sets its viewport to a size. One that it did not use before may be that of a window that has another size now.
+/// The program sets its viewport to a size. A size that it did not use before may be the new size of the window.
 pub(crate) fn viewport_set(width: i32, height: i32) {
     let new = |context: &Context| {
         let mut work = context.work.try_borrow_mut().ok()?;
@@ -321,7 +322,7 @@ pub(crate) fn viewport_set(width: i32, height: i32) {
     }
 }
 
-/// Follows the size of what the program draws to: at the swap, and at a viewport of a new size, which are safe moments on the GL thread.
+/// Follows the size of the drawable. Called at the swap and at a viewport of a new size, which are safe moments on the GL thread.
 fn check_size() {
     let failed = with_context(|gl, c, work| {
         let (w, h) = drawable::size(c.drawable.get())?;
@@ -342,14 +343,14 @@ pub(crate) fn draws_to_memory() -> bool {
     current(|c| matches!(c.drawable.get(), Drawable::Memory(..))) == Some(true)
 }
 
-/// Other contexts may look at what is drawn to the program's textures: they hold it now.
+/// Writes back the program's textures if other contexts can read them.
 pub(crate) fn write_back_shared() {
     if peek(|l| l.has_copies() && l.is_shared()) == Some(true) {
         enter(|gl, l| l.write_back_textures(gl));
     }
 }
 
-/// The program leaves an OSMesa context: what it has drawn since its last glFinish is a frame.
+/// The program leaves an OSMesa context. Anything that it has drawn since its last glFinish is a frame.
 pub(crate) fn finish_memory_frame() {
     write_back_shared();
     if draws_to_memory() && enter(|_, l| l.drawn()) == Some(true) {

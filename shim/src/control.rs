@@ -1,4 +1,4 @@
-//! The socket by which `manyview ctl` asks and tells: looked at once per frame, on the thread that shows it. Nothing here waits.
+//! The socket for `manyview ctl`. It is served once per frame, on the thread that shows the frame. Nothing here waits.
 //!
 //! The descriptors live in the program's table; see [`crate::socket`].
 
@@ -15,19 +15,19 @@ use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-/// Askers at the same time.
+/// The most clients at the same time.
 const CLIENTS: usize = 8;
-/// Connections accepted per frame; those that are over before the next one leave their room.
+/// The most connections accepted per frame. A connection that has ended by the next frame leaves room for another one.
 const ACCEPTED: usize = CLIENTS;
-/// Bytes of answers that are kept for somebody who does not read them.
+/// Bytes of unread answers of a client, above which its further requests wait.
 const UNREAD: usize = 64 * 1024;
 
-/// Of this process.
+/// The socket of this process.
 pub(crate) enum State {
     /// No frame has been shown yet, or the last context is gone.
     Unopened,
     Open(Server),
-    /// For good.
+    /// Closed for good.
     Closed,
 }
 
@@ -36,11 +36,11 @@ pub(crate) struct Server {
     path: PathBuf,
     /// Device and inode of the socket's file.
     file: Option<(u64, u64)>,
-    /// Who has opened it: a child after fork has our memory and our descriptors, and answers nobody.
+    /// The process that opened the socket. After fork, a child has our memory and our descriptors, and must not answer.
     pid: u32,
     user: u32,
     clients: Vec<Client>,
-    /// A picture that somebody waits for, while no frame is being shown.
+    /// A picture that a client waits for and that the next frame is to give.
     wanted: Option<Capture>,
 }
 
@@ -48,9 +48,9 @@ struct Client {
     stream: Checked<UnixStream>,
     lines: Lines,
     answers: Vec<u8>,
-    /// For the picture that is being taken.
+    /// The client waits for a picture.
     waits: bool,
-    /// It has sent all it will, or what it sent was no request at all.
+    /// The client sends no more, or has sent a line that is too long.
     done: bool,
 }
 
@@ -60,7 +60,7 @@ fn wanted() -> bool {
     config().is_some_and(|config| config.control)
 }
 
-/// Before a frame is shown: hands over the picture that is asked for.
+/// Before a frame is shown: gives the layer the picture that a client waits for.
 pub(crate) fn before(layer: &mut Layer) {
     if !wanted() {
         return;
@@ -74,7 +74,7 @@ pub(crate) fn before(layer: &mut Layer) {
     }
 }
 
-/// After a frame was shown: what is asked now holds for the whole next one.
+/// After a frame was shown: serves the clients, so that changes apply to the whole next frame.
 pub(crate) fn after(layer: &mut Layer) {
     if !wanted() {
         return;
@@ -99,7 +99,7 @@ pub(crate) fn after(layer: &mut Layer) {
     }
 }
 
-/// Takes the socket away; it may be opened again if `state` says so.
+/// Removes the socket. With `next` as [`State::Unopened`] it may be opened again.
 pub(crate) fn close(next: State) {
     if !wanted() {
         return;
@@ -114,13 +114,13 @@ pub(crate) fn close(next: State) {
     {
         let _ = std::fs::remove_file(&server.path);
     }
-    // Closed for good stays so.
+    // A socket that is closed for good stays closed.
     if let State::Open(_) | State::Unopened = *state {
         *state = next;
     }
 }
 
-/// Device and inode of a path, not followed.
+/// Device and inode of a path; links are not followed.
 fn file(path: &std::path::Path) -> Option<(u64, u64)> {
     let about = std::fs::symlink_metadata(path).ok()?;
     Some((about.dev(), about.ino()))
@@ -138,14 +138,14 @@ impl Server {
             path: path.clone(),
             reason: error.kind().to_string(),
         };
-        // Under its name when it listens and is closed to others: `ctl` takes away what is there and does not listen.
+        // The socket gets its final name only when it listens and is closed to others, because `ctl` removes sockets that do not listen.
         let growing = path.with_extension("new");
-        // Of a dead process that had our number.
+        // A dead process with our number may have left one.
         let _ = std::fs::remove_file(&growing);
         let listener = UnixListener::bind(&growing).map_err(failed)?;
         let ready = place::close_to_others(&growing)
             .and_then(|()| listener.set_nonblocking(true))
-            // A copy gets a number above those of stdin, stdout and stderr, which the program may have closed.
+            // The program may have closed stdin, stdout or stderr. A copy gets a number above those of the three.
             .and_then(|()| Checked::new(listener.try_clone()?))
             .and_then(|listener| {
                 std::fs::rename(&growing, &path)?;
@@ -166,7 +166,7 @@ impl Server {
         })
     }
 
-    /// Whether the socket is still there.
+    /// Serves all clients once. Returns whether the socket is still ours.
     fn serve(&mut self, layer: &mut Layer) -> bool {
         if !self.accept() {
             return false;
@@ -196,7 +196,7 @@ impl Server {
         true
     }
 
-    /// Takes in who is waiting at the door; false if the door is not ours any more.
+    /// Accepts waiting connections. False if the socket is not ours any more.
     fn accept(&mut self) -> bool {
         for _ in 0..ACCEPTED {
             let Some(listener) = self.listener.get() else {
@@ -208,7 +208,7 @@ impl Server {
             if !place::may_talk(peer(&stream), self.user) {
                 continue;
             }
-            // A copy, as above.
+            // A copy, as in `open`.
             let ready = stream.set_nonblocking(true);
             let Ok(stream) = ready.and_then(|()| Checked::new(stream.try_clone()?)) else {
                 continue;
@@ -230,14 +230,14 @@ impl Server {
         true
     }
 
-    /// Follows what a client has asked since the last frame. `busy`: somebody waits for a picture.
+    /// Executes the requests that a client has sent since the last frame. `busy`: some client waits for a picture.
     fn listen(&mut self, client: &mut Client, layer: &mut Layer, mut busy: bool) {
         client.receive();
         while !client.waits
             && client.answers.len() < UNREAD
             && let Some(line) = client.lines.take()
         {
-            // Where the next line begins is not known then.
+            // After a line that is too long, the beginning of the next one is not known.
             client.done |= line.is_err();
             let before = layer.live();
             let outcome =
@@ -288,7 +288,7 @@ impl Client {
         }
     }
 
-    /// Sends what it takes; false if it takes nothing any more.
+    /// Sends as much of the answers as the client takes. False if the connection has failed.
     fn send(&mut self) -> bool {
         let Some(stream) = self.stream.get() else {
             return false;
@@ -310,7 +310,7 @@ impl Client {
     }
 }
 
-/// The user at the other end.
+/// The user ID of the process at the other end.
 fn peer(stream: &UnixStream) -> Option<u32> {
     let mut about = libc::ucred {
         pid: 0,

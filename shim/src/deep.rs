@@ -1,9 +1,9 @@
-//! Libraries that the program opens with RTLD_DEEPBIND, or whose calls for another reason go past the preload: their calls of GL
-//! are led to ours, where the dynamic linker would have led them without the flag.
+//! Redirects the GL calls of libraries that bypass the preload, because the program opened them with RTLD_DEEPBIND or for another
+//! reason. Their calls then reach our functions, as they would without the flag.
 //!
-//! Every library has a table of the addresses that it calls. An entry for a name that we export, that holds an address in a GL
-//! library, was bound past us; an entry that is not bound yet is bound here. This runs when a program asks dlsym for anything
-//! after it has opened a library, and when a context is made current.
+//! Every library has a table of the addresses that it calls. An entry for a name that we export was bound past us if it holds an
+//! address in a GL library; an entry that is not bound yet is bound here. This runs at the first dlsym call of the program after
+//! it has opened a library, and when a context is made current.
 
 use crate::exports::export;
 use crate::provider::{own, symbol};
@@ -12,7 +12,7 @@ use core::ffi::{CStr, c_char, c_void};
 use core::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 use libc::dl_phdr_info;
 
-/// How many libraries had been loaded when all were last looked at.
+/// The linker's count of loaded libraries when all were last checked.
 static SEEN: AtomicU64 = AtomicU64::new(0);
 static BUSY: AtomicBool = AtomicBool::new(false);
 
@@ -21,7 +21,7 @@ use libc::{Elf32_Phdr as Phdr, Elf32_Sym as Symbol};
 #[cfg(target_pointer_width = "64")]
 use libc::{Elf64_Phdr as Phdr, Elf64_Sym as Symbol};
 
-/// Relocations as the architecture's linker writes them: the entry of the table, and symbol and kind in one.
+/// A relocation of the architecture: offset of the table's entry, and symbol and kind in one number.
 #[repr(C)]
 #[derive(Clone, Copy)]
 struct Relocation {
@@ -40,7 +40,7 @@ fn split(info: usize) -> (usize, usize) {
     (info >> 8, info & 0xff)
 }
 
-/// Kinds of relocations whose entry is nothing but the address of the symbol: R_*_GLOB_DAT and R_*_JUMP_SLOT.
+/// Kinds of relocations whose entry is just the address of the symbol: R_*_GLOB_DAT and R_*_JUMP_SLOT.
 #[cfg(any(target_arch = "x86_64", target_arch = "x86"))]
 const KINDS: [usize; 2] = [6, 7];
 #[cfg(target_arch = "aarch64")]
@@ -48,7 +48,7 @@ const KINDS: [usize; 2] = [1025, 1026];
 #[cfg(not(any(target_arch = "x86_64", target_arch = "x86", target_arch = "aarch64")))]
 const KINDS: [usize; 0] = [];
 
-/// Beginnings of the names of GL's own libraries: they call each other.
+/// Beginnings of the names of GL's own libraries, which call each other and are left alone.
 const GL: [&[u8]; 4] = [b"libGL", b"libEGL", b"libOpenGL", b"libOSMesa"];
 
 const PT_LOAD: u32 = 1;
@@ -61,7 +61,7 @@ const DT_RELA: (usize, usize) = (7, 8);
 const DT_REL: (usize, usize) = (17, 18);
 const DT_JMPREL: usize = 23;
 
-/// Looks at all libraries if some were loaded since the last time. Cheap otherwise.
+/// Checks all libraries if some were loaded since the last time. Cheap otherwise.
 pub(crate) fn look() {
     let mut added = 0u64;
     // SAFETY: the callback's argument is a u64 that lives across the call.
@@ -72,9 +72,9 @@ pub(crate) fn look() {
     let mut gl = Loaded::default();
     // SAFETY: the callback's argument is a Loaded that lives across the call.
     unsafe { libc::dl_iterate_phdr(Some(find), (&raw mut gl).cast()) };
-    // Without GL nobody is bound to it, and this may be so early that there is no memory to be had.
+    // Without GL no library is bound to it, and this may run so early that memory is not available.
     if gl.count > 0 && switch::mode() != Mode::Passive {
-        // Another wrapper before ours: what is not bound yet must go through it.
+        // If another wrapper comes before ours, entries that are not bound yet must lead to it.
         let first = symbol(libc::RTLD_DEFAULT, c"glXSwapBuffers");
         gl.first = !first.is_null() && own(first);
         // SAFETY: as above.
@@ -84,12 +84,12 @@ pub(crate) fn look() {
     BUSY.store(false, Relaxed);
 }
 
-/// Where GL's libraries lie, found before anything is bound: inside dl_iterate_phdr the linker must not be asked.
+/// The addresses of GL's libraries. They are found before any entry is bound, because the linker must not be asked inside dl_iterate_phdr.
 #[derive(Default)]
 struct Loaded {
     ranges: [(usize, usize); 16],
     count: usize,
-    /// The linker binds to ours before all others.
+    /// The linker finds our functions before all others.
     first: bool,
 }
 
@@ -129,14 +129,14 @@ unsafe extern "C" fn bind(info: *mut dl_phdr_info, _: usize, gl: *mut c_void) ->
 }
 
 struct Library<'a> {
-    /// Name without folders.
+    /// File name without folders.
     file: &'a [u8],
     base: usize,
     headers: &'a [Phdr],
 }
 
 impl Library<'_> {
-    /// `None` for the program itself, which has no name here and is bound to the preload in any case.
+    /// `None` for the program itself, which has no name here and is always bound to the preload.
     ///
     /// # Safety
     /// The dynamic linker's record; the library lives as long as its callback runs.
@@ -161,7 +161,7 @@ impl Library<'_> {
         GL.iter().any(|name| self.file.starts_with(name))
     }
 
-    /// From the first to the last address.
+    /// The first address, and the end of the last segment.
     fn range(&self) -> (usize, usize) {
         let loads = self.headers.iter().filter(|h| h.p_type == PT_LOAD);
         let (mut start, mut end) = (usize::MAX, 0);
@@ -172,8 +172,8 @@ impl Library<'_> {
         (start, end)
     }
 
-    /// Whether the linker made an entry read-only after it was bound: that is whole pages only, and what lies beyond them the library
-    /// still writes to.
+    /// Whether the linker has made an entry read-only after binding it (RELRO). It protects whole pages only; the library still writes to
+    /// the rest.
     fn is_protected(&self, entry: usize, page: usize) -> bool {
         let whole = |address: usize| address & !(page - 1);
         self.headers.iter().any(|h| {
@@ -190,7 +190,7 @@ impl Library<'_> {
         })
     }
 
-    /// An address of the dynamic section: the linker has added the base, or not (as on some architectures).
+    /// An address from the dynamic section, to which the linker has added the base on some architectures only.
     fn address(&self, value: usize) -> usize {
         if self.holds(value) {
             value
@@ -254,13 +254,13 @@ impl Library<'_> {
         }
         // SAFETY: an index into the symbols.
         let symbol = unsafe { &*(symbols as *const Symbol).add(symbol) };
-        // What the library has itself is its own matter.
+        // A symbol that the library itself defines is left alone.
         if symbol.st_shndx != 0 {
             return;
         }
         // SAFETY: an offset into the strings.
         let name = unsafe { CStr::from_ptr((strings + symbol.st_name as usize) as *const c_char) };
-        // Not dlsym: another wrapper may stand before ours.
+        // dlsym is left alone, because another wrapper's may come before ours.
         let Some((_, ours)) = export(name.to_bytes()).filter(|_| name != c"dlsym") else {
             return;
         };

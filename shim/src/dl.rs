@@ -1,5 +1,5 @@
-//! dlsym, for programs that load GL at run time (SDL, GLFW, Qt). dlopen is left alone: a wrapper around it changes where the
-//! dynamic linker looks (VirtualGL issue 266).
+//! dlsym, for programs that load GL at run time (SDL, GLFW, Qt). dlopen is left alone: a wrapper around it would change where the
+//! dynamic linker searches (VirtualGL issue 266).
 
 use crate::deep;
 use crate::exports::export;
@@ -8,9 +8,9 @@ use crate::switch;
 use core::ffi::{CStr, c_char, c_void};
 use manyview_core::gl::Ptr;
 
-/// Which function is to answer a dlsym call: the one behind ours, or [`answer`]. This runs at any time in any thread, for every name, and
-/// so early that there may be no memory to be had: nothing is allocated before a library of GL is loaded. The first call after that reads
-/// the options.
+/// Chooses the function that answers a dlsym call: the one behind ours, [`answer`] or [`nothing`]. This runs at any time in any thread,
+/// for every name, and so early that memory may not be available: nothing is allocated before a library of GL is loaded. The first call
+/// after that reads the options.
 unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const c_void {
     let next = provider::next_dlsym().map_or(core::ptr::null(), |f| f as *const c_void);
     if name.is_null() || next.is_null() {
@@ -29,26 +29,26 @@ unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const 
     ) && export(name).is_some();
     match (ours, behind) {
         (true, false) => answer as *const c_void,
-        // Before everything else stands the program itself, to which we are the next: eglretrace asks so whether it has GLX.
+        // The program is first in load order, so for it RTLD_NEXT finds us. eglretrace asks in this way whether it has GLX.
         (true, true) if only_ours(text) => nothing as *const c_void,
         _ => next,
     }
 }
 
-/// Whether nobody has a name but this library.
+/// Whether only this library has a name.
 fn only_ours(name: &CStr) -> bool {
-    // What opens libraries comes last: other wrappers ask for names when they are opened.
+    // The check that opens libraries comes last, because other wrappers ask for names when they are opened.
     provider::own(provider::symbol(libc::RTLD_DEFAULT, name))
         && provider::symbol(libc::RTLD_NEXT, name).is_null()
         && !provider::has(name.to_bytes())
 }
 
-/// dlsym for a name that nobody else has.
+/// Answers dlsym for a name that only this library has: not found.
 unsafe extern "C" fn nothing(_: *mut c_void, _: *const c_char) -> *mut c_void {
     core::ptr::null_mut()
 }
 
-/// dlsym for a name that we export.
+/// Answers dlsym for a name that we export.
 unsafe extern "C" fn answer(handle: *mut c_void, name: *const c_char) -> *mut c_void {
     // SAFETY: `choose` has looked at the name.
     let name = unsafe { CStr::from_ptr(name) };
@@ -57,8 +57,9 @@ unsafe extern "C" fn answer(handle: *mut c_void, name: *const c_char) -> *mut c_
         return real;
     };
     if provider::own(real) {
-        // Found because we are preloaded: the program must not think that it has GL, or EGL beside GLX, when it has none. What comes after
-        // us is what it would get; but a plugin asks in the scope of its own libraries as well, which only the linker knows.
+        // The name was found only because we are preloaded. A program without GL, or without EGL beside GLX, must not conclude that it
+        // has it. Without us it would get the next symbol; but a plugin also asks in the scope of its own libraries, which only the linker
+        // knows.
         real = provider::symbol(libc::RTLD_NEXT, name);
         if real.is_null() && provider::has(name.to_bytes()) {
             return ours;
@@ -74,7 +75,7 @@ unsafe extern "C" fn answer(handle: *mut c_void, name: *const c_char) -> *mut c_
     }
 }
 
-/// The exported dlsym. It jumps on with the program's return address in place, because glibc looks up RTLD_NEXT,
+/// The exported dlsym. It makes a tail jump, with the program's return address in place, because glibc resolves RTLD_NEXT,
 /// RTLD_DEFAULT and $ORIGIN by the address of the caller.
 #[cfg(target_arch = "x86_64")]
 #[unsafe(naked)]
@@ -93,7 +94,7 @@ unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_v
     )
 }
 
-/// The same for the calling convention of 32-bit programs, which has the arguments on the stack.
+/// The same for 32-bit x86, whose calling convention has the arguments on the stack.
 #[cfg(target_arch = "x86")]
 #[unsafe(naked)]
 #[unsafe(no_mangle)]
@@ -109,7 +110,7 @@ unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_v
     )
 }
 
-/// The exported dlsym where no tail jump is written yet: RTLD_NEXT is then ours to answer.
+/// The exported dlsym for architectures without a tail jump yet. For RTLD_NEXT, glibc then takes us for the caller.
 #[cfg(not(any(target_arch = "x86_64", target_arch = "x86")))]
 #[unsafe(no_mangle)]
 unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_void {
@@ -127,7 +128,7 @@ unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_v
     }
 }
 
-/// What a GetProcAddress function hands out for a name, given what the driver handed out.
+/// The address that a GetProcAddress function returns for a name; `real` is the address that the driver's own function returned.
 ///
 /// # Safety
 /// `name` is null or a string that ends in NUL.

@@ -1,4 +1,4 @@
-//! What a context draws to: its size, its window, and where that lies.
+//! The drawable of a context: its size, its window, and the place of that.
 
 use crate::geometry::{self, Seen};
 use crate::provider::Provider;
@@ -8,18 +8,18 @@ use core::ffi::c_ulong;
 use manyview_core::gl::Ptr;
 use manyview_core::layer::OnScreen;
 
-/// What a context draws to.
+/// The drawable of a context.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Drawable {
-    /// Display and GLX drawable.
+    /// A GLX drawable, with its Display.
     Glx(Ptr, c_ulong),
-    /// Display and surface.
+    /// An EGL surface, with its EGLDisplay.
     Egl(Ptr, Ptr),
     /// The program's memory: width and height.
     Memory(u32, u32),
 }
 
-/// The name of the X display, and the window behind a drawable.
+/// The name of the X display and the window behind a GLX drawable. None for other drawables.
 pub(crate) fn window(drawable: Drawable) -> Option<(String, u32)> {
     match drawable {
         Drawable::Glx(display, drawable) => {
@@ -56,7 +56,7 @@ pub(crate) fn size(drawable: Drawable) -> Option<(u32, u32)> {
     }
 }
 
-/// Where a window lies on its screen; `size` is that of its picture.
+/// The place of a drawable's window on its screen; `size` is that of the picture. None for drawables without a window.
 pub(crate) fn place(
     drawable: Drawable,
     size: (u32, u32),
@@ -70,7 +70,7 @@ pub(crate) fn place(
                 (xcb::connection(display)?, window as u32)
             }
             Drawable::Egl(display, surface) => windows::behind_surface(display, surface)?,
-            // Memory lies nowhere.
+            // Memory has no place on a screen.
             Drawable::Memory(..) => return None,
         }
     };

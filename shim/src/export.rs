@@ -1,8 +1,8 @@
-//! The shape of every exported function.
+//! The macro that defines every exported function.
 
-/// One exported command: the symbol jumps through its slot of `ENTRY`; the slot starts at `first`, which puts the driver's function or
-/// `hook` there. An inactive process pays one jump. No address of an exported name is taken for our own calls: a program may
-/// define a variable of that name.
+/// Defines one exported command. The symbol jumps through its slot of `ENTRY`. The slot starts with `first`, which replaces itself by the
+/// driver's function or by `hook`, so that an inactive process pays one jump. Our own calls never take the address of an exported
+/// name, because a program may define a variable of that name.
 macro_rules! export {
     ($slot:literal, $name:ident, $first:ident, $hook:ident, ($($a:ident: $t:ty),*) -> $r:ty, $body:block) => {
         #[unsafe(no_mangle)]

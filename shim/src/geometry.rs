@@ -1,4 +1,4 @@
-//! Size of a GLX drawable, and where a window lies on the screen.
+//! The size of a GLX drawable, and the place of a window on its screen.
 
 use crate::provider::Provider;
 use crate::xcb::{Connection, Monitor, connection, monitors, translated, window};
@@ -6,7 +6,7 @@ use core::ffi::c_ulong;
 use manyview_core::gl::Ptr;
 use manyview_core::layer::OnScreen;
 
-/// Width and height in pixels. By xcb, whose errors come as values: an X error through Xlib would end the program.
+/// Width and height in pixels. The query uses xcb, which returns errors as values; an X error through Xlib would end the program.
 ///
 /// # Safety
 /// `display` is the Display that the program just used with this drawable on this thread.
@@ -35,10 +35,10 @@ unsafe fn window_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u32)> {
     unsafe { window(connection(display)?, drawable as u32) }.map(|found| found.size)
 }
 
-/// Frames after which monitors are asked again, though the window stays: they may have changed.
+/// Frames after which monitors are queried again even if the window has not moved, because they may have changed.
 const ASK_AGAIN: u32 = 60;
 
-/// What is known of a window since it was last looked at closely.
+/// The result of the last full query of a window.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen {
     connection: Connection,
@@ -47,12 +47,12 @@ pub(crate) struct Seen {
     size: (u32, u32),
     at: (i32, i32),
     on_screen: OnScreen,
-    /// Frames since then.
+    /// Frames since that query.
     frames: u32,
 }
 
-/// Where a window lies on the monitor that has its centre. None for what is no window. A frame asks only where the window is, unless
-/// that, or its `size`, is another than before.
+/// The place of a window on the monitor that has its centre. None if `number` is not a window. A frame queries only the place of the window,
+/// unless that or `size` has changed.
 ///
 /// # Safety
 /// The connection is the program's and open.
@@ -93,7 +93,7 @@ pub(crate) unsafe fn place(
     }
 }
 
-/// Where a window of this place and size on the root lies on its monitor, or on the whole screen.
+/// The place on its monitor of a window with this place and size on the root; on the whole screen where no monitor holds its centre.
 ///
 /// # Safety
 /// As [`place`].

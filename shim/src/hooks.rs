@@ -1,4 +1,4 @@
-//! What the generated hooks call: one function per class of command.
+//! The functions that generated hooks call: one per class of command.
 
 use crate::context::{self, enter};
 use manyview_core::gl::{Gl, Real};
@@ -21,11 +21,11 @@ pub(crate) enum Kind {
     ARRAYS,
 }
 
-/// State groups are about to change, now or, in a display list, when it is called.
+/// Before a command that changes groups of state, now or when the display list that compiles it is called.
 #[inline]
 pub(crate) fn touch(groups: Touch) {
     if context::peek(|l| l.touch(groups)) == Some(false) {
-        // What the views depend on is set once; the rest may stay with the drawing.
+        // State that the views depend on is set once, in a run of its own. Other state may stay in a run that draws.
         let look = Touch::DEPTH | Touch::RANGE | Touch::TEXTURE | Touch::COVER;
         let inside = Touch::FIXED | Touch::MATERIAL | look;
         let run = if groups.without(inside) == Touch::NONE {
@@ -37,81 +37,81 @@ pub(crate) fn touch(groups: Touch) {
     }
 }
 
-/// A command is about to be compiled into a display list, if one is open; answers whether it is.
+/// Before any command that display lists compile: tells the layer if a list is open. Returns whether the layer was told.
 pub(crate) fn compile(command: Command, groups: Touch) -> bool {
     context::peek(|l| l.compiles()) == Some(true)
         && enter(|gl, l| l.compile(gl, command, groups)).is_some()
 }
 
-/// A command that only display lists are told of is about to be called.
+/// Before a command that concerns the layer only inside a display list.
 #[inline]
 pub(crate) fn any() {
     compile(Command::Of(Run::Open), Touch::NONE);
 }
 
-/// A uniform of the program's is about to be set.
+/// Before a command that sets a uniform of the program's.
 #[inline]
 pub(crate) fn uniform() {
     any();
     manyview_core::state::uniform_changes();
 }
 
-/// What the layer does only where the views have images of their own.
+/// Runs work of the layer that is needed only if the views have images of their own.
 pub(crate) fn copied(f: impl FnOnce(&Gl, &mut Layer)) {
     if context::peek(|l| l.has_copies()) == Some(true) {
         enter(f);
     }
 }
 
-/// The texture bound at `target` is about to be written to.
+/// Before a command that writes to the texture bound at `target`.
 #[inline]
 pub(crate) fn texture(target: u32) {
     any();
     copied(|gl, l| l.texture_written(gl, target));
 }
 
-/// A texture or renderbuffer is about to be written to.
+/// Before a command that writes to a texture or renderbuffer, which it names.
 #[inline]
 pub(crate) fn named(object: Object) {
     ask();
     copied(|gl, l| l.written(gl, object));
 }
 
-/// Textures are about to be read or written in another way than by drawing.
+/// Before a command that reads or writes textures other than by drawing.
 #[inline]
 pub(crate) fn write_back() {
     ask();
     copied(|gl, l| l.write_back_textures(gl));
 }
 
-/// An attribute is about to advance by instances.
+/// Before a command that makes an attribute advance per instance.
 #[inline]
 pub(crate) fn divide() {
     ask();
     context::peek(|l| l.divides());
 }
 
-/// A parameter of a texture is about to be set.
+/// Before a command that sets a parameter of a texture.
 #[inline]
 pub(crate) fn look() {
     any();
     context::peek(|l| l.look_changed());
 }
 
-/// Something is about to be attached to a framebuffer of the program's, or other buffers of it drawn to.
+/// Before a command that changes the attachments or the draw buffers of a framebuffer of the program's.
 #[inline]
 pub(crate) fn attached() {
     ask();
     context::peek(|l| l.attachments_changed());
 }
 
-/// The renderbuffer that is bound is about to get another store.
+/// Before a command that gives the bound renderbuffer other storage.
 pub(crate) fn storage() {
     ask();
     copied(|gl, l| l.storage_changed(gl));
 }
 
-/// A call that makes the smaller levels of the texture bound at `target`.
+/// A call that generates the mipmaps of the texture bound at `target`.
 pub(crate) fn mipmap(target: u32, call: &mut dyn FnMut(&'static Real)) {
     any();
     call(real());
@@ -126,7 +126,7 @@ pub(crate) fn compute(call: &mut dyn FnMut(&'static Real)) {
     }
 }
 
-/// A copy of the read framebuffer to the texture bound at `target`, of columns in pixels.
+/// A copy from the read framebuffer to the texture bound at `target`; `x` and `width` are its columns in pixels.
 pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
     let copied = enter(|gl, l| l.copy_texture(gl, target, x, width, &mut || call(gl.real())));
     if copied.is_none() {
@@ -134,7 +134,7 @@ pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'stati
     }
 }
 
-/// A command that no list compiles is about to be called: what comes before it has to have happened.
+/// Before a command that no display list compiles: the commands before it have to be executed first.
 #[inline]
 pub(crate) fn ask() {
     if context::peek(|l| l.executes()) == Some(true) {
@@ -142,7 +142,7 @@ pub(crate) fn ask() {
     }
 }
 
-/// A command on the current matrix or its stack is about to be called.
+/// Before a command on the current matrix or its stack.
 #[inline]
 pub(crate) fn matrix(command: Command) {
     let groups = match command {
@@ -154,7 +154,7 @@ pub(crate) fn matrix(command: Command) {
     }
 }
 
-/// A capability is about to be switched on or off.
+/// Before a capability is enabled or disabled.
 #[inline]
 pub(crate) fn cap(cap: u32, on: bool) {
     if cap == FRAMEBUFFER_SRGB && on {
@@ -169,7 +169,7 @@ pub(crate) fn cap(cap: u32, on: bool) {
     });
 }
 
-/// What a raster position is a place of.
+/// The space of a raster position.
 #[derive(Clone, Copy)]
 pub(crate) enum Place {
     /// glRasterPos.
@@ -178,7 +178,7 @@ pub(crate) enum Place {
     Window,
 }
 
-/// The raster position is placed.
+/// A call that sets the raster position.
 pub(crate) fn raster(place: Place, call: &mut dyn FnMut(&'static Real)) {
     let groups = match place {
         Place::Scene => Touch::RASTER,
@@ -193,7 +193,7 @@ pub(crate) fn raster(place: Place, call: &mut dyn FnMut(&'static Real)) {
     });
 }
 
-/// A draw: once per view.
+/// A call that draws: the layer draws it in all views.
 pub(crate) fn draw(kind: Kind, call: &mut dyn FnMut(&'static Real)) {
     use manyview_core::plan::Kind as Plan;
     let kind = match kind {
@@ -208,21 +208,21 @@ pub(crate) fn draw(kind: Kind, call: &mut dyn FnMut(&'static Real)) {
     }
 }
 
-/// A read from the read framebuffer, of columns in pixels.
+/// A call that reads from the read framebuffer; `x` and `width` are its columns in pixels.
 pub(crate) fn read(x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
     if enter(|gl, l| l.read(gl, x, width, &mut || call(gl.real()))).is_none() {
         call(real());
     }
 }
 
-/// As [`read`], of a command that no list compiles.
+/// As [`read`], for a command that no display list compiles.
 pub(crate) fn read_now(x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
     if enter(|gl, l| l.read_now(gl, x, width, &mut || call(gl.real()))).is_none() {
         call(real());
     }
 }
 
-/// A call about the framebuffer bound at `target`: about the true one where that is the program's 0.
+/// A call that concerns the framebuffer bound at `target`. If that is the program's 0, the driver gets the true one.
 pub(crate) fn hide<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> R {
     ask();
     let mut answer = None;
@@ -230,7 +230,7 @@ pub(crate) fn hide<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> 
     answer.unwrap_or_else(|| call(real()))
 }
 
-/// As [`hide`], of a call that attaches something.
+/// As [`hide`], for a call that attaches something.
 pub(crate) fn attach<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> R {
     context::peek(|l| l.attachments_changed());
     hide(target, call)
@@ -242,13 +242,13 @@ pub(crate) mod imm {
     use manyview_core::gl::Recording;
     use manyview_core::state::{Command, Effect, Touch};
 
-    /// Writes a call to the recording by `write`, while calls are recorded; answers whether they are.
+    /// Writes a call to the recording by `write` while calls are recorded. Returns whether it was recorded.
     #[inline]
     pub(crate) fn record(slot: usize, effect: Effect, write: impl FnOnce(&mut Recording)) -> bool {
         context::recording() && context::peek_inside(|l| write(l.record(slot, effect))).is_some()
     }
 
-    /// A call that is not recorded is about to be made: compiled into a display list, or outside glBegin and glEnd.
+    /// Before a call of immediate mode that is not recorded: inside a display list, or outside glBegin and glEnd.
     #[inline]
     pub(crate) fn direct(effect: Effect) {
         let touch = if effect.has(Effect::MATERIAL) {
@@ -261,7 +261,7 @@ pub(crate) mod imm {
         }
     }
 
-    /// Whether there is such a parameter of a material.
+    /// Whether glMaterial takes this face and parameter.
     pub(crate) fn is_material(face: u32, pname: u32) -> bool {
         let faces = [0x0404, 0x0405, 0x0408]; // GL_FRONT, GL_BACK, GL_FRONT_AND_BACK
         faces.contains(&face) && matches!(pname, 0x1600..=0x1603 | 0x1200..=0x1202)

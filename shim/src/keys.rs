@@ -1,8 +1,8 @@
-//! Keys for the layer while the program has the keyboard: watched, never taken. Nothing here waits but for the X server's answers, and
-//! for those not long.
+//! Keys for the layer while the program has the keyboard. They are watched, never taken. Only answers of the X server are waited for, with a
+//! short limit.
 //!
-//! A connection of our own selects the raw key events of the root window, which the server sends besides everything that the program
-//! gets. Only a key of ours with Ctrl and Alt held is followed by questions: whether a window of the program has the focus.
+//! A connection of our own selects the raw key events of the root window, which the server sends in addition to all events of the program.
+//! Only a key of ours with Ctrl and Alt held leads to a query: whether a window of the program has the focus.
 
 use crate::live::{self, free};
 use crate::socket::{self, Checked};
@@ -26,13 +26,13 @@ use x11rb::reexports::x11rb_protocol::xauth::get_auth;
 use x11rb::rust_connection::{DefaultStream, PollMode, RustConnection, Stream};
 use x11rb::utils::RawFdContainer;
 
-/// How long the X server is waited for, each time: it is there, or stands still for the program as well.
+/// How long to wait for the X server each time, in milliseconds. A server that takes longer hangs for the program as well.
 const PATIENCE: i32 = 200;
-/// Windows of the program that are kept in mind.
+/// The most windows of the program that are remembered.
 const WINDOWS: usize = 16;
-/// Windows within windows that are looked through.
+/// The most levels of nested windows that are searched.
 const DEPTH: usize = 16;
-/// Events of one frame; the rest is for the next one.
+/// The most events handled per frame; the rest wait for the next one.
 const EVENTS: usize = 256;
 const CONTROL: [u32; 2] = [0xffe3, 0xffe4];
 const ALT: [u32; 2] = [0xffe9, 0xffea];
@@ -48,11 +48,11 @@ enum State {
 struct Keyboard {
     connection: RustConnection<Wire>,
     root: Window,
-    /// A child after fork has our memory and our descriptors, and leaves them alone.
+    /// The process that opened the connection. After fork, a child has our memory and our descriptors, and must not use them.
     pid: u32,
     /// The first keysym of each keycode.
     keysyms: Vec<u32>,
-    /// Keycodes that are down.
+    /// Whether each keycode is down.
     down: [bool; 256],
     windows: Vec<Window>,
     wanted: Option<Capture>,
@@ -66,7 +66,7 @@ fn wanted() -> bool {
     config().is_some_and(|config| config.keys)
 }
 
-/// Before a frame is shown: hands over the picture that is asked for.
+/// Before a frame is shown: gives the layer the picture that a key asked for.
 pub(crate) fn before(layer: &mut Layer) {
     if !wanted() {
         return;
@@ -82,7 +82,7 @@ pub(crate) fn before(layer: &mut Layer) {
     }
 }
 
-/// After a frame was shown: what the keys say holds for the whole next one. `window` answers the display's name and the window.
+/// After a frame was shown: handles keys, so that changes apply to the whole next frame. `window` returns the display's name and the window.
 pub(crate) fn after(layer: &mut Layer, window: impl FnOnce() -> Option<(String, Window)>) {
     if !wanted() {
         return;
@@ -130,7 +130,7 @@ impl Keyboard {
                     continue;
                 }
             };
-            // Without a key to it the server may still let us in.
+            // Without an authorisation key the server may still accept us.
             let key = get_auth(family, &peer, parsed.display).ok().flatten();
             let (name, data) = key.unwrap_or_default();
             let screen = usize::from(parsed.screen);
@@ -179,7 +179,7 @@ impl Keyboard {
         Ok(keyboard)
     }
 
-    /// What the keys mean, now or after a change.
+    /// Reads the keyboard mapping, at the start and after a change.
     fn learn(&mut self) -> Result<(), Fault> {
         let setup = self.connection.setup();
         let first = setup.min_keycode;
@@ -207,7 +207,7 @@ impl Keyboard {
         }
     }
 
-    /// Follows what has been pressed since the last frame.
+    /// Handles the keys that were pressed since the last frame.
     fn look(&mut self, layer: &mut Layer) -> Result<(), Fault> {
         if self.waits {
             match layer.pictured() {
@@ -254,7 +254,7 @@ impl Keyboard {
         keys.any(|(keysym, down)| down && wanted.contains(keysym))
     }
 
-    /// Whether the keys go to the program: to one of its windows, one around it or one within it.
+    /// Whether the keyboard focus is at the program: at one of its windows, or at one that encloses it or lies within it.
     fn focused(&self) -> Result<bool, Fault> {
         const NONE: Window = 0;
         const POINTER_ROOT: Window = 1;
@@ -274,12 +274,12 @@ impl Keyboard {
         Ok(false)
     }
 
-    /// A window and those around it, without the root.
+    /// A window and its ancestors, without the root.
     fn around(&self, mut window: Window) -> Result<Vec<Window>, Fault> {
         let mut found = Vec::new();
         while window != self.root && window != 0 && found.len() < DEPTH {
             found.push(window);
-            // One that is gone is within nothing.
+            // A window that no longer exists has no parent.
             window = match self.connection.query_tree(window)?.reply() {
                 Ok(tree) => tree.parent,
                 Err(x11rb::errors::ReplyError::X11Error(_)) => 0,
@@ -299,7 +299,7 @@ impl Keyboard {
     }
 }
 
-/// Where a picture of a frame goes: to the program's folder.
+/// The path of the picture of a frame, in the program's working directory.
 fn picture(frame: u64) -> PathBuf {
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     let program = profile::this_program().unwrap_or_default();
@@ -307,12 +307,12 @@ fn picture(frame: u64) -> PathBuf {
     std::env::current_dir().unwrap_or_default().join(name)
 }
 
-/// The way to the X server: no signal when it is gone, no wait without an end, and nothing once the program has closed it.
+/// The connection to the X server. It raises no SIGPIPE, waits with a limit, and is not used once the program has closed its descriptor.
 struct Wire(Checked<UnixStream>);
 
 impl Wire {
     fn new(stream: &DefaultStream) -> io::Result<Self> {
-        // A copy gets a number above those of stdin, stdout and stderr, which the program may have closed.
+        // The program may have closed stdin, stdout or stderr. A copy gets a number above those of the three.
         // SAFETY: a descriptor of ours; the new one belongs to nobody else.
         let copy = unsafe {
             let copy = libc::fcntl(stream.as_raw_fd(), libc::F_DUPFD_CLOEXEC, 3);
@@ -350,7 +350,7 @@ impl Stream for Wire {
             0 => Err(io::ErrorKind::TimedOut.into()),
             1.. => Ok(()),
             _ => match io::Error::last_os_error() {
-                // Tried again by the caller.
+                // The caller tries again.
                 error if error.kind() == io::ErrorKind::Interrupted => Ok(()),
                 error => Err(error),
             },

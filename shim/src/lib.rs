@@ -1,5 +1,5 @@
-//! `libmanyview.so`: the exported symbols, the guard around them and the tables of real functions. Decides nothing; what a hook
-//! does is in `manyview_core::layer`.
+//! `libmanyview.so`: the exported symbols, the guard around them and the tables of the driver's functions. It decides nothing: the
+//! work of a hook is in `manyview_core::layer`.
 
 #[macro_use]
 mod export;
@@ -29,7 +29,7 @@ mod viewports;
 mod windows;
 mod xcb;
 
-/// Address of a function, in a static table.
+/// The address of a function in a static table.
 #[derive(Clone, Copy)]
 pub(crate) struct Address(*const ());
 

@@ -1,11 +1,11 @@
-//! Where the real functions are: one table per provider.
+//! Finds the driver's functions: one table per provider.
 
 use core::ffi::{CStr, c_char, c_void};
 use core::sync::atomic::{AtomicPtr, Ordering::Relaxed};
 use manyview_core::gl::{Ptr, Real};
 
-/// Who made a context. Function pointers of one are nothing to the other: libOSMesa has a whole GL of its own, while libGL,
-/// libOpenGL, libEGL and libGLES share glvnd's dispatch.
+/// The kind of library that made a context. The functions of one do not work with contexts of the other: libOSMesa has a whole GL of
+/// its own, while libGL, libOpenGL, libEGL and libGLES share glvnd's dispatch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Provider {
     /// GLX and EGL.
@@ -18,7 +18,7 @@ static GL: Real = Real::new(load_gl);
 static OSMESA: Real = Real::new(load_osmesa);
 
 impl Provider {
-    /// The table of real functions.
+    /// The table of the driver's functions.
     pub(crate) fn real(self) -> &'static Real {
         #[cfg(all(test, feature = "fake-driver"))]
         if let Some(fake) = crate::tests::driver() {
@@ -49,7 +49,7 @@ impl Provider {
     }
 }
 
-/// Whether a library that has functions of this name's kind is in the process.
+/// Whether the process has a library for the API that a name belongs to, by its prefix.
 pub(crate) fn has(name: &[u8]) -> bool {
     match name {
         [b'e', b'g', b'l', ..] => !handle(c"libEGL.so.1").is_null(),
@@ -65,7 +65,7 @@ unsafe extern "C" {
     fn dlvsym(handle: *mut c_void, name: *const c_char, version: *const c_char) -> *mut c_void;
 }
 
-/// The names under which C libraries have published dlsym, by architecture.
+/// The symbol versions of dlsym in C libraries, by architecture.
 #[cfg(target_arch = "x86_64")]
 const DLSYM_VERSIONS: [&CStr; 2] = [c"GLIBC_2.2.5", c"GLIBC_2.34"];
 #[cfg(target_arch = "x86")]
@@ -77,8 +77,8 @@ type Dlsym = unsafe extern "C" fn(*mut c_void, *const c_char) -> *mut c_void;
 
 static NEXT: AtomicPtr<c_void> = AtomicPtr::new(core::ptr::null_mut());
 
-/// The dlsym behind ours: another preloaded library's, if there is one, else the C library's. Found by version, because the
-/// plain name is our own (measured: notes/interposition.md section 1).
+/// The dlsym behind ours: that of another preloaded library, if there is one, else that of the C library. It is looked up by version,
+/// because the plain name is our own (measured: notes/interposition.md section 1).
 pub(crate) fn next_dlsym() -> Option<Dlsym> {
     let mut p = NEXT.load(Relaxed);
     if p.is_null() {
@@ -102,7 +102,7 @@ pub(crate) fn next_dlsym() -> Option<Dlsym> {
     Some(unsafe { core::mem::transmute::<*mut c_void, Dlsym>(p) })
 }
 
-/// dlsym behind ours.
+/// Calls the dlsym behind ours.
 pub(crate) fn symbol(handle: *mut c_void, name: &CStr) -> Ptr {
     match next_dlsym() {
         // SAFETY: a handle of the dynamic linker (or RTLD_NEXT) and a string.
@@ -134,8 +134,8 @@ pub(crate) fn own(p: *const c_void) -> bool {
     }
 }
 
-/// Which provider's library an address lies in. GL look-alikes (ANGLE's libEGL among them) carry other file names or are not
-/// asked for by ours.
+/// The provider in whose library an address lies. Look-alikes of GL (such as ANGLE's libEGL) have other file names, or our lookups do
+/// not find them.
 pub(crate) fn provider_of(p: *const c_void) -> Option<Provider> {
     let (_, file) = object(p)?;
     let starts = |prefix: &str| file.starts_with(prefix.as_bytes());
@@ -160,7 +160,7 @@ fn handle(library: &CStr) -> *mut c_void {
     unsafe { libc::dlopen(library.as_ptr(), libc::RTLD_NOLOAD | libc::RTLD_LAZY) }
 }
 
-/// The symbol that the program would have without us.
+/// The symbol that the program would get without us.
 pub(crate) fn default_symbol(name: &CStr) -> Option<Ptr> {
     let p = symbol(libc::RTLD_NEXT, name);
     if !p.is_null() && !own(p) {
@@ -175,7 +175,7 @@ pub(crate) fn default_symbol(name: &CStr) -> Option<Ptr> {
 }
 
 fn load(provider: Provider, name: &CStr) -> Ptr {
-    // Next in the order of loading first: other preloaded hooks of the same function stay in the chain.
+    // The next one in load order comes first, so that other preloaded hooks of the same function stay in the chain.
     let p = symbol(libc::RTLD_NEXT, name);
     if !p.is_null() && !own(p) && provider_of(p).is_none_or(|q| q == provider) {
         return p;
@@ -195,7 +195,7 @@ fn load_gl(name: &CStr) -> Ptr {
     if !p.is_null() {
         return p;
     }
-    // Extensions of a window system have no symbols either, and only its own library knows them.
+    // Extension functions may have no symbols. Those of a window system are known only to its own library.
     let functions: &[&CStr] = match name.to_bytes() {
         [b'e', b'g', b'l', ..] => &[c"eglGetProcAddress"],
         [b'g', b'l', b'X', ..] => &[c"glXGetProcAddressARB"],

@@ -1,4 +1,4 @@
-//! What is kept of a context of the program.
+//! The record of a context of the program.
 
 use crate::drawable::Drawable;
 use crate::geometry::Seen;
@@ -8,27 +8,27 @@ use core::cell::{Cell, OnceCell, RefCell};
 use manyview_core::gl::{Gl, Ptr};
 use manyview_core::layer::{Frames, Layer};
 
-/// A context of the program: handles are those of one provider.
+/// Identifies a context of the program: handles are unique only within a provider.
 pub(crate) type Key = (Provider, Ptr);
 
-/// One context of the program, from its first MakeCurrent to its destruction. Only the thread that has it current looks at it.
+/// One context of the program, from its first MakeCurrent to its destruction. Only the thread that has it current uses the record.
 pub(crate) struct Context {
     pub(crate) key: Key,
-    /// Its driver, from when it was first current.
+    /// The driver's functions, from the first time that the context was current.
     pub(crate) gl: OnceCell<Gl>,
     pub(crate) drawable: Cell<Drawable>,
-    /// Whoever works with it has it alone: a call from inside the layer or the driver finds it borrowed.
+    /// Borrowed by the hook at work: a call from inside the layer or the driver finds it borrowed and passes.
     pub(crate) work: RefCell<Work>,
 }
 
-/// What hooks work with.
+/// The state that hooks work on.
 pub(crate) struct Work {
-    /// Where the window was, for outputs that follow it.
+    /// The last known place of the window, for outputs that follow it.
     pub(crate) seen: Option<Seen>,
-    /// Sizes of viewports since the drawable's size was another one.
+    /// Sizes of viewports since the last change of the drawable's size.
     pub(crate) viewports: Viewports,
     pub(crate) layer: Option<Layer>,
-    /// With one view: only frames are counted and captured.
+    /// In place of the layer where frames are only counted and captured.
     pub(crate) frames: Option<Frames>,
 }
 

@@ -1,11 +1,11 @@
-//! Every context of the program that has been current, and which thread has it.
+//! All contexts of the program that have been current, and the threads that have them current.
 
 use crate::record::{Context, Key};
 use core::ffi::c_int;
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long a thread waits for another one that has left a context in the driver, and not yet here.
+/// How long a thread waits for another one, which has released a context in the driver but not yet here.
 const HANDOVER: Duration = Duration::from_secs(1);
 
 struct Entry {
@@ -13,7 +13,7 @@ struct Entry {
     context: *mut Context,
     /// The thread that has it current.
     thread: Option<c_int>,
-    /// The program has destroyed it; the thread that has it current frees the record.
+    /// The program has destroyed the context. The thread that has it current frees the record.
     destroyed: bool,
 }
 
@@ -26,9 +26,9 @@ unsafe impl Send for Registry {}
 static CONTEXTS: Mutex<Registry> = Mutex::new(Registry(Vec::new()));
 static RELEASED: Condvar = Condvar::new();
 
-/// The record of a context that the driver has made current on this thread; `make` makes that of a new one. It is this thread's until
-/// [`release`]. None where another thread still has it: the driver lets only one have it, so that one is about to release it, unless it
-/// goes past our hooks.
+/// The record of a context that the driver has made current on this thread; `make` makes the record of a new one. It belongs to this thread
+/// until [`release`]. None where another thread still has it after [`HANDOVER`]. The driver lets only one thread have a context, so the other
+/// one should be about to release it, unless its calls bypass our hooks.
 pub(crate) fn take(key: Key, make: impl FnOnce() -> Context) -> Option<*mut Context> {
     // SAFETY: no arguments.
     let this = unsafe { libc::gettid() };
@@ -60,17 +60,17 @@ pub(crate) fn take(key: Key, make: impl FnOnce() -> Context) -> Option<*mut Cont
     Some(context)
 }
 
-/// Whether a thread has ended. One that ends with a context current never says that it leaves it.
+/// Whether a thread has ended. A thread that ends with a context current never releases it.
 fn is_gone(thread: c_int) -> bool {
     // SAFETY: signal 0 only asks whether the thread is there.
     let found = unsafe { libc::syscall(libc::SYS_tgkill, libc::getpid(), thread, 0) };
     found != 0 && std::io::Error::last_os_error().raw_os_error() == Some(libc::ESRCH)
 }
 
-/// This thread no longer has a context. The record comes back, for good, where the program has destroyed the context meanwhile.
+/// Gives back a context that this thread has. Returns the record if the program has destroyed the context meanwhile.
 ///
 /// # Safety
-/// From [`take`] on this thread, which has no reference to it any more.
+/// `context` is from [`take`] on this thread, which has no reference to it any more.
 pub(crate) unsafe fn release(context: *mut Context) -> Option<Box<Context>> {
     let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
     let at = registry.0.iter().position(|e| e.context == context)?;
@@ -86,7 +86,7 @@ pub(crate) unsafe fn release(context: *mut Context) -> Option<Box<Context>> {
     gone.then(|| unsafe { Box::from_raw(context) })
 }
 
-/// The program destroys a context: its record, if no thread has it, and whether this was the last one.
+/// Notes that the program destroys a context. Returns its record if no thread has it, and whether no other context is left.
 pub(crate) fn destroy(key: Key) -> (Option<Box<Context>>, bool) {
     let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
     let found = registry.0.iter().position(|e| e.key == key && !e.destroyed);

@@ -1,4 +1,4 @@
-//! Which contexts share objects: what a share group has in common is known to all of its layers.
+//! Which contexts share objects, so that all layers of a share group know its common state.
 
 use crate::provider::Provider;
 use manyview_core::gl::Ptr;
@@ -26,7 +26,7 @@ pub(crate) fn created(provider: Provider, handle: Ptr, share: Ptr) {
         false => member(provider, share).sharing(),
     };
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
-    // A driver gives the handle of a destroyed context out again.
+    // A driver may reuse the handle of a destroyed context.
     all.retain(|c| (c.provider, c.handle) != (provider, handle));
     all.push(Created {
         provider,
@@ -35,13 +35,13 @@ pub(crate) fn created(provider: Provider, handle: Ptr, share: Ptr) {
     });
 }
 
-/// The program has destroyed a context; the others keep what they share.
+/// The program has destroyed a context. The others keep their shared state.
 pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
     all.retain(|c| (c.provider, c.handle) != (provider, handle));
 }
 
-/// The place of a context in its share group.
+/// The record of a context in its share group. It is made here for a context whose creation was not seen.
 pub(crate) fn member(provider: Provider, handle: Ptr) -> Arc<Member> {
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(c) = all
@@ -50,7 +50,7 @@ pub(crate) fn member(provider: Provider, handle: Ptr) -> Arc<Member> {
     {
         return c.member.clone();
     }
-    // Created by a function that is not hooked.
+    // The context was created by a function that is not hooked.
     let member: Arc<Member> = Arc::default();
     all.push(Created {
         provider,

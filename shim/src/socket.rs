@@ -1,10 +1,10 @@
-//! Sockets of ours in the program's table of descriptors. The program may close what it has not opened: each is looked at again before
-//! it is used, and left alone once it is something else.
+//! Our sockets in the program's table of descriptors. The program may close descriptors that it has not opened. So each socket is checked
+//! before it is used, and left alone once its descriptor is something else.
 
 use std::mem::ManuallyDrop;
 use std::os::fd::AsRawFd;
 
-/// A socket of ours, as long as its descriptor is that.
+/// A socket of ours, which is used only while its descriptor still belongs to it.
 pub(crate) struct Checked<T: AsRawFd> {
     socket: ManuallyDrop<T>,
     identity: (u64, u64),
@@ -33,7 +33,7 @@ impl<T: AsRawFd> Drop for Checked<T> {
     }
 }
 
-/// Device and inode of what a descriptor is.
+/// Device and inode of the file behind a descriptor.
 fn identity(socket: &impl AsRawFd) -> Option<(u64, u64)> {
     // SAFETY: all-zero is a valid stat.
     let mut status: libc::stat = unsafe { core::mem::zeroed() };
@@ -42,7 +42,8 @@ fn identity(socket: &impl AsRawFd) -> Option<(u64, u64)> {
     known.then_some((status.st_dev, status.st_ino))
 }
 
-/// Sends what the socket takes now. Without a signal: the program has its own handler for SIGPIPE, or none.
+/// Sends as many bytes as the socket takes now, and returns their number. It raises no SIGPIPE, for which the program may have a handler of its
+/// own, or none.
 pub(crate) fn send(socket: &impl AsRawFd, bytes: &[u8]) -> std::io::Result<usize> {
     // SAFETY: our socket and our bytes.
     let sent = unsafe {

@@ -1,4 +1,4 @@
-//! Whether the layer is on in this process, and so where each exported function leads.
+//! Whether the layer is on in this process, which decides where each exported function leads.
 
 use crate::entry::{ENTRY, HOOK};
 use crate::provider;
@@ -11,18 +11,18 @@ use std::sync::OnceLock;
 /// How much of the program the layer watches.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Mode {
-    /// Nothing: every exported function leads to the driver.
+    /// Nothing is watched: every exported function leads to the driver.
     Passive,
-    /// Frames only: one view is drawn by the program itself, and captured or counted.
+    /// Only frames: the program itself draws the one view, which is captured or counted.
     Observe,
-    /// Everything.
+    /// All commands are watched.
     Active,
 }
 
 static CONFIG: OnceLock<Option<Config>> = OnceLock::new();
 static OFF: AtomicBool = AtomicBool::new(false);
 
-/// The configuration; none where the layer is off or was given something wrong (said once on stderr).
+/// The configuration. None where the layer is disabled or an option is wrong, which is reported once on stderr.
 pub(crate) fn config() -> Option<&'static Config> {
     CONFIG
         .get_or_init(|| {
@@ -47,27 +47,27 @@ pub(crate) fn config() -> Option<&'static Config> {
         .as_ref()
 }
 
-/// The configuration of tests, if it is the first that the process has.
+/// Sets the configuration for tests, unless the process already has one.
 #[cfg(all(test, feature = "fake-driver"))]
 pub(crate) fn configure(config: Config) {
-    // Tests in one process share it.
+    // All tests of a process share the configuration.
     let _ = CONFIG.set(Some(config));
 }
 
-/// Mode of this process.
+/// The mode of this process.
 pub(crate) fn mode() -> Mode {
     match config() {
         _ if OFF.load(Relaxed) => Mode::Passive,
         None => Mode::Passive,
-        // Depth is read from the atlas, also of one view.
+        // Depth is read from the atlas, even with one view.
         Some(c) if c.views > 1 || c.output == Output::Rgbd => Mode::Active,
         Some(c) if c.capture.is_some() || c.report.is_some() => Mode::Observe,
         Some(_) => Mode::Passive,
     }
 }
 
-/// One line on stderr. A closed stderr is nobody's fault; a socket there may be the program's connection to its X server, which got
-/// the free number.
+/// Prints one line on stderr. Errors are ignored, since stderr may be closed. A socket is left alone: it may be the program's connection
+/// to its X server, which got the free descriptor.
 pub(crate) fn say(text: &str) {
     // SAFETY: all-zero is a valid stat.
     let mut status: libc::stat = unsafe { core::mem::zeroed() };
@@ -78,7 +78,7 @@ pub(crate) fn say(text: &str) {
     }
 }
 
-/// Turns the layer off for the rest of the process; answers whether it was on.
+/// Turns the layer off for the rest of the process. Returns whether it was on.
 pub(crate) fn turn_off(why: &str) -> bool {
     let was_on = !OFF.swap(true, Relaxed);
     if was_on {
@@ -124,7 +124,7 @@ pub(crate) fn hooked(slot: usize) -> bool {
     }
 }
 
-/// First call of an exported function: decides where it leads from now on.
+/// Called at the first call of an exported function: decides where the function leads from now on.
 #[cold]
 pub(crate) fn resolve(slot: usize) {
     let Some(hook) = HOOK[slot] else { return };

@@ -1,5 +1,5 @@
-//! Hooks on the driver that records calls: which of them reach it, in which order, what they ask, and that the program reads what it
-//! would read without us.
+//! Hooks on the fake driver, which records calls: which calls reach it, in which order, and which queries they make. The program must
+//! read the same state as without the layer.
 
 use crate::context::{self, guarded};
 use crate::drawable::Drawable;
@@ -16,7 +16,7 @@ thread_local! {
     static DRIVER: Cell<Option<&'static Real>> = const { Cell::new(None) };
 }
 
-/// The functions of the driver that this thread's test has.
+/// The functions of the fake driver of this thread's test.
 pub(crate) fn driver() -> Option<&'static Real> {
     DRIVER.get()
 }
@@ -52,7 +52,7 @@ impl Program {
         program
     }
 
-    /// It looks into a scene.
+    /// Sets a perspective projection and the depth test.
     fn look(&self) {
         // SAFETY: constants, and matrices of 16 values.
         unsafe {
@@ -82,7 +82,7 @@ impl Drop for Program {
     }
 }
 
-/// Of this thread's context.
+/// The handle of this thread's context.
 fn handle() -> Ptr {
     thread_local! { static PLACE: u8 = const { 0 } };
     PLACE.with(|place| (&raw const *place).cast_mut().cast())
@@ -93,7 +93,7 @@ fn draw() {
     unsafe { glDrawArrays(c::TRIANGLES, 0, 3) };
 }
 
-/// A frame of a program without windows.
+/// The end of a frame of a program without windows.
 fn frame() {
     // SAFETY: no arguments.
     unsafe { glFinish() };
@@ -172,7 +172,7 @@ fn immediate_mode_is_recorded_and_sent_at_its_end() {
     }
     let sent = program.fake.count("glVertex3f");
     assert_eq!(sent, 3 * VIEWS);
-    // The driver has the program's own glBegin and glEnd as well, which are empty.
+    // The driver also gets the program's own glBegin and glEnd, which are empty.
     assert_eq!(program.fake.count("glBegin"), 1 + VIEWS);
     assert_eq!(program.fake.count("glEnd"), 1 + VIEWS);
 }
@@ -214,7 +214,7 @@ fn a_thread_without_a_context_reaches_the_driver_alone() {
     assert_eq!(program.fake.count("gl*"), 2);
 }
 
-/// A random number from 0 to below a limit; xorshift, so that a seed gives the same calls everywhere.
+/// Random numbers by xorshift, so that a seed gives the same calls everywhere.
 struct Dice(u64);
 
 impl Dice {
@@ -226,7 +226,7 @@ impl Dice {
     }
 }
 
-/// Calls as a seed chooses them; each pushes and pops what it has to.
+/// Random calls by a seed. Every push has its pop.
 fn calls(seed: u64) {
     let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     const CAPABILITIES: [u32; 5] = [
@@ -274,7 +274,7 @@ fn calls(seed: u64) {
     }
 }
 
-/// What differs of the state, but for the framebuffers, of which the program's 0 is the atlas.
+/// Differences of the state, without framebuffer bindings: under the layer, the atlas is bound in place of framebuffer 0.
 fn differences(alone: &Snapshot, hooked: &Snapshot) -> Vec<String> {
     let all = alone.differences(hooked).into_iter();
     all.filter(|line| !line.contains("FRAMEBUFFER_BINDING"))

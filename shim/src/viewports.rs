@@ -1,10 +1,10 @@
-//! When a viewport may tell that the window's size has changed. Asking the window system at each viewport would wait for it several times
-//! a frame in programs that draw shadow maps.
+//! Detects viewports that may mean a new size of the window. Only those lead to a query of the window system: a query at each viewport would wait
+//! several times per frame in programs that draw shadow maps.
 
-/// Sizes of viewports that are remembered; a program with more of them asks more often.
+/// Number of sizes that are remembered. A program with more sizes causes more queries.
 const KNOWN: usize = 16;
 
-/// Sizes of viewports that were set since the window got its size.
+/// The sizes of viewports that were set since the last change of the window's size.
 #[derive(Debug, Default)]
 pub(crate) struct Viewports {
     window: (u32, u32),
@@ -12,7 +12,7 @@ pub(crate) struct Viewports {
 }
 
 impl Viewports {
-    /// Whether no viewport had this size since the window got its own.
+    /// Notes the size of a viewport. Returns whether no other one had it since the last change of the window's size.
     pub(crate) fn is_new(&mut self, size: (i32, i32)) -> bool {
         if self.known.contains(&size) {
             return false;
@@ -24,7 +24,7 @@ impl Viewports {
         true
     }
 
-    /// The size of the window, each time it is asked for. With another one every viewport may be a new one.
+    /// Notes the size of the window, each time it is queried. A new size makes all sizes of viewports new again.
     pub(crate) fn window_has(&mut self, size: (u32, u32)) {
         if self.window != size {
             self.window = size;

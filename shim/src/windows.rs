@@ -1,21 +1,21 @@
-//! Which windows of X are behind what the program draws to: drawables of glXCreateWindow, and surfaces of EGL.
+//! The X windows behind the program's drawables: those of glXCreateWindow, and surfaces of EGL.
 
 use crate::xcb::{self, Connection};
 use core::ffi::{CStr, c_ulong};
 use manyview_core::gl::Ptr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Of one process. A program has few of them.
+/// All such windows of the process. A program has few of them.
 struct Windows {
     /// GLX: Display, drawable and window.
     drawables: Vec<(usize, c_ulong, c_ulong)>,
-    /// EGL: its display, and what it was got for.
+    /// EGL: EGLDisplay, and the native display that it was obtained for.
     displays: Vec<(usize, Native)>,
-    /// EGL: display, surface and window.
+    /// EGL: EGLDisplay, surface and window.
     surfaces: Vec<(usize, usize, u32)>,
 }
 
-/// What an EGLDisplay was got for, as a number: other threads may ask.
+/// The native display of an EGLDisplay, as a number because other threads may read it.
 #[derive(Clone, Copy)]
 enum Native {
     /// A Display of Xlib.
@@ -42,7 +42,7 @@ pub(crate) fn made(display: Ptr, drawable: c_ulong, window: c_ulong) {
         .push((display as usize, drawable, window));
 }
 
-/// It has destroyed it.
+/// The program has destroyed it.
 pub(crate) fn gone(display: Ptr, drawable: c_ulong) {
     let of = (display as usize, drawable);
     windows().drawables.retain(|w| (w.0, w.1) != of);
@@ -56,11 +56,11 @@ pub(crate) fn behind(display: Ptr, drawable: c_ulong) -> c_ulong {
     found.map_or(drawable, |w| w.2)
 }
 
-/// The program has got an EGLDisplay for something of its own; `platform` is what it says that is, 0 if it does not.
+/// The program has obtained an EGLDisplay for a native display; `platform` is the EGL platform that it named, or 0.
 pub(crate) fn egl_display(display: Ptr, platform: u32, native: Ptr) {
     const X11: u32 = 0x31D5;
     const XCB: u32 = 0x31DC;
-    // Without one of its own, EGL opens a connection that nobody else knows.
+    // Without a native display, EGL opens a connection that only EGL knows.
     if display.is_null() || native.is_null() {
         return;
     }
@@ -76,7 +76,7 @@ pub(crate) fn egl_display(display: Ptr, platform: u32, native: Ptr) {
     windows.displays.push((display as usize, native));
 }
 
-/// Whether there is memory at an address: programs give EGL numbers as displays too.
+/// Whether there is memory at an address. It is checked because programs also give EGL plain numbers as native displays.
 fn is_mapped(address: Ptr) -> bool {
     // SAFETY: sysconf has no conditions.
     let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) } as usize;
@@ -87,11 +87,11 @@ fn is_mapped(address: Ptr) -> bool {
     start != 0 && known == 0
 }
 
-/// Whether an untyped native display is one of X, told as Mesa does: by EGL_PLATFORM, else because it does not begin as those of
-/// Wayland and GBM do.
+/// Whether an untyped native display belongs to X. It is detected as in Mesa: by EGL_PLATFORM, or else because it does not begin like those
+/// of Wayland and GBM.
 ///
 /// # Safety
-/// Nobody takes away the memory that is there, if some is.
+/// Memory at `native`, if there is any, stays mapped during the call.
 unsafe fn is_xlib(native: Ptr) -> bool {
     if let Some(platform) = std::env::var_os("EGL_PLATFORM") {
         return platform == "x11";
@@ -110,14 +110,14 @@ unsafe fn is_xlib(native: Ptr) -> bool {
         .all(|(library, symbol)| xcb::function(library, symbol) != Some(first))
 }
 
-/// The program has made a surface for a window; `window` is what it gave to EGL, by `address` if it gave that of the window's number.
+/// The program has made a surface for a window. `window` is its argument to EGL: the window's number, or with `address` the address of that.
 ///
 /// # Safety
 /// EGL has just taken `window` for a native window of this display.
 pub(crate) unsafe fn egl_made(display: Ptr, surface: Ptr, window: Ptr, address: bool) {
     egl_gone(display, surface);
     let mut windows = windows();
-    // Of X only.
+    // Only windows of X are noted.
     if !windows.displays.iter().any(|d| d.0 == display as usize) {
         return;
     }
@@ -132,13 +132,13 @@ pub(crate) unsafe fn egl_made(display: Ptr, surface: Ptr, window: Ptr, address: 
         .push((display as usize, surface as usize, number));
 }
 
-/// It has destroyed it.
+/// The program has destroyed it.
 pub(crate) fn egl_gone(display: Ptr, surface: Ptr) {
     let of = (display as usize, surface as usize);
     windows().surfaces.retain(|s| (s.0, s.1) != of);
 }
 
-/// The window behind a surface, and the connection to ask about it.
+/// The window behind a surface, and the connection for queries about it.
 ///
 /// # Safety
 /// The program shows this surface on this thread.

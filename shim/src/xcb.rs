@@ -1,5 +1,5 @@
-//! The requests of xcb and Xlib that the shim makes. By xcb, whose errors come as values: an X error through Xlib would end the program.
-//! The libraries are those that the program or the driver has loaded; their functions are looked up once.
+//! The requests of xcb and Xlib that the shim makes. Most use xcb, which returns errors as values; an X error through Xlib would end the program.
+//! The libraries are those that the program or the driver has loaded. Their functions are looked up once.
 
 use crate::provider::symbol;
 use core::ffi::{CStr, c_char, c_int, c_uint, c_void};
@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 /// An xcb_connection_t.
 pub(crate) type Connection = Ptr;
 
-/// An xcb_…_cookie_t. A struct, because some calling conventions (that of 32-bit x86) return it otherwise than a number.
+/// An xcb_…_cookie_t. It is a struct, because some calling conventions (such as that of 32-bit x86) return a struct differently from a number.
 #[repr(C)]
 #[derive(Clone, Copy)]
 struct Cookie {
@@ -66,7 +66,7 @@ pub(crate) struct Window {
     pub(crate) root: u32,
 }
 
-/// Of every `xcb_…_reply` function.
+/// The type of every `xcb_…_reply` function.
 type Reply = unsafe extern "C" fn(Connection, Cookie, *mut *mut c_void) -> *mut c_void;
 
 /// A function (or a variable) of a library that the program or the driver has loaded. The library stays loaded from then on.
@@ -80,7 +80,7 @@ pub(crate) fn function(library: &CStr, name: &CStr) -> Option<Ptr> {
     (!p.is_null()).then_some(p)
 }
 
-/// Functions of one library, looked up until they are all there, and then never again.
+/// Defines a table of functions of one library. They are looked up at each use until all are found, and then never again.
 macro_rules! functions {
     ($table:ident, $library:literal, { $($field:ident = $name:literal: $kind:ty),+ $(,)? }) => {
         struct $table {
@@ -136,7 +136,7 @@ pub(crate) unsafe fn connection(display: Ptr) -> Option<Connection> {
     (!connection.is_null()).then_some(connection)
 }
 
-/// What a Display was opened with.
+/// The name that a Display was opened with.
 ///
 /// # Safety
 /// An open Display.
@@ -149,7 +149,7 @@ pub(crate) unsafe fn display_name(display: Ptr) -> Option<String> {
     }
 }
 
-/// What a request is answered by; freed here.
+/// Waits for the reply to a request, reads a value from it with `read` and frees it. None on an error.
 ///
 /// # Safety
 /// `reply` belongs to the request of the cookie, and `R` is the beginning of its struct.
@@ -170,7 +170,7 @@ unsafe fn answer<R, T>(
     }
 }
 
-/// Size and root of a window. None for what is no window.
+/// Size and root of a window. None if `window` is not a window.
 ///
 /// # Safety
 /// An open connection.
@@ -188,7 +188,7 @@ pub(crate) unsafe fn window(connection: Connection, window: u32) -> Option<Windo
     }
 }
 
-/// The left top corner of a window on its root.
+/// The top left corner of a window on its root, in pixels.
 ///
 /// # Safety
 /// An open connection.
@@ -207,7 +207,7 @@ pub(crate) unsafe fn translated(
     }
 }
 
-/// The monitors of a screen. None where nobody has loaded RandR's library, or the server has none.
+/// The monitors of a screen. None where the process has not loaded RandR's library, or the server has no RandR.
 ///
 /// # Safety
 /// An open connection, and the root of one of its screens.

@@ -1,7 +1,7 @@
-//! The accumulation buffer, which framebuffer objects do not have: one for each view, made when it is first needed.
+//! The accumulation buffer, which framebuffer objects do not have: one for each view, created when it is first needed.
 //!
-//! The arithmetic is that of Mesa's, measured with Mesa 22.3: 16-bit integers, of which 32767 stands for 1; fractions are cut off,
-//! what does not fit is wrapped, colours are rounded to the nearest step. OpenGL asks for no more than the range from -1 to 1.
+//! The arithmetic is Mesa's, measured with Mesa 22.3: 16-bit integers, of which 32767 stands for 1. Fractions are cut off, overflows
+//! wrap, and colours are rounded to the nearest step. OpenGL requires no more than the range from -1 to 1.
 #![forbid(unsafe_code)]
 
 mod srgb;
@@ -15,10 +15,10 @@ use crate::interleave::shader::{Pass, Step};
 use crate::state::Neutral;
 use crate::state::Window;
 
-/// What 1 is stored as.
+/// The stored value of 1.
 const ONE: f32 = 32767.0;
 
-/// What is to be done.
+/// An operation on the accumulation buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
     /// glClear with these values.
@@ -36,7 +36,7 @@ pub enum Operation {
 }
 
 impl Operation {
-    /// The operation of glAccum; `None` where there is no such one. `mask` is the colour mask.
+    /// The operation of glAccum; `None` if `op` is none. `mask` is the colour mask.
     pub fn of(op: u32, value: f32, mask: [bool; 4]) -> Option<Operation> {
         match op {
             c::LOAD => Some(Operation::Load(value)),
@@ -61,7 +61,7 @@ impl Operation {
     }
 }
 
-/// A whole number of 32 bits cut to 16, as a CPU does it.
+/// Converts to a 32-bit integer and cuts that to 16 bits, as a CPU does it; 0 for a number that does not fit 32 bits.
 fn short(v: f32) -> f32 {
     let whole = if v.abs() < 2_147_483_648.0 {
         v as i32
@@ -71,18 +71,18 @@ fn short(v: f32) -> f32 {
     f32::from(whole as i16)
 }
 
-/// What a component of GL_ACCUM_CLEAR_VALUE is stored as.
+/// The stored value of a component of GL_ACCUM_CLEAR_VALUE.
 fn clear_value(v: f32) -> f32 {
     let steps = (65535.0 * v) as i32;
     f32::from(((steps - 1) / 2) as i16)
 }
 
-/// A rectangle of a layer: x, y, width, height in texels.
+/// A rectangle in a layer of the atlas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
     /// Layer of the atlas.
     pub row: u32,
-    /// In rows of the texture.
+    /// x, y, width and height in texels, in the order of the texture's rows.
     pub rect: [i32; 4],
 }
 
@@ -98,11 +98,11 @@ pub struct Accumulation {
     /// One layer: what was there before, while it is drawn over.
     before: u32,
     size: [u32; 3],
-    /// Of sRGB colours, for the value that it was made for.
+    /// Tables of sRGB colours: to accumulate, and to return.
     tables: [Table; 2],
 }
 
-/// A table of `shaders/accumulate.wgsl`.
+/// A table of `shaders/accumulate.wgsl`, and the bits of the factor for which it was made.
 #[derive(Debug, Default)]
 struct Table {
     texture: u32,
@@ -110,7 +110,7 @@ struct Table {
 }
 
 impl Table {
-    /// Binds it, made for a value.
+    /// Binds the table; fills it first if it was made for another factor.
     fn bind(&mut self, gl: &Gl, value: f32, make: impl FnOnce() -> (i32, Vec<i16>)) {
         gl.bind_texture(c::TEXTURE_2D, self.texture);
         if self.value != Some(value.to_bits()) {
@@ -121,20 +121,23 @@ impl Table {
     }
 }
 
-/// For each stored colour what is accumulated of it.
+/// For each stored colour, the value that is accumulated.
 fn taken(factor: f32) -> (i32, Vec<i16>) {
     let value = |stored| short(srgb::decoded(stored) * factor) as i16;
     (1, (0..=255).map(value).collect())
 }
 
-/// For each accumulated value the colour that is stored.
+/// For each accumulated value, the colour that is stored.
 fn stored(factor: f32) -> (i32, Vec<i16>) {
     let colour = |v: i16| i16::from(srgb::encoded(f32::from(v) * factor));
     (256, (i16::MIN..=i16::MAX).map(colour).collect())
 }
 
 impl Accumulation {
-    /// For an atlas, all zero.
+    /// Creates the buffers for an atlas, all zero.
+    ///
+    /// # Errors
+    /// If a program of the passes does not compile.
     pub fn new(
         gl: &Gl,
         _: &Neutral,
@@ -215,12 +218,12 @@ impl Accumulation {
         self.programs.iter().map(Program::name)
     }
 
-    /// The textures get other names. the draw framebuffer is left bound.
+    /// Moves the contents to textures with other names. May leave the framebuffer object of the passes bound for drawing.
     pub fn rename(&mut self, gl: &Gl, _: &Neutral, names: &mut Names) {
         let old = self.textures();
         self.make_textures(gl, names);
         let [width, height, rows] = self.size;
-        // A pass would be fed back to the program where it selects or feeds back.
+        // In selection or feedback mode, a pass would draw nothing and report to the program instead; a copy works there.
         if gl.since((4, 3), None) {
             let size = self.size.map(|s| s as i32);
             gl.copy_image(c::TEXTURE_2D_ARRAY, 0, old[0], self.values, size);
@@ -233,16 +236,17 @@ impl Accumulation {
         old.into_iter().for_each(|t| gl.delete_texture(t));
     }
 
-    /// Gives textures and framebuffer back; only while the context is current.
+    /// Deletes textures and framebuffer; the context has to be current.
     pub fn delete(self, gl: &Gl) {
         gl.delete_framebuffer(self.framebuffer);
         let textures = self.textures();
         textures.into_iter().for_each(|t| gl.delete_texture(t));
-        // The programs are few and stay with the context, as those of other passes do.
+        // The programs are few, and stay with the context as those of other passes do.
     }
 
-    /// Makes one step in some regions. Colours come from the layers of a texture, and go to those of others, of the atlas's size;
-    /// they must be resolved where they are read. the draw framebuffer is left bound.
+    /// Applies an operation to some regions. Colours are read from the layers of the texture `from`, which must be resolved, and returned
+    /// to the same layers of the textures `to`; all have the size of the atlas. Leaves the framebuffer object of the passes bound for
+    /// drawing.
     pub fn apply(
         &mut self,
         gl: &Gl,
@@ -266,7 +270,7 @@ impl Accumulation {
         for &Region { row, rect } in regions {
             let mut before = (self.values, row);
             if changes {
-                // Not by a blit: llvmpipe 22.3 may copy what was there before the last pass.
+                // The copy is not a blit, because llvmpipe 22.3 may then copy the contents from before the last pass.
                 before = (self.before, 0);
                 self.copy(gl, (self.values, row), before, rect);
             }
@@ -327,10 +331,10 @@ impl Accumulation {
     }
 }
 
-/// The word of the layer of what was accumulated.
+/// Index of the word with the layer of the accumulated values.
 const BEFORE: usize = 13;
 
-/// The uniforms, as `shaders/accumulate.wgsl` has them.
+/// The uniforms, as `shaders/accumulate.wgsl` declares them.
 fn words(window: &Window, values: [f32; 4], layer: u32, before: u32) -> [u32; 16] {
     let [r, g, b, a, _, _] = window.bits;
     let steps = [r, g, b, a].map(|bits| match bits {

@@ -1,4 +1,4 @@
-//! sRGB as Mesa's CPU code has it: what is drawn by accumulation has to be equal bit by bit.
+//! sRGB as Mesa's CPU code converts it, because accumulated pictures have to be equal bit by bit.
 
 /// From the stored colour to the linear one.
 pub(super) fn decoded(stored: u8) -> f32 {
@@ -11,7 +11,7 @@ pub(super) fn decoded(stored: u8) -> f32 {
     linear as f32
 }
 
-/// From the linear colour to the stored one. Mesa rounds by straight pieces that are up to 0.045 steps off.
+/// From the linear colour to the stored one. Mesa approximates the curve by straight pieces, which are up to 0.045 steps off.
 pub(super) fn encoded(linear: f32) -> u8 {
     if linear <= 0.0 || linear.is_nan() {
         return 0;
@@ -20,8 +20,8 @@ pub(super) fn encoded(linear: f32) -> u8 {
     FIRST.partition_point(|&first| first <= bits) as u8
 }
 
-/// For the stored colours from 1 on the upper 20 bits of the smallest linear one. Measured with Mesa 22.3.6: the values of all
-/// linear colours that 16-bit accumulation returns at 15 scales, which depend on these 20 bits alone.
+/// For each stored colour from 1 on, the upper 20 bits of the smallest linear colour that is stored as it. Measured with Mesa 22.3.6
+/// on all linear colours that 16-bit accumulation returns at 15 scales; the stored colour depends on these 20 bits alone.
 #[rustfmt::skip]
 const FIRST: [u32; 255] = [
     233965, 237293, 238703, 239795, 240434, 241070, 241684, 242003, 242321, 242639, 242957, 243296,

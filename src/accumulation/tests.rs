@@ -1,4 +1,4 @@
-//! Values by themselves, and the passes on the fake driver.
+//! The arithmetic by itself, and the passes on the fake driver.
 
 use super::*;
 use crate::atlas::{Grid, Limits, Tiles};

@@ -1,23 +1,23 @@
-//! Small copies of the depths of the program's own view, read when they are there so that nobody waits for them.
+//! Small copies of the depths of the program's own view. They are read back once the driver has finished them, so that nothing waits.
 
 use super::{Atlas, Names, single::Single};
 use crate::gl::{Fence, Gl, consts as c};
 use crate::state::Window;
 
-/// Pictures of one frame that are kept.
+/// The most pictures of one frame.
 const PICTURES: usize = 3;
 
-/// The longer side of a copy, in samples. A frame of 1920 x 1080 has one of every 15 pixels of a row.
+/// The longer side of a copy, in samples. Of a frame of 1920 x 1080, one pixel in 15 of a row is sampled.
 const SAMPLES: u32 = 128;
 
-/// Where the samples are.
+/// The framebuffer and the buffer object of the copies.
 #[derive(Debug)]
 pub(super) struct Depths {
     small: Single,
     buffer: u32,
     /// Pictures in the buffer.
     taken: usize,
-    /// Passed when the last of them is there.
+    /// Signalled once the last of them is in the buffer.
     fence: Option<Fence>,
 }
 
@@ -28,7 +28,7 @@ impl Depths {
 }
 
 impl Atlas {
-    /// Makes what [`Atlas::take_depths`] copies to. The caller saves and restores bindings as for [`Atlas::new`], and the pack
+    /// Makes the objects for [`Atlas::take_depths`]. The caller saves and restores bindings as for [`Atlas::new`], and the pack
     /// buffer.
     pub fn make_depths(&mut self, gl: &Gl, names: &mut Names, window: &Window) {
         let longer = window.width.max(window.height).max(1);
@@ -52,8 +52,8 @@ impl Atlas {
         self.depths.is_some()
     }
 
-    /// Takes a picture of the depths as they are now; false where there is room for no more. Changes the framebuffer bindings;
-    /// state must be as [`crate::state::Neutral`] has it.
+    /// Copies the current depths of the program's own view; false where there is no more room, or depths cannot be read. Changes the
+    /// framebuffer bindings; the state must be neutral (see [`crate::state::Neutral`]).
     pub fn take_depths(&mut self, gl: &Gl) -> bool {
         let full = self.depths.as_ref().is_none_or(|d| d.taken == PICTURES);
         if full || !gl.reads_depths() {
@@ -76,21 +76,21 @@ impl Atlas {
         true
     }
 
-    /// No more pictures are taken in this frame.
+    /// Ends the pictures of this frame with a fence.
     pub fn send_depths(&mut self, gl: &Gl) {
         if let Some(depths) = self.depths.as_mut().filter(|d| d.taken > 0) {
             depths.fence = gl.fence();
         }
     }
 
-    /// Whether [`Atlas::read_depths`] would not wait for what was sent; the driver may not know to say.
+    /// Whether [`Atlas::read_depths`] would not wait; false where the driver has no fences.
     pub fn depths_are_there(&self, gl: &Gl) -> bool {
         let fence = self.depths.as_ref().and_then(|d| d.fence.as_ref());
         fence.is_some_and(|fence| gl.passed(fence))
     }
 
-    /// The pictures that were taken since the last time, in their order: depths of the window, in no order. The pack buffer must be
-    /// none.
+    /// The pictures since the last read, in the order in which they were taken: each is the window depths of all samples. No pack buffer may be
+    /// bound.
     pub fn read_depths(&mut self, gl: &Gl) -> Vec<Vec<f32>> {
         let Some(depths) = &mut self.depths else {
             return Vec::new();
@@ -119,7 +119,7 @@ impl Atlas {
     }
 }
 
-/// Of one picture.
+/// Bytes of one picture.
 fn bytes([width, height]: [i32; 2]) -> usize {
     width as usize * height as usize * size_of::<f32>()
 }

@@ -1,13 +1,13 @@
-//! The front buffer of a window that has two: another image of every tile, made when the program asks for it.
+//! The front buffer of a double-buffered window: another image of every tile, made when the program first uses it.
 
 use super::{Atlas, Names, color_format, store};
 use crate::gl::{Gl, consts as c};
 use crate::state::{BACK, FRONT, Window};
 
-/// Swaps after which a front buffer that nobody asks for is given up.
+/// Swaps after which an unused front buffer is deleted.
 const IDLE: u32 = 30;
 
-/// The other image.
+/// The front image of all tiles.
 #[derive(Debug)]
 pub(super) struct Front {
     texture: u32,
@@ -16,8 +16,8 @@ pub(super) struct Front {
 }
 
 impl Atlas {
-    /// Makes it: after a swap (`swapped`) with what the back buffer holds now, before it as the driver makes it. The caller saves
-    /// and restores bindings as for [`Atlas::new`] and the buffers of all framebuffers; the scissor test must be off.
+    /// Makes the front buffer: after the first swap (`swapped`) with the contents of the back buffer, before it undefined. The caller saves
+    /// and restores bindings as for [`Atlas::new`] and the draw and read buffers of all framebuffers; the scissor test must be off.
     pub fn make_front(&mut self, gl: &Gl, names: &mut Names, window: &Window, swapped: bool) {
         let t = self.tiles;
         let size = [t.texture_width(), t.height, t.rows].map(|n| n as i32);
@@ -62,8 +62,9 @@ impl Atlas {
         )
     }
 
-    /// A swap: the front buffer holds what the back buffer does. `used`: the program draws to it or reads from it. Answers whether
-    /// there was a front buffer, and the buffers and bindings of all framebuffers have changed. The scissor test must be off.
+    /// Copies the back buffer to the front buffer at a swap. `used`: the program draws to the front buffer or reads from it. Returns whether
+    /// there was a front buffer; the draw and read buffers of all framebuffers and their bindings have then changed. The scissor test must be
+    /// off.
     pub fn swapped(&mut self, gl: &Gl, used: bool) -> bool {
         let Some(front) = &mut self.front else {
             return false;

@@ -1,34 +1,34 @@
-//! Which points of the window the texels of a tile show.
+//! The grid of a tile: which points of the window its texels show.
 
 use crate::display::LensPhase;
 use crate::view::ViewIndex;
 
-/// From the window to the tile of view i, both in pixels from the lower left corner:
-/// `x = across · X + shear · Y + origin + i · step`, and `y` likewise without a shear.
+/// The affine map from a point (X, Y) of the window to the tile of view i, both in pixels from the lower left corner:
+/// `x = across · X + shear · Y + origin[0] + i · step[0]`, `y = up · Y + origin[1] + i · step[1]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// Columns of the tile for one pixel of a row.
+    /// Columns of the tile per column of the window.
     pub across: f64,
-    /// Columns by which a row lies beside the one below it.
+    /// Columns of the tile by which each row of the window is shifted against the row below it.
     pub shear: f64,
-    /// Rows of the tile for one of the window.
+    /// Rows of the tile per row of the window.
     pub up: f64,
-    /// Where the window's corner lies in the tile of view 0.
+    /// The window's lower left corner in the tile of view 0.
     pub origin: [f64; 2],
-    /// How much further it lies for each further view.
+    /// Shift of that corner from view to view.
     pub step: [f64; 2],
-    /// The panel shows the views in the middles of texels and nowhere else.
+    /// The panel shows the views only at the centres of texels, so no interpolation is needed.
     pub exact: bool,
 }
 
-/// The part of a tile outside the window that a shear may bring, over the part inside.
+/// Largest ratio of the parts of a tile outside and inside the window, which a shear causes.
 const LARGEST_WASTE: f64 = 0.5;
-/// Fewer texels than this for a pixel of the window, or it is not worth it.
+/// Largest number of texels per pixel of the window at which such a grid is worth it.
 const LARGEST_DENSITY: f64 = 0.9;
 
-/// Rows for one of the window where texels are looked up between columns anyway. Measured with 8 views of a slanted sheet at 1920x1080:
-/// all rows take 5.1 times a single view's time (scene `fill`; textured 4.6) with 43.3 dB (42.8), two thirds of them 3.6 times (3.1)
-/// with 43.8 dB (41.9); and at 480x360 with the demo `teapot` 37.3 dB become 33.
+/// Rows of the tile per row of the window, where columns are interpolated anyway. Measured with 8 views of a slanted sheet at 1920x1080:
+/// all rows take 5.1 times the time of a single view (scene `fill`; textured 4.6) at 43.3 dB (42.8); two thirds of them take 3.6 times
+/// (3.1) at 43.8 dB (41.9). At 480x360 with the demo `teapot`, quality falls from 37.3 dB to 33.
 const ROWS: f64 = 2.0 / 3.0;
 
 impl Grid {
@@ -42,7 +42,7 @@ impl Grid {
         exact: false,
     };
 
-    /// Tiles of a size for a window of another.
+    /// The grid of tiles of one size for a window of another size.
     pub fn scaled(tile: [u32; 2], window: [u32; 2]) -> Grid {
         let [across, up] =
             std::array::from_fn(|i| f64::from(tile[i]) / f64::from(window[i].max(1)));
@@ -53,9 +53,9 @@ impl Grid {
         }
     }
 
-    /// A column for each lens: the middle of a texel is where the panel shows the view. `parts` is what a turn is cut into, N for a
-    /// panel; `between` how many of them lie between neighbouring views, 1 for a panel. None where that is more than the window has,
-    /// or most of it outside.
+    /// A column of texels for each lens, the centres of which lie where the panel shows the view. `parts` is the number of parts into which a
+    /// lens period is divided, N for a panel; `between` is the number of parts between neighbouring views, 1 for a panel. None where this
+    /// saves too few texels, or too many of them lie outside the window.
     pub fn sample_aligned(
         phase: &LensPhase,
         window: [u32; 2],
@@ -63,10 +63,10 @@ impl Grid {
         between: f64,
     ) -> Option<Grid> {
         let [width, height] = window.map(f64::from);
-        // Rows are counted from the top there and from the bottom here; at the corner between pixels, not in the middle of one.
+        // The lens phase counts rows from the top and is given at pixel centres; the grid counts from the lower left corner of the window.
         let corner = phase.start - 0.5 * phase.right + (height - 0.5) * phase.down;
         if phase.right == 0.0 {
-            // Lenses along the rows.
+            // The lenses run along the rows.
             let sign = if phase.down > 0.0 { -1.0 } else { 1.0 };
             let up = -sign * phase.down;
             let grid = Grid {
@@ -80,8 +80,8 @@ impl Grid {
         }
         let sign = phase.right.signum();
         let (across, shear) = (sign * phase.right, -sign * phase.down);
-        // Where the lens has more views than subpixels not every row is needed; and where texels lie between those of the panel, what is
-        // between rows of them is no worse.
+        // A lens with more views than subpixels does not need every row. Where columns are interpolated anyway, interpolation between rows is
+        // no worse.
         let most = if phase.exact { 1.0 } else { ROWS };
         let up = (3.0 / (parts * across)).min(most);
         let grid = Grid {
@@ -101,17 +101,17 @@ impl Grid {
         *self == Grid::FULL
     }
 
-    /// Whether the texels are those of the lenses, and not simply fewer.
+    /// Whether the texels lie where the panel shows the views, and are not just fewer.
     pub fn is_sample_aligned(&self) -> bool {
         self.step != [0.0; 2]
     }
 
-    /// Where the window's corner lies in the tile of a view.
+    /// The window's lower left corner in the tile of a view, in pixels.
     pub fn corner(&self, view: ViewIndex) -> [f64; 2] {
         [0, 1].map(|i| self.origin[i] + f64::from(view.0) * self.step[i])
     }
 
-    /// Moved by whole texels so that the window lies inside all tiles; their width and height.
+    /// The grid, moved by whole texels so that the window lies inside all tiles, and the width and height of the tiles.
     pub fn fit(mut self, window: [u32; 2], views: u32) -> (Grid, [u32; 2]) {
         if !self.is_sample_aligned() {
             let size = [self.across, self.up].map(f64::from);
@@ -138,8 +138,8 @@ impl Grid {
         (self, size.map(|side| side.max(1)))
     }
 
-    /// What a viewport of the window becomes in the tile of a view that begins at `offset`: x, y, width, height. Its projection has to
-    /// be [`Grid::lean`]ed.
+    /// The viewport of the window in the tile of a view that begins at `offset`: x, y, width, height in pixels of the atlas. With a shear it is
+    /// widened, and the projection needs [`Grid::lean`].
     pub fn viewport(&self, view: ViewIndex, offset: i32, viewport: [i32; 4]) -> [f32; 4] {
         let [x, y, width, height] = viewport.map(f64::from);
         let [corner_x, corner_y] = self.corner(view);
@@ -154,12 +154,12 @@ impl Grid {
         .map(|n| n as f32)
     }
 
-    /// Half widths of a viewport in the tile by which its top lies beside its middle.
+    /// Horizontal shift of a viewport's top against its middle, in half widths of the viewport in the tile.
     fn slope(&self, [_, _, width, height]: [i32; 4]) -> f64 {
         self.shear * f64::from(height) / (self.across * f64::from(width.max(1)))
     }
 
-    /// A projection (column-major) for [`Grid::viewport`]: `x' = (x + k·y) / (1 + |k|)` in clip space.
+    /// The projection (column-major) for [`Grid::viewport`]: `x' = (x + k·y) / (1 + |k|)` in clip space, where k is the slope.
     pub fn lean(&self, viewport: [i32; 4], p: &[f32; 16]) -> [f32; 16] {
         let k = self.slope(viewport);
         let mut leant = *p;
@@ -170,7 +170,7 @@ impl Grid {
         leant
     }
 
-    /// As [`Grid::lean`], for the viewport of another view, `by`.
+    /// As [`Grid::lean`], but for use with the viewport of another view, `by`.
     pub fn lean_beside(
         &self,
         viewport: [i32; 4],
@@ -188,24 +188,24 @@ impl Grid {
         leant
     }
 
-    /// The texels of a view's tile, from the first to before the last, whose middles lie in a range of the window's pixels, along x
-    /// (without a shear) or y.
+    /// The half-open range of texels of a view's tile whose centres lie in a range of the window's pixels, along x (axis 0, only
+    /// without a shear) or y (axis 1).
     pub fn texels(&self, view: ViewIndex, axis: usize, from: i32, to: i32) -> [i32; 2] {
         let scale = [self.across, self.up][axis];
         let corner = self.corner(view)[axis];
         [from, to].map(|edge| (scale * f64::from(edge) + corner - 0.5).ceil() as i32)
     }
 
-    /// What is to be added to the level of detail of textures, so that the window sees about the level that it would have. Where texels
-    /// are farther apart along one axis only, textures that are squeezed along the other would have too fine a level with all of
-    /// it; measured with the demo `teapot` and 8 views, a column of 8: +0 gives 31.3 dB, -2 42.0, -2.5 44.4, -3 43.2.
+    /// Bias of the textures' level of detail, so that about the same level is sampled as in the window. Where texels are farther apart along
+    /// one axis only, the full bias would select too fine a level for textures that are minified along the other. Measured with the demo
+    /// `teapot` and 8 views, one column in 8: +0 gives 31.3 dB, -2 42.0, -2.5 44.4, -3 43.2.
     pub fn level_bias(&self) -> f64 {
         let [across, up] = [self.across, self.up].map(|density| -density.log2());
         let (more, less) = (across.max(up), across.min(up));
         -(more - ((more - less) / 2.0).min(0.5))
     }
 
-    /// How many times as far apart as those of the window the texels are, in the mean of both directions.
+    /// Distance between texels in pixels of the window: the geometric mean of both axes.
     pub fn spacing(&self) -> f64 {
         1.0 / (self.across * self.up).sqrt()
     }

@@ -1,4 +1,4 @@
-//! An array texture with a framebuffer for each of its layers: what passes of ours write numbers to.
+//! An array texture with a framebuffer for each of its layers, for numbers that the layer's own passes write.
 
 use super::{Names, store};
 use crate::gl::{Gl, consts as c};
@@ -13,7 +13,8 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    /// Of an internal format, format and type, and of a width, a height and a number of layers. Changes the bindings that [`super::Atlas::new`] does.
+    /// `format`: internal format, format and type; `size`: width, height and number of layers. Changes the bindings that
+    /// [`super::Atlas::new`] does.
     pub(super) fn new(
         gl: &Gl,
         names: &mut Names,
@@ -29,7 +30,7 @@ impl Layers {
             gl.bind_framebuffer(c::FRAMEBUFFER, name);
             let point = c::COLOR_ATTACHMENT0;
             gl.framebuffer_texture_layer(c::FRAMEBUFFER, point, texture, 0, layer);
-            // As the tiles: Mesa 22.3 turns a polygon stipple for the framebuffer that is drawn to first, and keeps it so.
+            // Flipped as the tiles are: Mesa 22.3 flips a polygon stipple for the framebuffer that is drawn to first, and keeps it.
             if flip {
                 gl.flip_framebuffer(c::FRAMEBUFFER);
             }

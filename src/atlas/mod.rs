@@ -1,4 +1,4 @@
-//! The program's framebuffer 0, redirected: one array texture with a tile per view, a framebuffer per layer.
+//! The atlas, to which the program's framebuffer 0 is redirected: an array texture with a tile per view and a framebuffer per layer.
 #![forbid(unsafe_code)]
 
 mod depths;
@@ -34,12 +34,12 @@ use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 
 /// Tiles, textures and framebuffers of one context. More than 12 fields: one for each kind of image, made when it is first wanted.
-/// More than 25 methods: what is done with each kind, in a file for each.
+/// More than 25 methods: the operations on each kind, in a file for each.
 #[derive(Debug)]
 pub struct Atlas {
-    /// Where the views lie.
+    /// The places of the views.
     pub tiles: Tiles,
-    /// Texture rows run top down, as the driver draws windows (GL_MESA_framebuffer_flip_y).
+    /// Texture rows run from the top down, as in the driver's windows (GL_MESA_framebuffer_flip_y).
     pub flipped: bool,
     /// The colour texture that is sampled: the tiles themselves, or what they are resolved to.
     pub color: u32,
@@ -52,7 +52,7 @@ pub struct Atlas {
     layered: Option<u32>,
     resolve: Option<Vec<u32>>,
     front: Option<Front>,
-    /// What is read from, and what a scaled blit is drawn to.
+    /// Copies of single tiles: one to read from, and one that a scaled blit is drawn to.
     singles: Vec<Single>,
     depths: Option<Depths>,
     pyramid: Option<Pyramid>,
@@ -60,7 +60,7 @@ pub struct Atlas {
     bound_row: u32,
 }
 
-/// What the driver refused.
+/// Why the driver cannot make an atlas.
 #[derive(Debug, thiserror::Error)]
 pub enum AtlasError {
     /// The tiles do not fit.
@@ -85,7 +85,7 @@ pub enum AtlasError {
     },
 }
 
-/// Internal format, format and type of the colour texture that holds what the window holds.
+/// Internal format, format and type of a colour texture with the bits of the window.
 fn color_format(w: &Window) -> (u32, u32, u32) {
     let [r, _, _, a, _, _] = w.bits;
     match (r, a) {
@@ -96,8 +96,8 @@ fn color_format(w: &Window) -> (u32, u32, u32) {
         (5, 0) => (c::RGB565, c::RGB, c::UNSIGNED_BYTE),
         (5, 1) => (c::RGB5_A1, c::RGBA, c::UNSIGNED_BYTE),
         (4, _) => (c::RGBA4, c::RGBA, c::UNSIGNED_BYTE),
-        // A window without alpha reads 1 there, and blending with the destination's alpha sees 1.
-        // Which OpenGL ES cannot draw to.
+        // In a window without alpha, reads and blending get a destination alpha of 1, so the texture has none either. OpenGL ES cannot draw
+        // to GL_SRGB8.
         (_, 0) if w.srgb && w.buffers.es => (c::SRGB8_ALPHA8, c::RGBA, c::UNSIGNED_BYTE),
         (_, 0) if w.srgb => (c::SRGB8, c::RGB, c::UNSIGNED_BYTE),
         (_, 0) => (c::RGB8, c::RGB, c::UNSIGNED_BYTE),
@@ -144,7 +144,7 @@ fn depth_format(w: &Window) -> Option<(u32, u32, u32, u32)> {
     }
 }
 
-/// Memory of a texel in an internal format of [`color_format`] or [`depth_format`]; drivers give three bytes a fourth.
+/// Bytes of a texel in an internal format of [`color_format`] or [`depth_format`]; drivers pad three bytes to four.
 fn texel_bytes(format: u32) -> u64 {
     match format {
         c::RGBA16 | c::RGBA16F => 8,
@@ -153,8 +153,8 @@ fn texel_bytes(format: u32) -> u64 {
     }
 }
 
-/// A width at which rows are not a multiple of 4096 bytes apart, where the driver has one: else the same columns of neighbouring rows
-/// would share a few lines of a cache.
+/// A width, in texels, at which rows are not a multiple of 4096 bytes apart, if the driver's limit allows one. Otherwise the same column
+/// of neighbouring rows would compete for a few cache lines.
 fn padded(gl: &Gl, width: u32) -> u32 {
     let wider = width + 16;
     let most = gl.get_integer(c::MAX_TEXTURE_SIZE).max(0).unsigned_abs();
@@ -173,7 +173,7 @@ fn store(gl: &Gl, name: u32, format: (u32, u32, u32), [width, height, layers]: [
     gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
 }
 
-/// The texture that is bound has one level, and is fetched from.
+/// Sets the bound array texture to one level without filtering.
 fn fetched(gl: &Gl) {
     for (p, v) in [
         (c::TEXTURE_MIN_FILTER, c::NEAREST),
@@ -185,7 +185,11 @@ fn fetched(gl: &Gl) {
 }
 
 impl Atlas {
-    /// Makes the atlas for a window. The caller saves and restores bindings (textures, framebuffers, unpack buffer).
+    /// Makes the atlas for a window; `flip` sets [`Atlas::flipped`]. The caller saves and restores bindings (textures, framebuffers, unpack
+    /// buffer).
+    ///
+    /// # Errors
+    /// [`AtlasError::Incomplete`]; nothing is left behind.
     pub fn new(
         gl: &Gl,
         names: &mut Names,
@@ -291,7 +295,7 @@ impl Atlas {
         Ok(atlas)
     }
 
-    /// Gives everything back; only while its context is current.
+    /// Deletes all objects; only while its context is current.
     pub fn delete(mut self, gl: &Gl) {
         self.framebuffers().for_each(|f| gl.delete_framebuffer(f));
         self.textures.iter().for_each(|&t| gl.delete_texture(t));
@@ -325,7 +329,7 @@ impl Atlas {
         &self.textures
     }
 
-    /// All views that are drawn get what the program's own one has; the back buffer must be the one that is read from. Changes the
+    /// Copies the program's own view to all other views that are drawn. The back buffer must be the read buffer. Changes the
     /// framebuffer bindings; the scissor test must be off.
     pub fn share_own(&self, gl: &Gl) {
         let (w, h) = (self.tiles.width as i32, self.tiles.height as i32);
@@ -344,7 +348,7 @@ impl Atlas {
         }
     }
 
-    /// A tile of the first layer to another one there: OpenGL ES does not blit from a framebuffer to itself.
+    /// Copies a tile of the first layer to another tile of that layer: OpenGL ES does not blit within one framebuffer.
     fn copy_beside(&self, gl: &Gl, (from, to): (i32, i32), size: [i32; 2]) {
         let target = match self.resolve {
             Some(_) => c::TEXTURE_2D_MULTISAMPLE_ARRAY,
@@ -356,8 +360,8 @@ impl Atlas {
         }
     }
 
-    /// Copies all that `other`, of the same size and format, holds; its back buffer must be the one that is read from. Changes the
-    /// framebuffer bindings, and the buffers where there is a front one; the scissor test must be off.
+    /// Copies the contents of `other`, of the same size and format; its back buffer must be the read buffer. Changes the
+    /// framebuffer bindings; the scissor test must be off.
     pub fn copy(&self, gl: &Gl, other: &Atlas) {
         let (w, h) = (self.tiles.texture_width() as i32, self.tiles.height as i32);
         for (&from, &to) in other.rows.iter().zip(&self.rows) {
@@ -393,7 +397,7 @@ impl Atlas {
         self.layered
     }
 
-    /// Binds the layer of a view for drawing and answers the x offset of its tile in pixels.
+    /// Binds the layer of a view for drawing and returns the x offset of its tile in pixels.
     pub fn enter(&mut self, gl: &Gl, view: ViewIndex) -> i32 {
         let (row, x) = self.tiles.place(view);
         self.bind_row(gl, row);
@@ -410,7 +414,7 @@ impl Atlas {
         }
     }
 
-    /// The caller has bound the framebuffer of the first layer itself.
+    /// Takes note that the caller has bound the framebuffer of the first layer itself.
     pub fn forget_row(&mut self) {
         self.bound_row = 0;
     }
@@ -421,7 +425,7 @@ impl Atlas {
         (self.rows.get(row as usize).copied().unwrap_or(0), x as i32)
     }
 
-    /// Binds all layers for drawing, where there is more than one.
+    /// Binds the layered framebuffer for drawing, where there is one.
     pub fn bind_layered(&mut self, gl: &Gl) {
         if let Some(f) = self.layered {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, f);
@@ -446,7 +450,7 @@ impl Atlas {
         (f.unwrap_or(0), x as i32)
     }
 
-    /// Makes what [`Atlas::take_single`] copies to, and with `staged` what [`Atlas::stage`] does, where it is not there. The caller
+    /// Makes the target of [`Atlas::take_single`], and with `staged` also that of [`Atlas::stage`], where they do not exist yet. The caller
     /// saves and restores bindings as for [`Atlas::new`].
     pub fn make_singles(&mut self, gl: &Gl, names: &mut Names, window: &Window, staged: bool) {
         while !self.has_singles(staged) {
@@ -461,8 +465,8 @@ impl Atlas {
         self.singles.len() > usize::from(staged)
     }
 
-    /// Binds a copy of a view's tile for reading from a buffer, single-sampled and with nothing beside it. Changes the draw
-    /// framebuffer too; the scissor test must be off.
+    /// Copies a view's tile to a single-sampled framebuffer that holds nothing else, and binds that for reading, with the read buffer `read`.
+    /// Changes the draw framebuffer too; the scissor test must be off.
     pub fn take_single(&mut self, gl: &Gl, view: ViewIndex, read: u32) {
         let (from, x) = self.target(view);
         if let Some(single) = self.singles.first() {
@@ -473,7 +477,7 @@ impl Atlas {
             }
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, single.framebuffer());
             gl.read_buffer(read);
-            // No layer is bound for drawing now.
+            // The draw framebuffer is no layer now.
             self.bound_row = u32::MAX;
         }
     }
@@ -493,7 +497,7 @@ impl Atlas {
         single.framebuffer()
     }
 
-    /// After [`Atlas::stage`]. Changes the framebuffer bindings; the scissor test must be off.
+    /// Copies back the tile of [`Atlas::stage`]. Changes the framebuffer bindings; the scissor test must be off.
     pub fn unstage(&mut self, gl: &Gl, view: ViewIndex) {
         let (to, x) = self.target(view);
         if let Some(single) = self.singles.get(1) {
@@ -501,7 +505,8 @@ impl Atlas {
         }
     }
 
-    /// Resolves the samples of some views. Changes the framebuffer bindings; the scissor test must be off.
+    /// Resolves the samples of some views; `mask`: the buffers, as bits of glClear. Changes the framebuffer bindings; the scissor test must be
+    /// off.
     pub fn resolve(&self, gl: &Gl, views: &ViewSet, mask: u32) {
         let Some(resolve) = &self.resolve else { return };
         let t = &self.tiles;

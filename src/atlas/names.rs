@@ -3,12 +3,12 @@
 use crate::gl::{Gl, Held, consts as c};
 use std::collections::BTreeSet;
 
-/// Gives out names that the program does not come upon.
+/// Gives out names that the program does not use.
 ///
-/// At first they are generated ones, as everybody's. Old programs however number their textures themselves instead of asking
-/// glGenTextures, and sooner or later bind a number that is ours (seen with MangoHud, notes/interposition.md section 2); our
-/// textures then move to high names ([`Names::hide`]). Not from the start: on Mesa glGenTextures goes on above the highest name
-/// in use, and a program that does ask may use its names as small indices.
+/// At first they come from glGenTextures. Old programs however number their textures themselves instead of calling
+/// glGenTextures, and sooner or later bind a number that is ours (seen with MangoHud, notes/interposition.md section 2). Our
+/// textures then move to high names ([`Names::hide`]). High names are not used from the start: on Mesa glGenTextures continues above the
+/// highest name in use, and a program that calls it may use its names as small indices.
 #[derive(Debug, Default)]
 pub struct Names {
     next: Option<u32>,
@@ -19,7 +19,7 @@ pub struct Names {
 const FIRST: u32 = 0x4D56_0000;
 
 impl Names {
-    /// From now on high names are given out.
+    /// Gives out high names from now on.
     pub fn hide(&mut self) {
         self.next = Some(FIRST);
     }
@@ -38,7 +38,7 @@ impl Names {
     pub fn texture(&mut self, gl: &Gl) -> u32 {
         let Some(next) = &mut self.next else {
             let mut name = gl.gen_texture();
-            // Given back when another one has been found, or it would be found again.
+            // Rejected names are deleted only after another one is found, or glGenTextures would return them again.
             let mut promised = Vec::new();
             while self.promised.contains(&name) {
                 promised.push(name);
@@ -47,7 +47,7 @@ impl Names {
             promised.into_iter().for_each(|n| gl.delete_texture(n));
             return name;
         };
-        // Contexts that share objects share the names, and each has its own atlas.
+        // Contexts that share objects share the names, but each has its own counter.
         while gl.is_texture(*next) != 0 {
             *next += 1;
         }

@@ -1,4 +1,5 @@
-//! Copies of views with their depths, and how high they are at most, for what makes other views of them.
+//! The disparity pyramid: copies of views with their depths, and the least and greatest disparity of blocks of samples. Other views are
+//! synthesised from it.
 
 use super::layers::Layers;
 use super::{Atlas, Names, ReferenceTextures, Single};
@@ -7,10 +8,10 @@ use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 use crate::view::ViewIndex;
 
-/// Samples of a row in one texel of the block_bounds.
+/// Samples of a row in one block.
 const BLOCK: u32 = 16;
 
-/// The textures of pictures with depths, array textures with a layer for each; see `shaders/disparity.wgsl`.
+/// The textures of the drawn views and of their pyramid, array textures with a layer for each view; see `shaders/disparity.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PyramidTextures {
     /// Colours.
@@ -30,7 +31,7 @@ pub struct PyramidTextures {
 }
 
 impl PyramidTextures {
-    /// What is known of what is hidden; `several`: there are more views than one.
+    /// The source of colours in disocclusions; `several`: more than one view is drawn.
     pub fn disocclusion_source(&self, several: bool) -> DisocclusionSource {
         match self.reference {
             _ if several => DisocclusionSource::Views,
@@ -40,17 +41,17 @@ impl PyramidTextures {
     }
 }
 
-/// Where they are drawn to.
+/// The textures of the pyramid and their framebuffers.
 #[derive(Debug)]
 pub(super) struct Pyramid {
-    /// None where what the tiles are resolved to is no tile.
+    /// Copies of the views; none with multisampling, where the resolved textures are separate from the tiles.
     copy: Option<Single>,
     block_bounds: Layers,
     row_maxima: Layers,
     ray_range: Layers,
 }
 
-/// What is drawn to.
+/// The targets of the passes that make the pyramid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PyramidTarget {
     /// [`PyramidTextures::block_bounds`]
@@ -78,7 +79,8 @@ impl Pyramid {
 }
 
 impl Atlas {
-    /// Makes what [`Atlas::copy_to_pyramid`] copies to, for as many views. The caller saves and restores bindings as for [`Atlas::new`].
+    /// Makes the textures of the pyramid, with `layers` views; false where the driver cannot draw to them. The caller saves and restores
+    /// bindings as for [`Atlas::new`].
     pub fn make_pyramid(
         &mut self,
         gl: &Gl,
@@ -116,7 +118,7 @@ impl Atlas {
         complete
     }
 
-    /// The textures of the views, where [`Atlas::make_pyramid`] has made them: of copies, or of the tiles themselves.
+    /// The textures, where [`Atlas::make_pyramid`] has made them: with the copies of the views if `copied`, or with the tiles themselves.
     pub fn pyramid(&self, copied: bool) -> Option<PyramidTextures> {
         let pyramid = self.pyramid.as_ref()?;
         let copy = pyramid.copy.as_ref().filter(|_| copied);
@@ -132,7 +134,8 @@ impl Atlas {
         })
     }
 
-    /// Copies some views, each to a layer of its own, so that all tiles can be drawn to. Changes the framebuffer bindings; the scissor test must be off.
+    /// Copies some views, each to a layer of its own, so that all tiles can be drawn to while the copies are sampled. Changes the framebuffer
+    /// bindings; the scissor test must be off.
     pub fn copy_to_pyramid(&mut self, gl: &Gl, views: impl Iterator<Item = ViewIndex>) {
         for (layer, view) in (0..).zip(views) {
             let (from, x) = self.target(view);
@@ -147,7 +150,7 @@ impl Atlas {
         self.bound_row = u32::MAX;
     }
 
-    /// Binds what a pass draws to, of a layer, and answers its width in texels.
+    /// Binds a layer of a pass's target for drawing, and returns its width in texels.
     pub fn enter_pyramid(&mut self, gl: &Gl, target: PyramidTarget, layer: u32) -> i32 {
         let Some(pyramid) = &self.pyramid else {
             return 0;

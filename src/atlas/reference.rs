@@ -1,14 +1,15 @@
-//! The reference image of an occlusion camera, beside the tiles: colours and depths as in a tile, and by how much each sample is moved.
+//! The reference image of an occlusion camera: colours and depths as in a tile, and the displacement of each sample. Also the textures of
+//! the distortion map that its rays follow.
 
 use super::{Atlas, Names, Single, Surface, Tiles, fetched};
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 use crate::view::ViewIndex;
 
-/// Samples of a row in one texel of the steps.
+/// Samples of a row in one texel of the discontinuity textures.
 const BLOCK: u32 = 16;
 
-/// Samples of a row in one texel of the map.
+/// Samples of a row in one texel of the distortion map.
 const CELL: i32 = 2;
 
 /// The textures of a reference image and of its distortion map, array textures of one layer; see `shaders/reference.wgsl` and
@@ -23,18 +24,18 @@ pub struct ReferenceTextures {
     pub map: u32,
 }
 
-/// What is drawn to on the way to the map.
+/// The targets of the passes that make the distortion map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DistortionTarget {
-    /// Where depths step.
+    /// Samples at depth discontinuities.
     Steps,
-    /// What is near that.
+    /// Samples inside a splat around a discontinuity.
     Splats,
     /// [`ReferenceTextures::map`]
     Map,
 }
 
-/// Where they are drawn to.
+/// The textures of the reference image and their framebuffers.
 #[derive(Debug)]
 pub(super) struct Reference {
     image: Single,
@@ -58,7 +59,8 @@ impl Reference {
 }
 
 impl Atlas {
-    /// Makes the reference image and its map. The caller saves and restores bindings as for [`Atlas::new`].
+    /// Makes the reference image and its distortion map; false where the driver cannot draw to them. The caller saves and restores bindings as
+    /// for [`Atlas::new`].
     pub fn make_reference(&mut self, gl: &Gl, names: &mut Names, window: &Window) -> bool {
         let size = [self.tiles.width, self.tiles.height].map(|side| side as i32);
         let (flip, textures) = (self.flipped, &mut self.textures);
@@ -119,7 +121,7 @@ impl Atlas {
         })
     }
 
-    /// Binds what a step towards the map is drawn to, and answers its width in texels.
+    /// Binds the target of a pass for drawing, and returns its width in texels.
     pub fn enter_distortion(&mut self, gl: &Gl, target: DistortionTarget) -> i32 {
         let Some(reference) = &self.reference else {
             return 0;
@@ -141,7 +143,7 @@ impl Atlas {
     }
 }
 
-/// The reference image as what a draw goes to: in the place of the program's own view, and of no other.
+/// The reference image as the surface of a draw: it takes the place of the program's own view and is the only one.
 #[derive(Debug)]
 pub struct ReferenceSurface<'a>(pub &'a mut Atlas);
 

@@ -1,10 +1,10 @@
-//! Copies of tiles with nothing beside them, for reads that the tiles themselves cannot answer.
+//! Copies of single tiles, for reads and blits that must see nothing beside the tile.
 
 use super::{Names, color_format, depth_format, store};
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 
-/// A framebuffer of the window's size and format, single-sampled. As in the window, what is outside of it cannot be read.
+/// A single-sampled framebuffer in the window's format. As in the window, nothing can be read outside of it.
 #[derive(Debug)]
 pub(super) struct Single {
     /// One for each layer.
@@ -15,7 +15,7 @@ pub(super) struct Single {
 }
 
 impl Single {
-    /// In a window's formats and any size; the textures behind it are added to `textures`. Changes the bindings that
+    /// In a window's formats and any size; its textures are added to `textures`. Changes the bindings that
     /// [`super::Atlas::new`] does.
     pub(super) fn new(
         gl: &Gl,
@@ -28,7 +28,7 @@ impl Single {
         Single::layers(gl, names, window, (size, 1), flip, textures)
     }
 
-    /// The same with several layers, for as many tiles.
+    /// The same with several layers, each for one tile.
     pub(super) fn layers(
         gl: &Gl,
         names: &mut Names,
@@ -69,7 +69,7 @@ impl Single {
         }
     }
 
-    /// Takes a copy of the tile at an x offset in pixels of a framebuffer. Binds that one for reading and itself for drawing; the
+    /// Copies the tile at an x offset, in pixels, of the framebuffer `from`. Binds that for reading and itself for drawing; the
     /// scissor test must be off.
     pub(super) fn take(&self, gl: &Gl, from: u32, x: i32) {
         self.copy(gl, (from, x), (self.framebuffer(), 0));
@@ -95,7 +95,7 @@ impl Single {
         gl.blit_framebuffer(x, 0, x + w, h, to_x, 0, to_x + w, h, all, c::NEAREST);
     }
 
-    /// Takes the depths of such a tile, `window` pixels wide and high, each of its own pixels the nearest one's. Binds as
+    /// Copies the depths of such a tile, `window` pixels wide and high, scaled to its own size by the nearest pixel. Binds as
     /// [`Single::take`].
     pub(super) fn shrink(&self, gl: &Gl, from: u32, x: i32, window: [i32; 2]) {
         let ([w, h], [width, height]) = (self.size, window);

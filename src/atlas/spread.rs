@@ -1,4 +1,4 @@
-//! A tile whose texels are not the window's pixels, stretched to the window's size: for reads, and for tiles of another kind.
+//! Tiles whose texels are not the window's pixels, stretched to the window's size: for reads, and for a change of the grid.
 
 use super::{Atlas, Names, ViewSet};
 use crate::gl::{Gl, consts as c};
@@ -8,7 +8,7 @@ use crate::view::ViewIndex;
 const ALL: u32 = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT;
 
 impl Atlas {
-    /// Draws a view's tile over a framebuffer of the window's size, each pixel from the nearest texel, give or take one. Binds the
+    /// Stretches a view's tile over a framebuffer of the window's size, each pixel from the nearest texel or a neighbour of it. Binds the
     /// single-sampled tile for reading and that framebuffer for drawing; the scissor test must be off.
     pub(super) fn spread(&self, gl: &Gl, view: ViewIndex, to: u32) {
         self.resolve(gl, &ViewSet::ALL, ALL);
@@ -18,7 +18,7 @@ impl Atlas {
         let [corner_x, corner_y] = grid.corner(view);
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
-        // Where the first and the last column of the tile end, in the window.
+        // The left and the right edge of the tile at a row of the window, in pixels of the window.
         let ends = |row: i32| {
             let aside = grid.shear * (f64::from(row) + 0.5) + corner_x;
             [0.0, f64::from(tiles.width)]
@@ -61,14 +61,14 @@ impl Atlas {
         }
     }
 
-    /// Copies what `other`, an atlas of the same window and of another grid or layout, holds, as well as pixels of the window tell it. Changes
-    /// the bindings that [`Atlas::new`] does and those of framebuffers; the scissor test must be off.
+    /// Copies the contents of `other`, an atlas of the same window with another grid or layout. Between grids they pass through the window's
+    /// pixels, so detail may be lost. Changes the bindings that [`Atlas::new`] does and those of framebuffers; the scissor test must be off.
     pub fn copy_spread(&mut self, gl: &Gl, other: &mut Atlas, names: &mut Names, window: &Window) {
         if self.tiles.grid == other.tiles.grid {
             return self.copy_views(gl, other);
         }
         if self.multisampled() {
-            // Nothing can be stretched to samples: the frame begins anew.
+            // A blit to a multisampled framebuffer cannot stretch, so the contents are lost.
             return;
         }
         other.make_singles(gl, names, window, false);

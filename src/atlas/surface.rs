@@ -1,15 +1,15 @@
-//! What views are drawn to: the window's tiles, or framebuffers of the program's that each view has its own of.
+//! The surfaces that views are drawn to: the tiles of the window, or the framebuffers that the program's one is split into.
 
 use super::{Atlas, Tiles};
 use crate::gl::Gl;
 use crate::view::ViewIndex;
 
-/// Where each view is drawn.
+/// A surface with a place for each view.
 pub trait Surface {
     /// The places of the views.
     fn tiles(&self) -> Tiles;
 
-    /// Binds what a view is drawn to and answers the x offset of its tile in pixels.
+    /// Binds the framebuffer of a view for drawing and returns the x offset of its tile in pixels.
     fn enter(&mut self, gl: &Gl, view: ViewIndex) -> i32;
 
     /// Binds a layer for drawing.

@@ -1,4 +1,4 @@
-//! The atlas on the fake driver: what it makes, binds and gives back.
+//! The atlas on the fake driver: the objects that it makes, binds and deletes.
 
 use super::{Atlas, AtlasError, Grid, Limits, Names, ReferenceSurface, Surface, Tiles, ViewSet};
 use crate::config::AtlasLayout::{self, Layers, SideBySide};

@@ -1,30 +1,30 @@
-//! Where each view lies.
+//! The place of each view in the atlas.
 
 use super::{Grid, ViewSet};
 use crate::config::AtlasLayout;
 use crate::view::ViewIndex;
 
-/// Places of N tiles in an array texture: `columns` beside each other in each of `rows` layers. Side by side is one row (several
-/// where a row would pass the driver's limits), layers are one column.
+/// Places of N tiles in an array texture: `columns` beside each other in each of `rows` layers. The layout side by side has one row
+/// (several where a row would exceed the driver's limits); the layout in layers has one column.
 ///
-/// View i lies in slot(i): the program's own (middle) view in slot 0, at the origin of layer 0, so that what the program reads
-/// back was rasterised where its own window would have had it; view 0 takes the middle's slot, the others their own. Rows are
-/// layers rather than higher parts of one texture, because float rounding moves with the offset in y as well.
+/// View i lies in slot(i). The program's own (middle) view lies in slot 0, at the origin of layer 0, so that the pixels that the program
+/// reads back are rasterised at the coordinates of its own window. View 0 takes the middle's slot; the others have the slot of their
+/// number. Rows are layers rather than higher parts of one texture, because float rounding depends on the offset in y as well.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tiles {
     /// N.
     pub views: u32,
     /// Width and height of the window, pixels.
     pub window: [u32; 2],
-    /// What of the window a tile shows.
+    /// Which points of the window the texels of a tile show.
     pub grid: Grid,
-    /// The views that are drawn, beside the program's own.
+    /// The views that are drawn; the program's own is drawn in any case.
     pub shown: ViewSet,
-    /// Of a tile, pixels.
+    /// Width of a tile, pixels.
     pub width: u32,
-    /// Of a tile, pixels.
+    /// Height of a tile, pixels.
     pub height: u32,
-    /// Pixels from tile to tile: the width rounded up to 32, so that polygon stipple and dither keep their phase.
+    /// Pixels from tile to tile: the width rounded up to a multiple of 32, so that polygon stipple and dither keep their phase.
     pub stride: u32,
     /// Tiles in a row.
     pub columns: u32,
@@ -32,13 +32,13 @@ pub struct Tiles {
     pub rows: u32,
 }
 
-/// Why views do not fit.
+/// Why the views do not fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TilesError {
-    /// Too wide or high for one tile.
+    /// A tile is wider or higher than the driver's textures: width, height, limit in pixels.
     #[error("a window of {0} x {1} pixels is larger than the driver's textures ({2})")]
     Window(u32, u32, u32),
-    /// Too many.
+    /// The views need more layers than there are.
     #[error(
         "{views} views of {width} x {height} pixels need {rows} layers of the atlas and the driver has {layers}; ask for fewer views"
     )]
@@ -49,9 +49,9 @@ pub enum TilesError {
         width: u32,
         /// Pixels.
         height: u32,
-        /// Layers needed.
+        /// Layers that are needed.
         rows: u32,
-        /// Layers there.
+        /// Layers that the driver has.
         layers: u32,
     },
 }
@@ -66,7 +66,10 @@ pub struct Limits {
 }
 
 impl Tiles {
-    /// Places N tiles of a window of a size.
+    /// Places N tiles for a window, given by its width and height in pixels.
+    ///
+    /// # Errors
+    /// The tiles exceed the driver's limits.
     pub fn new(
         views: u32,
         window: [u32; 2],
@@ -107,12 +110,12 @@ impl Tiles {
         })
     }
 
-    /// The program's own view, of an odd N exactly the middle one.
+    /// The program's own view: (N−1)/2 rounded down, the middle one of an odd N.
     pub fn own(&self) -> ViewIndex {
         ViewIndex((self.views - 1) / 2)
     }
 
-    /// Slot of a view.
+    /// The slot of a view.
     pub fn slot(&self, view: ViewIndex) -> u32 {
         match view {
             v if v == self.own() => 0,
@@ -121,12 +124,12 @@ impl Tiles {
         }
     }
 
-    /// The view in a slot. Two views have changed places, so it is found as a slot is.
+    /// The view in a slot. Slots exchange two views, so the map is its own inverse.
     pub fn view_in(&self, slot: u32) -> ViewIndex {
         ViewIndex(self.slot(ViewIndex(slot)))
     }
 
-    /// Layer and x offset in pixels of a view's tile.
+    /// The layer of a view's tile, and its x offset in pixels.
     pub fn place(&self, view: ViewIndex) -> (u32, u32) {
         let slot = self.slot(view);
         (slot / self.columns, slot % self.columns * self.stride)
@@ -142,7 +145,7 @@ impl Tiles {
         (self.columns - 1) * self.stride + self.width
     }
 
-    /// The views that are drawn, the program's own last, so that the state of its tile is what remains.
+    /// The views that are drawn, the program's own last, so that the state afterwards is that of its tile.
     pub fn order(&self) -> impl Iterator<Item = ViewIndex> + use<> {
         let tiles = *self;
         let others = (1..tiles.views).map(move |slot| tiles.view_in(slot));
@@ -151,12 +154,12 @@ impl Tiles {
             .chain([tiles.own()])
     }
 
-    /// Whether texels of two atlases of one window lie at the same places.
+    /// Whether two atlases of one window have their texels at the same places.
     pub fn lies_like(&self, other: &Tiles) -> bool {
         (self.grid, self.columns, self.rows) == (other.grid, other.columns, other.rows)
     }
 
-    /// Whether a layer has a view that is drawn.
+    /// Whether a layer contains a view that is drawn.
     pub fn draws_row(&self, row: u32) -> bool {
         let slots = row * self.columns..((row + 1) * self.columns).min(self.views);
         slots.into_iter().any(|slot| self.draws(self.view_in(slot)))

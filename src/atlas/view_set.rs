@@ -1,16 +1,16 @@
-//! The views that anybody sees.
+//! A set of views.
 
 use crate::view::ViewIndex;
 
-/// A set of views; at most 256, as many as there may be.
+/// A set of views as bits; 256 is the most views that there may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ViewSet([u64; 4]);
 
 impl ViewSet {
-    /// Whatever their number.
+    /// All views, whatever their number.
     pub const ALL: ViewSet = ViewSet([u64::MAX; 4]);
 
-    /// Whether a view is among them.
+    /// Whether a view is in the set.
     pub fn has(&self, view: ViewIndex) -> bool {
         let word = self.0.get(view.0 as usize / 64).copied().unwrap_or(0);
         word >> (view.0 % 64) & 1 != 0

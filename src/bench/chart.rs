@@ -1,5 +1,4 @@
-//! Time against error: one panel for each scene and size, a mark for each configuration, and for each number of views the
-//! front that nothing beats.
+//! Time against error: a panel for each scene and size, a mark for each configuration, and the Pareto front of each number of views.
 
 use super::error::BenchError;
 use super::outcome::{Bench, Row};
@@ -33,7 +32,7 @@ pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(90, 90, 90),
 ];
 
-/// Where equal pictures stand on the axis, whose PSNR is infinite: above all others, and above what 8 bits can tell apart.
+/// Place of equal pictures on the axis, whose PSNR is infinite: above all others, and above the resolution of 8 bits.
 const EXACT: f64 = 100.0;
 
 pub(super) type Area<'a, B> = DrawingArea<B, Shift>;
@@ -61,10 +60,10 @@ impl Format {
 
 /// The contents of a chart, for [`save`].
 pub(super) trait Drawing {
-    /// Pixels.
+    /// Width and height, pixels.
     fn size(&self) -> (u32, u32);
 
-    /// All of it.
+    /// Draws the whole chart.
     fn draw<B: DrawingBackend>(
         &self,
         area: &Area<B>,
@@ -82,7 +81,7 @@ pub(super) fn save(drawing: &impl Drawing, file: &Path) -> Result<(), BenchError
         file: file.to_owned(),
         reason: reason.to_string(),
     };
-    // Both formats need a font: one to draw with, the other to know how wide words are. The machine's own may be none.
+    // Both formats need a font: one to draw with, the other to measure words. The machine may have none.
     register_font(
         "sans-serif",
         FontStyle::Normal,
@@ -153,7 +152,7 @@ impl<'a> Chart<'a> {
         }
     }
 
-    /// Words of the legend beside each other.
+    /// Words of the legend in a line.
     fn words(&self) -> u32 {
         (self.columns * PANEL.0 - 48) / WORD
     }
@@ -208,7 +207,7 @@ impl<'a> Chart<'a> {
             5,
             INK.stroke_width(1),
         ))?;
-        // Fewer views are another task, not a better answer.
+        // Rows with fewer views are an easier task, not a better result.
         let views: BTreeSet<u32> = rows.iter().map(|row| row.views).collect();
         for &views in &views {
             let alike = rows
@@ -232,7 +231,7 @@ impl<'a> Chart<'a> {
             )])?;
             chart.plotting_area().draw(&mark((x, y), kind))?;
             if many {
-                // Marks on one line take turns above and below it.
+                // Neighbouring marks on the line stand above and below it in turns.
                 let (v, shift) = if kind % 2 == 0 {
                     (VPos::Bottom, -6)
                 } else {
@@ -316,7 +315,7 @@ impl Drawing for Chart<'_> {
     }
 }
 
-/// Where a row stands: times, and dB or [`EXACT`].
+/// The point of a row: times, and dB or [`EXACT`].
 fn place(row: &Row) -> (f64, f64) {
     (
         row.times.median,

@@ -5,11 +5,11 @@ use crate::config::{OptionId, Origin, Settings};
 /// Options of the layer under one name.
 #[derive(Debug, PartialEq)]
 pub struct Configuration {
-    /// For `--strategy`.
+    /// The name for `--strategy`.
     pub name: &'static str,
     /// The options that it sets.
     pub options: &'static [(OptionId, &'static str)],
-    /// In words.
+    /// A sentence for `--list`.
     pub about: &'static str,
 }
 
@@ -24,10 +24,10 @@ pub const EXACT: Configuration = Configuration {
     about: "every draw again for each view, each view at the origin of its own layer",
 };
 
-/// The configuration that comes to one of the others.
+/// The configuration that chooses one of the others.
 pub const AUTO: &str = "auto";
 
-/// Of `manyview bench` without `--strategy`.
+/// The configurations of `manyview bench` without `--strategy`.
 pub const DEFAULT_CONFIGURATIONS: &[&str] = &["replay", "instanced", "geometry"];
 
 const LAYERS: (OptionId, &str) = (OptionId::Atlas, "layers");
@@ -148,16 +148,16 @@ pub const CONFIGURATIONS: &[Configuration] = &[
 pub struct Variant {
     /// The named options.
     pub configuration: &'static Configuration,
-    /// As `--view-scale` has it.
+    /// As given to `--view-scale`.
     pub view_scale: String,
-    /// As `--display` has it; none for the layer's own.
+    /// As given to `--display`; none for the layer's own.
     pub display: Option<String>,
     /// The name of a [`crate::config::Optimisation`] that is turned off.
     pub disabled: Option<&'static str>,
 }
 
 impl Variant {
-    /// As it is called in tables and charts.
+    /// The name in tables and charts.
     #[must_use]
     pub fn name(&self) -> String {
         let mut name = self.configuration.name.to_owned();
@@ -170,7 +170,7 @@ impl Variant {
         name
     }
 
-    /// The layer's options for so many views, as if they stood on the command line.
+    /// The layer's options for `views` views, as if they stood on the command line.
     #[must_use]
     pub fn settings(&self, views: &str) -> Settings {
         let mut settings = Settings::default();

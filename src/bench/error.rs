@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// What went wrong.
+/// The cause.
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
     /// A name that is in no table.

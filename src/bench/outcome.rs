@@ -13,19 +13,19 @@ use std::path::Path;
 pub struct Bench {
     /// When it began: RFC 3339, UTC.
     pub date: String,
-    /// As it was typed.
+    /// The command line.
     pub command: Vec<String>,
     /// GL_RENDERER
     pub renderer: String,
     /// GL_VERSION, which names the driver's version.
     pub version: String,
-    /// Of `ms` and `times`. Where the driver has timer queries, `gpu_ms` is beside it.
+    /// The clock of `ms` and `times`. Where the driver has timer queries, `gpu_ms` is given as well.
     pub clock: &'static str,
-    /// How often each program had its turn.
+    /// Number of turns of each program.
     pub rounds: u32,
     /// Frames that each program drew before the first turn. The last of them is the one whose picture is compared.
     pub warm_up: u32,
-    /// Of `--preset`.
+    /// The name for `--preset`.
     pub preset: Option<&'static str>,
     /// One for each scene, size, number of views and configuration.
     pub rows: Vec<Row>,
@@ -52,34 +52,34 @@ pub struct Row {
     pub disabled: Option<&'static str>,
     /// Frames of a turn; its time is their median.
     pub frames_per_round: u32,
-    /// A frame, ms.
+    /// Time of a frame, ms.
     pub ms: Spread,
-    /// A frame of the bare program in the same run, ms.
+    /// Time of a frame of the bare program in the same run, ms.
     pub bare_ms: Spread,
-    /// Over the bare program's frame in the same round.
+    /// Time over that of the bare program in the same round.
     pub times: Spread,
-    /// Computed by the program's own thread in a frame, ms. A driver's threads are not in it.
+    /// Processor time of the program's own thread for a frame, ms, without the driver's threads.
     pub cpu_ms: f64,
-    /// The same of the bare program.
+    /// The same for the bare program.
     pub bare_cpu_ms: f64,
-    /// From the first to the last command of a frame, ms, where the driver is hardware with timer queries.
+    /// GPU time from the first to the last command of a frame, ms, where the driver is hardware with timer queries.
     pub gpu_ms: Option<Spread>,
-    /// Against the exact picture of the same frame.
+    /// Error against the exact picture of the same frame.
     pub picture: PictureError,
-    /// Of the layer's report: memory of the views' colour, depth and stencil; none where there is no report.
+    /// From the layer's report: memory of the views' colour, depth and stencil; none where there is no report.
     pub view_bytes: Option<u64>,
     /// The result of the paper of the preset.
     pub paper: Option<Paper>,
-    /// Of the layer's report: draws by method.
+    /// From the layer's report: draws by method.
     pub draws: BTreeMap<String, u64>,
-    /// Of the layer's report: draws that went by replay although something else was asked for, by reason.
+    /// From the layer's report: draws that fell back to replay, by reason.
     pub fallbacks: BTreeMap<String, u64>,
-    /// Of the layer's report.
+    /// From the layer's report.
     pub notes: Vec<String>,
 }
 
 impl Row {
-    /// Whether another row is the same with the optimisation that this one turns off.
+    /// Whether `other` is the same row without the disabled optimisation.
     #[must_use]
     pub fn is_without(&self, with: &Row) -> bool {
         let scene = |row: &Row| (row.scene, row.width, row.height, row.views);
@@ -91,10 +91,10 @@ impl Row {
     }
 }
 
-/// How far a picture is from the exact one.
+/// The error of a picture against the exact one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PictureError {
-    /// The same, bit by bit.
+    /// Whether it is equal bit by bit.
     pub exact: bool,
     /// dB; none for equal pictures, where it is infinite.
     pub psnr: Option<f64>,
@@ -123,9 +123,9 @@ impl From<Comparison> for PictureError {
 pub struct Paper {
     /// Frame time over that of a single view.
     pub times: Option<f64>,
-    /// How much faster than multi-pass rendering.
+    /// Speed-up over multi-pass rendering.
     pub speedup: Option<f64>,
-    /// How much faster than our replay we are.
+    /// Our speed-up over our replay.
     pub our_speedup: Option<f64>,
     /// The statement of the text where there are no numbers.
     pub words: &'static str,
@@ -140,7 +140,7 @@ pub struct Limit {
     pub width: u32,
     /// Pixels.
     pub height: u32,
-    /// Pieces of work in a second, in `unit`.
+    /// Work per second, in `unit`.
     pub rate: f64,
     /// Such as "million triangles/s".
     pub unit: &'static str,

@@ -1,10 +1,10 @@
-//! Which configurations nothing beats in both time and quality.
+//! Pareto fronts of time and quality.
 
-/// The points that no other one beats: none is faster (x smaller) without being worse (y smaller). Their numbers, by rising x.
+/// Indices of the points on the Pareto front, by rising x: no other point is faster (x smaller) without being worse (y smaller).
 #[must_use]
 pub fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
-    // The best first among those of one time.
+    // Among points of one time the best comes first.
     order.sort_by(|&a, &b| {
         let ((ax, ay), (bx, by)) = (points[a], points[b]);
         ax.total_cmp(&bx).then(by.total_cmp(&ay))

@@ -1,16 +1,16 @@
 //! Experiments of three papers, as closely as the scenes allow, and the results of the papers.
 //!
-//! Based on: J. Luo, K. Qin, Y. Zhou, M. Mao, R. Li, "GPU-based multi-view rendering for spatial-multiplex autostereoscopic
-//! displays" (2010), tables 1 and 2; F. de Sorbier, V. Nozick, H. Saito, "GPU-based multi-view rendering" (2010), figures 7 to
-//! 9; V. Popescu, P. Rosen, D. Aliaga, "3D display rendering acceleration using occlusion camera reference images" (2006), table 1 and
-//! section VIII. The bars and curves of the figures have no numbers: of those only what the text says of them is here.
+//! Based on: J. Luo, K. Qin, Y. Zhou, M. Mao, R. Li, "GPU-based multi-view rendering for spatial-multiplex autostereoscopic displays"
+//! (2010), tables 1 and 2; F. de Sorbier, V. Nozick, H. Saito, "GPU-based multi-view rendering" (2010), figures 7 to 9; V. Popescu, P.
+//! Rosen, D. Aliaga, "3D display rendering acceleration using occlusion camera reference images" (2006), table 1 and section VIII. The bars
+//! and curves of the figures have no numbers, so only the statements of the text are given for them.
 
 /// One experiment.
 #[derive(Debug, PartialEq)]
 pub struct Preset {
     /// For `--preset`.
     pub name: &'static str,
-    /// What the paper measured, and what we measure it with.
+    /// The measurement of the paper, and the scenes that stand for it here.
     pub about: &'static str,
     /// Pixels of one view, which is the window.
     pub size: (u32, u32),
@@ -35,7 +35,7 @@ pub struct Figure {
     pub configuration: &'static str,
     /// Frame time over that of a single view.
     pub times: Option<f64>,
-    /// How much faster than the passes of the traditional method, which are our replay.
+    /// Speed-up over the passes of the traditional method, which correspond to our replay.
     pub speedup: Option<f64>,
     /// The statement of the text where there are no numbers.
     pub words: &'static str,

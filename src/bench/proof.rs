@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
 
-/// The table of one run: views, picture, speed-up, the draw that brought the worst pixel, the frames that were not compared.
+/// The table of one run: views, picture, speed-up, the draw that caused the worst pixel, the frames that were not compared.
 #[must_use]
 pub fn text(proof: &Summary) -> String {
     let mut text = format!(
@@ -217,12 +217,12 @@ struct Line<'a> {
 }
 
 impl ProofRow {
-    /// Of the view where most pixels differ, per cent.
+    /// Wrong pixels of the worst view, per cent.
     fn wrong(&self) -> f64 {
         self.proof.found().map(percent).fold(0.0, f64::max)
     }
 
-    /// Steps of 255.
+    /// Largest difference, steps of 255.
     fn worst(&self) -> u8 {
         let worst = self.proof.found().filter_map(|found| found.worst);
         worst.map(|worst| worst.difference).max().unwrap_or(0)

@@ -28,9 +28,9 @@ impl Hello {
 pub struct Times {
     /// From before the drawing to after the swap and a glFinish.
     pub wall: Vec<u64>,
-    /// Computed by the drawing thread in between.
+    /// Processor time of the drawing thread in between.
     pub cpu: Vec<u64>,
-    /// By the timer queries of a hardware driver; empty without.
+    /// Timer queries of a hardware driver; empty without.
     pub gpu: Vec<u64>,
 }
 

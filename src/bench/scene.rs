@@ -1,17 +1,17 @@
-//! The scenes: unmodified fixed-function programs of `examples/`, each bound by something else.
+//! The scenes: unmodified fixed-function programs of `examples/` with different bottlenecks.
 
 /// One scene.
 #[derive(Debug, PartialEq)]
 pub struct Scene {
-    /// For `--scene`.
+    /// The name for `--scene`.
     pub name: &'static str,
-    /// The program, as `examples/Makefile` calls it.
+    /// The program's name in `examples/Makefile`.
     pub program: &'static str,
-    /// Its arguments, but for its size.
+    /// Its arguments, except for the size.
     pub arguments: &'static [&'static str],
     /// What bounds the time of a frame.
     pub work: Work,
-    /// In words.
+    /// A sentence for `--list`.
     pub about: &'static str,
 }
 
@@ -29,7 +29,7 @@ pub enum Work {
 }
 
 impl Work {
-    /// How many of its pieces a frame of this size (pixels) and time (ms) does in a second, in millions, and their unit.
+    /// The rate in millions per second, and its unit, of a frame of this size in pixels that takes `ms` milliseconds.
     #[must_use]
     pub fn per_second(self, (width, height): (u32, u32), ms: f64) -> Option<(f64, &'static str)> {
         let (pieces, unit) = match self {
@@ -45,7 +45,7 @@ impl Work {
     }
 }
 
-/// Of `manyview bench` without `--scene`: one for each kind of cost.
+/// The scenes of `manyview bench` without `--scene`: one for each kind of cost.
 pub const DEFAULT_SCENES: &[&str] = &["mesh-100k", "draws-3000", "fill", "room"];
 
 const fn mesh(

@@ -14,7 +14,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// None without samples. Between two samples it is interpolated (Hyndman and Fan's type 7).
+    /// None without samples. Values between two samples are interpolated (Hyndman and Fan's type 7).
     #[must_use]
     pub fn of(samples: &[f64]) -> Option<Self> {
         let mut sorted = samples.to_vec();
@@ -34,7 +34,7 @@ pub fn median(samples: &[u64]) -> f64 {
     Spread::of(&samples).map_or(0.0, |spread| spread.median)
 }
 
-/// Ratios of pairs that were measured one right after the other, so that a slow-down of both cancels.
+/// Ratios of pairs of consecutive measurements, so that a slow-down of both cancels.
 #[must_use]
 pub fn ratios(samples: &[f64], base: &[f64]) -> Vec<f64> {
     samples.iter().zip(base).map(|(a, b)| a / b).collect()

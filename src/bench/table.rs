@@ -51,7 +51,7 @@ pub fn text(bench: &Bench) -> String {
     text
 }
 
-/// What each optimisation that was turned off saves in time and costs in the picture.
+/// The gain in time and the change of the picture by each disabled optimisation.
 fn optimisations(rows: &[Row]) -> String {
     let mut text = String::new();
     for row in rows {
@@ -153,7 +153,7 @@ fn cells(row: &Row, gpu: bool, papers: bool) -> Vec<String> {
     cells
 }
 
-/// Three digits that count, and no more than three behind the point.
+/// Three significant digits, at most three decimals.
 fn significant(value: f64) -> String {
     let digits = match value.abs() {
         v if v >= 100.0 => 0,
@@ -164,7 +164,7 @@ fn significant(value: f64) -> String {
     format!("{value:.digits$}")
 }
 
-/// Cells under each other: words to the left, numbers to the right.
+/// Aligned columns: words to the left, numbers to the right.
 #[must_use]
 pub fn columns(lines: &[Vec<String>]) -> String {
     let count = lines.iter().map(Vec::len).max().unwrap_or(0);

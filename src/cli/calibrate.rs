@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const MM_PER_INCH: f64 = 25.4;
-/// How well a distance is believed that somebody measured with a tape.
+/// Relative error of a distance that was measured with a tape.
 const TAPE: f64 = 0.01;
-/// How well a cone is believed that a data sheet gives.
+/// Relative error of a cone from a data sheet.
 const DATA_SHEET: f64 = 0.05;
 
 #[derive(Args)]
@@ -81,7 +81,7 @@ struct FitArguments {
     photos: Vec<PathBuf>,
 }
 
-// What was measured beside the photos.
+// Measurements beside the photos.
 #[derive(Args)]
 struct SetupArguments {
     /// Width and height of the lit part of the panel in mm
@@ -277,7 +277,7 @@ fn write_png(
     })
 }
 
-/// On stderr, and silent when that is no terminal.
+/// A progress bar on stderr, hidden when that is no terminal.
 fn bar(photos: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{spinner} {wide_bar} {pos}/{len} photos  {msg}");
     ProgressBar::new(photos).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))

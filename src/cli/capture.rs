@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     if !capture.names_quilts() {
         return Ok(ExitCode::SUCCESS);
     }
-    // Nobody knew these names before.
+    // The layer alone knows the names of quilts.
     let names = captured
         .files
         .iter()
@@ -108,7 +108,7 @@ pub(super) fn shoot(
     Ok((capture.clone(), outcome?))
 }
 
-/// On stderr, and silent when that is no terminal.
+/// A progress bar on stderr, hidden when that is no terminal.
 fn bar(pictures: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{spinner} {wide_bar} {pos}/{len} pictures  {msg}");
     ProgressBar::new(pictures).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))

@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Answer::Captured { path, frame } => {
             super::tell(&format_args!("wrote {} (frame {frame})", path.display()));
             match &arguments.what {
-                // Nobody knew the name of a quilt before.
+                // The layer alone knows the name of a quilt.
                 What::Capture { path: asked, .. } if asked.file_name() != path.file_name() => {
                     print(&format!("{}\n", path.display()))
                 }
@@ -92,7 +92,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// A value as it is given to `set`.
+/// A value in the form that `set` takes.
 fn word(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -133,7 +133,7 @@ fn request(what: &What) -> Result<Request, CommandError> {
     })
 }
 
-/// The program to talk to. Sockets at which nobody listens any more are removed on the way.
+/// Finds the program to talk to, and removes sockets at which no program listens any more.
 fn find(wanted: Option<u32>) -> Result<(u32, UnixStream), CommandError> {
     let user = rustix::process::geteuid().as_raw();
     let folder = place::folder(std::env::var_os(place::RUNTIME).as_deref(), user);
@@ -145,7 +145,7 @@ fn find(wanted: Option<u32>) -> Result<(u32, UnixStream), CommandError> {
                 Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
                     let _ = std::fs::remove_file(&socket);
                 }
-                // Gone in between, or not a socket.
+                // Removed in between, or not a socket.
                 Err(_) => {}
             }
         }

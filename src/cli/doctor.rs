@@ -1,4 +1,4 @@
-//! `manyview doctor`: gather, then show as a table or as JSON.
+//! `manyview doctor`: collects findings, then prints them as a table or as JSON.
 #![forbid(unsafe_code)]
 
 use super::{Outcome, print, print_json, tell};
@@ -43,7 +43,7 @@ fn table(findings: &Findings) -> String {
     text
 }
 
-/// Names and values; an empty name goes on with the one before.
+/// Names and values; an empty name continues the value above.
 fn lines(findings: &Findings) -> Vec<(&str, String)> {
     let mut lines = Vec::new();
     if let Some(app) = &findings.app {

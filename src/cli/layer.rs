@@ -9,7 +9,7 @@ use manyview::config::{ConfigError, OPTIONS, OptionId, OptionSpec, PathKind, Sco
 struct Written {
     id: OptionId,
     value: String,
-    /// By the flag of the version before.
+    /// Written with the flag of the version before.
     former: bool,
 }
 
@@ -21,7 +21,7 @@ struct Given(Vec<Written>);
 #[derive(Default)]
 pub(crate) struct LayerArguments(Given);
 
-/// The options of `manyview capture` beside those.
+/// More options of `manyview capture`.
 #[derive(Default)]
 pub(crate) struct CaptureArguments(Given);
 
@@ -31,7 +31,7 @@ fn rows(scope: Scope) -> impl Iterator<Item = (&'static OptionSpec, &'static str
     rows.filter_map(|spec| Some((spec, spec.flag?)))
 }
 
-/// The flag of the version before: not shown, and not to be given beside the present one.
+/// The flag of the version before: hidden, and in conflict with the present one.
 fn former(spec: &OptionSpec, flag: &'static str) -> Option<Arg> {
     let former = spec.former.flag?;
     let argument = Arg::new(former)
@@ -51,7 +51,7 @@ fn argument(spec: &OptionSpec, flag: &'static str) -> Arg {
     if spec.id.is_switch() {
         return argument.action(ArgAction::SetTrue);
     }
-    // What is neither a word nor a path may be a negative number.
+    // A value that is neither a word nor a path may be a negative number.
     let number = spec.choices.is_empty() && spec.path == PathKind::No;
     argument
         .value_name(spec.value_name())
@@ -91,7 +91,7 @@ impl Given {
     }
 }
 
-/// What clap's derive would write for a field of each row.
+/// The implementations that clap's derive would write for a field of each row.
 macro_rules! arguments_of {
     ($scope:expr, $arguments:ident) => {
         impl Args for $arguments {
@@ -124,7 +124,7 @@ arguments_of!(Scope::Layer, LayerArguments);
 arguments_of!(Scope::Capture, CaptureArguments);
 
 impl LayerArguments {
-    /// These options over the variables over the TOML file. Says which former names were used.
+    /// These options over the variables over the TOML file. Warns of former names.
     pub(crate) fn settings(&self) -> Result<Settings, ConfigError> {
         let mut settings = Settings::default();
         self.0.give(&mut settings);

@@ -77,7 +77,7 @@ enum Action {
     Man(man::Arguments),
 }
 
-/// The end of a subcommand: an exit status, or the reason why it could not do its work.
+/// The result of a subcommand: an exit status, or the reason for its failure.
 type Outcome = Result<ExitCode, CommandError>;
 
 pub(crate) fn main() -> ExitCode {
@@ -101,7 +101,7 @@ pub(crate) fn main() -> ExitCode {
     })
 }
 
-/// One line on stderr.
+/// Prints one line on stderr.
 fn tell(message: &dyn std::fmt::Display) {
     // A closed stderr is no reason to fail.
     let _ = writeln!(std::io::stderr(), "manyview: {message}");
@@ -118,10 +118,10 @@ fn save(seen: &RgbImage, out: &Path) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The result that was asked for, on stdout.
+/// Prints the requested result on stdout.
 fn print(text: &str) -> Outcome {
     match std::io::stdout().write_all(text.as_bytes()) {
-        // Whoever closed the pipe has read enough.
+        // A closed pipe means that the reader has enough.
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(CommandError::system("writing the result", error))
         }
@@ -129,14 +129,14 @@ fn print(text: &str) -> Outcome {
     }
 }
 
-/// Pretty JSON, with its last line's end.
+/// Pretty JSON with a newline at the end.
 fn json(value: &impl serde::Serialize) -> Result<String, CommandError> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|error| CommandError::system("writing JSON", error.into()))?;
     Ok(text + "\n")
 }
 
-/// A result as JSON on stdout.
+/// Prints a result as JSON on stdout.
 fn print_json(value: &impl serde::Serialize) -> Outcome {
     print(&json(value)?)
 }

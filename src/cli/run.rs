@@ -63,15 +63,15 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::from(ended.code()))
 }
 
-/// The file in which the layer says how far it is.
+/// The file in which the layer reports its progress.
 pub(super) struct Told {
-    /// Kept for as long as the file is wanted.
+    /// Dropped with the file.
     _folder: TempDir,
     file: PathBuf,
 }
 
 impl Told {
-    /// Has it written to a folder of its own.
+    /// Makes the layer write it into a temporary folder.
     pub(super) fn new(settings: &mut Settings) -> Result<Self, CommandError> {
         let folder = scratch()?;
         let file = folder.path().join("status.json");

@@ -30,7 +30,7 @@ pub(super) struct SheetArguments {
 }
 
 impl SheetArguments {
-    /// The sheet as it is thought to be; none where only numbers are given.
+    /// The sheet before calibration; none where only numbers are given.
     pub(super) fn display(&self) -> Result<Option<Display>, CalibrateError> {
         let Some(name) = &self.display else {
             return Ok(None);

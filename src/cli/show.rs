@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// The pattern that photos are taken of.
+/// Shows the pattern that photos are taken of.
 fn photos(window: &mut Window, picture: &RgbImage) -> Outcome {
     window.show(picture)?;
     told(window, picture.dimensions());
@@ -107,7 +107,7 @@ fn show(window: &mut Window, fit: &ByEye) -> Result<(), CommandError> {
     Ok(window.show(&fit.picture()?)?)
 }
 
-/// Where the picture is.
+/// Prints the place of the picture.
 fn told(window: &Window, (width, height): (u32, u32)) {
     let monitor = window.monitor();
     let (across, down) = monitor.size;

@@ -12,18 +12,18 @@ use manyview::simulate::{Eye, Optics, Setup, SimulateError, see, strip};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-/// Pixels per inch of a panel that nobody has measured; it matters only away from the distance of design.
+/// Pixels per inch of a panel without a description; it matters only where the eye is not at the design distance.
 const DPI: f64 = 96.0;
 
-/// Degrees, of a panel that nobody has measured.
+/// Cone of a panel without a description, degrees.
 const CONE: f64 = 40.0;
 
-/// Of a good sheet of lenses.
+/// Crosstalk of a good lens sheet.
 const CROSSTALK: f64 = 0.05;
 
 const MM_PER_INCH: f64 = 25.4;
 
-/// Rooms are smaller, in mm.
+/// Largest distance of an eye, mm: larger than any room.
 const FARTHEST: f64 = 1e6;
 
 #[derive(Args)]
@@ -198,7 +198,7 @@ fn picture(path: &Path) -> Result<RgbImage, SimulateError> {
     }
 }
 
-/// On stderr, and silent when that is no terminal.
+/// A progress bar on stderr, hidden when that is no terminal.
 fn bar(rows: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{spinner} {wide_bar} {pos}/{len} rows  {eta}");
     ProgressBar::new(rows).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))

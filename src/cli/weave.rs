@@ -100,7 +100,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Columns, rows and aspect of the quilt: as asked for, by its name, or the panel's.
+/// Columns, rows and aspect of the quilt: from the option, from its name, or from the panel.
 fn name(arguments: &Arguments, display: &Display) -> Result<QuiltName, CommandError> {
     if let Some(text) = &arguments.quilt {
         let read = QuiltName::read(&format!("_qs{text}"));

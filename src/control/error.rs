@@ -1,29 +1,29 @@
-//! Why a request is not followed, or not even sent; each message says what to do instead.
+//! Errors of requests, sent or not; each message says what to do instead.
 #![forbid(unsafe_code)]
 
 use crate::config::ConfigError;
 use std::path::PathBuf;
 
-/// What went wrong.
+/// Why a request failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ControlError {
-    /// Not a request at all.
+    /// The line is not a request.
     #[error(
         "a line is no request ({0}); send one JSON object with set, get, capture or toggle, such as {{\"get\": \"all\"}}"
     )]
     Request(String),
-    /// Longer than any request.
+    /// The line is longer than any request.
     #[error("a line has more than {max} bytes; send one request per line", max = super::Lines::MAX)]
     TooLong,
-    /// A name that nothing has.
+    /// No value has this name.
     #[error("there is no value '{name}'; ask for all, or one of {known}")]
     UnknownName {
         /// The name.
         name: String,
-        /// The names there are.
+        /// The names that exist.
         known: String,
     },
-    /// A name whose value stays.
+    /// The value cannot change while the program runs.
     #[error("'{name}' cannot be set while the program runs; these can: {known}")]
     NotSettable {
         /// The name.
@@ -31,44 +31,44 @@ pub enum ControlError {
         /// The names that can be set.
         known: String,
     },
-    /// Neither number nor text.
+    /// The value is neither a number nor a text.
     #[error("{name} is neither a number nor a text; give one of them")]
     Type {
         /// The name.
         name: String,
     },
-    /// A value that means nothing for the cameras in force.
+    /// The value has no effect for the current cameras.
     #[error("{name} is not in force: {reason}")]
     NotInForce {
         /// The name.
         name: String,
-        /// What is.
+        /// What the cameras use instead.
         reason: &'static str,
     },
-    /// A value that its option does not take.
+    /// The option does not accept the value.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// The window has one buffer for both eyes.
+    /// The window has no stereo buffers.
     #[error(
         "output is 'quad', but the window has no left and right buffer (GL_STEREO); choose another output, such as anaglyph or half-sbs"
     )]
     NoStereo,
-    /// A picture at a place that depends on who looks.
+    /// The path of a picture is relative, but the program may have another working directory.
     #[error("'{}' is not an absolute path; begin it with /", .0.display())]
     RelativePath(PathBuf),
-    /// A picture that could not be written.
+    /// The picture could not be written.
     #[error("the picture is not written: {0}; give a path in a folder where the program may write")]
     Picture(String),
-    /// Another asker waits for a picture.
+    /// Another client waits for a picture.
     #[error("another picture is being taken; ask again when it is written")]
     Busy,
-    /// More askers than one program listens to.
+    /// The program has as many clients as it accepts.
     #[error("the program listens to {0} others already; ask again when one of them is done")]
     Crowded(usize),
-    /// Something that cannot be switched.
+    /// The name cannot be toggled.
     #[error("'{0}' cannot be switched; layer can")]
     Toggle(String),
-    /// A folder for the socket that others could have made or could enter.
+    /// The folder of the socket is not the user's alone.
     #[error(
         "the folder {} {reason}; remove it, or set XDG_RUNTIME_DIR to a folder of your own",
         path.display()
@@ -79,45 +79,45 @@ pub enum ControlError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A socket that could not be made.
+    /// The socket could not be made.
     #[error("the socket {} cannot be made ({reason}), so the program runs without control", path.display())]
     Socket {
         /// Its path.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         reason: String,
     },
-    /// Nobody listens.
+    /// No program listens.
     #[error("no program listens; start one with `manyview run --control -- APP`")]
     NoProgram,
-    /// The program asked for does not listen.
+    /// The requested program does not listen.
     #[error(
         "no program with the id {0} listens; `manyview ctl get` says which do if there are several, and --control makes one listen"
     )]
     NoSuchProgram(u32),
-    /// More than one listens.
+    /// More than one program listens.
     #[error("{0} listen; say which one with --pid")]
     SeveralPrograms(String),
-    /// No frame was shown, so nobody looked at the socket.
+    /// The program has shown no frame, so it has not read from the socket.
     #[error(
         "program {pid} has shown no frame for {seconds} s and so has not answered; ask again when it draws"
     )]
     Silent {
         /// The program.
         pid: u32,
-        /// How long it was waited for.
+        /// How long the client waited.
         seconds: u64,
     },
-    /// The program went away instead of answering.
+    /// The program closed the connection without an answer.
     #[error("program {0} has closed the connection without an answer; see whether it still runs")]
     Closed(u32),
-    /// Names and values that do not go in pairs.
+    /// A name has no value.
     #[error("'{0}' has no value; give names and values in pairs, such as separation 0.03")]
     NoValue(String),
-    /// A path that JSON cannot carry.
+    /// The path is not UTF-8, so JSON cannot carry it.
     #[error("'{}' is not UTF-8, which requests are written in; choose another name", .0.display())]
     NotUtf8(PathBuf),
-    /// The program's own refusal.
+    /// The program refused the request, with this message.
     #[error("{0}")]
     Refused(String),
 }

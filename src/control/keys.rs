@@ -1,28 +1,28 @@
-//! Keys for a running program, with Ctrl and Alt held: what each does, and the requests that it stands for.
+//! Keys for a running program, with Ctrl and Alt held, and the requests that each stands for.
 #![forbid(unsafe_code)]
 
 use super::{OUTPUT, Order};
 use crate::config::{Camera, Knob, Live, OptionId};
 use std::path::PathBuf;
 
-/// What is asked by a key.
+/// The action of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
-    /// The program's own picture, or all views again.
+    /// Switches between the program's own picture and all views.
     Toggle,
-    /// The first number of the cameras, separation or eye-spacing: more or less.
+    /// Increases or decreases the first number of the cameras: separation or eye-spacing.
     Spread(bool),
-    /// The second one, convergence or focal-depth: more or less.
+    /// Increases or decreases the second number of the cameras: convergence or focal-depth.
     Focus(bool),
-    /// Where flat draws stand: farther or nearer.
+    /// Moves flat draws farther or nearer.
     HudDepth(bool),
-    /// The next output.
+    /// Selects the next output.
     Output,
-    /// The next frame as a file.
+    /// Writes the next frame to a file.
     Capture,
 }
 
-/// Keys by their X keysym without Shift. Those that window managers and X itself take with Ctrl and Alt (arrows, Delete, Backspace,
+/// Keys by their X keysym without Shift. Keys that window managers and X itself use with Ctrl and Alt (arrows, Delete, Backspace,
 /// function keys) are not among them.
 const KEYS: [(u32, Key); 9] = [
     (0x6d, Key::Toggle),
@@ -36,11 +36,11 @@ const KEYS: [(u32, Key); 9] = [
     (0x63, Key::Capture),
 ];
 
-/// By what a press multiplies.
+/// Factor of one press for the numbers of the cameras.
 const FACTOR: f64 = 1.1;
-/// What a press adds to a depth.
+/// Step of one press for the depth of flat draws.
 const STEP: f64 = 0.05;
-/// The outputs that are gone through.
+/// The outputs that [`Key::Output`] cycles through.
 const OUTPUTS: [&str; 4] = ["panel", "quilt", "sbs", "anaglyph:red-cyan"];
 
 impl Key {
@@ -51,8 +51,8 @@ impl Key {
         found.map(|(_, key)| *key)
     }
 
-    /// The requests that the key stands for with these values in force; the first one that is not refused is meant. `chosen` as for
-    /// [`Live::with`]; `picture` is where a picture goes.
+    /// The requests that the key stands for with these current values. They are alternatives: the first one that is not refused counts.
+    /// `chosen` is as for [`Live::with`]; `picture` gives the path of a picture.
     #[must_use]
     pub fn orders(
         self,
@@ -62,7 +62,7 @@ impl Key {
     ) -> Vec<Order> {
         let set = |id, value: String| Order::Set(vec![(Knob::Option(id), value)]);
         let camera = |at: usize, more: bool| {
-            // Until the cameras are chosen there is nothing to change; asking for it is refused with the reason.
+            // Until the cameras are chosen there is no number to change. A request for it is refused with the reason.
             let unknown = match (live.camera, at) {
                 (Camera::Eye { .. }, 0) => OptionId::EyeSpacing,
                 (Camera::Eye { .. }, _) => OptionId::FocalDepth,
@@ -99,13 +99,13 @@ impl Key {
     }
 }
 
-/// Six digits, so that up and down meet again.
+/// The number with six digits, so that a press up and a press down cancel out.
 fn rounded(value: f64) -> String {
-    // What was just written is a number.
+    // The text was just written from a number, so it always parses.
     format!("{value:.5e}").parse().unwrap_or(value).to_string()
 }
 
-/// The name of a picture: the program, the date and time of Greenwich by seconds since 1970, the frame.
+/// The file name of a picture: program, date and time in UTC, and frame. `seconds` counts from 1970.
 #[must_use]
 pub fn picture_name(program: &str, seconds: u64, frame: u64) -> String {
     let (days, second) = (seconds / 86400, seconds % 86400);
@@ -114,7 +114,7 @@ pub fn picture_name(program: &str, seconds: u64, frame: u64) -> String {
     format!("{program}-{year:04}{month:02}{day:02}-{hour:02}{minute:02}{second:02}-{frame:06}.png")
 }
 
-/// Year, month and day of a day since 1970.
+/// Year, month and day of a day that is counted from 1970-01-01 as 0.
 fn date(mut day: u64) -> (u64, u64, u64) {
     let of = |year: u64, years| year.is_multiple_of(years);
     let leap = |year| of(year, 4) && (!of(year, 100) || of(year, 400));

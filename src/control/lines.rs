@@ -1,16 +1,16 @@
-//! Bytes in, whole lines out, and never more of them kept than one request may have.
+//! Splits received bytes into whole lines, with a limit on the bytes that are kept.
 #![forbid(unsafe_code)]
 
 use super::ControlError;
 
-/// What has come of a connection and is not yet a line.
+/// The bytes received on a connection that are not yet a line.
 #[derive(Clone, Debug, Default)]
 pub struct Lines {
     bytes: Vec<u8>,
 }
 
 impl Lines {
-    /// Bytes that a line may have.
+    /// The most bytes of a line.
     pub const MAX: usize = 4096;
 
     /// How many bytes may be added now.
@@ -19,17 +19,17 @@ impl Lines {
         (Self::MAX + 1).saturating_sub(self.bytes.len())
     }
 
-    /// Adds what has come.
+    /// Adds received bytes.
     pub fn push(&mut self, bytes: &[u8]) {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// The next whole line. A line that is too long is an error for good: where the next one begins is not known.
+    /// The next whole line. A line that is too long is a permanent error, since the beginning of the next one is not known.
     pub fn take(&mut self) -> Option<Result<String, ControlError>> {
         match self.bytes.iter().position(|&byte| byte == b'\n') {
             Some(end) => {
                 let line = self.bytes.drain(..=end).take(end).collect::<Vec<_>>();
-                // What is not UTF-8 is no JSON either, and is refused as such.
+                // A line that is not UTF-8 is no valid request and is refused later.
                 Some(Ok(String::from_utf8_lossy(&line).into_owned()))
             }
             None if self.bytes.len() > Self::MAX => Some(Err(ControlError::TooLong)),

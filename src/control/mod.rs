@@ -1,6 +1,6 @@
-//! What a running program may be asked and told: requests and answers, one JSON object per line, and where the socket is.
+//! Control of a running program: requests and answers, one JSON object per line, and the place of the socket.
 //!
-//! Pure but for the folder of the socket: the library answers, `manyview ctl` asks.
+//! The preloaded library answers, `manyview ctl` asks. Only the folder of the socket touches the file system.
 #![forbid(unsafe_code)]
 
 mod error;
@@ -18,50 +18,50 @@ use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// In a [`Request::Get`]: every value that is in force.
+/// The name of all current values in a [`Request::Get`].
 pub const ALL: &str = "all";
-/// What [`Request::Toggle`] names, and what the value is called that says how it stands.
+/// The name of the layer in a [`Request::Toggle`], and of the value that says whether it is on.
 pub const LAYER: &str = "layer";
-/// The number of views, which can be asked for and not set.
+/// The name of the number of views, which can be read but not set.
 pub const VIEWS: &str = "views";
-/// In a [`Request::Capture`], unless it says otherwise.
+/// The content of a [`Request::Capture`] that names none.
 const OUTPUT: &str = "output";
 
 /// A request as it is sent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Request {
-    /// Values by name, all of them or none.
+    /// Sets values by name, all of them or none.
     Set(BTreeMap<String, Value>),
-    /// The value of one name, or of [`ALL`].
+    /// Reads the value of one name, or of [`ALL`].
     Get(String),
-    /// A picture of the next frame.
+    /// Takes a picture of the next frame.
     Capture(Picture),
-    /// [`LAYER`]: the third dimension off or on again.
+    /// Switches the third dimension off or on; the name is [`LAYER`].
     Toggle(String),
 }
 
-/// A picture that is asked for.
+/// A requested picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picture {
-    /// Where it goes; absolute, because the program's folder is not the asker's.
+    /// Path of the file; absolute, because the program may have another working directory than the client.
     pub path: PathBuf,
-    /// What it holds, as `--what` says it; the output unless given.
+    /// Content, as for `--what`; the output unless given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub what: Option<String>,
 }
 
-/// A request, understood.
+/// A parsed request.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Order {
-    /// What is set, and to what, as text.
+    /// Sets options to values, as text.
     Set(Vec<(Knob, String)>),
-    /// One value by its name, or all.
+    /// Reads one value by its name, or all values.
     Get(Option<String>),
-    /// Path and content of a picture.
+    /// Takes a picture, with its path and content.
     Capture(PathBuf, String),
-    /// The third dimension off or on.
+    /// Switches the third dimension off or on.
     Toggle,
 }
 
@@ -69,13 +69,13 @@ pub enum Order {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Answer {
-    /// Values in force, by name.
+    /// Current values, by name.
     Values(Map<String, Value>),
     /// Whether the third dimension is on.
     Layer(bool),
     /// A picture is written.
     Captured {
-        /// Its file.
+        /// Path of the file.
         path: PathBuf,
         /// The frame that it shows, counted from 1.
         frame: u64,
@@ -92,13 +92,13 @@ impl From<Result<Answer, ControlError>> for Answer {
 
 /// A request or an answer as a line.
 pub fn line(message: &impl Serialize) -> String {
-    // Names are text and paths have come as text, so nothing here cannot be written.
+    // Names are text and paths were received as text, so serialisation cannot fail.
     let mut text = serde_json::to_string(message).unwrap_or_default();
     text.push('\n');
     text
 }
 
-/// Understands a line as a request.
+/// Parses a line as a request.
 pub fn order(line: &str) -> Result<Order, ControlError> {
     let request =
         serde_json::from_str(line).map_err(|error| ControlError::Request(error.to_string()))?;
@@ -132,14 +132,14 @@ pub fn order(line: &str) -> Result<Order, ControlError> {
     }
 }
 
-/// What can be set, by the names that it has in a TOML file and in a panel's description.
+/// All options that can be set, with their names in a TOML file and in a panel's description.
 fn settings() -> impl Iterator<Item = (Knob, &'static str)> {
     let named = |id: OptionId| Some((Knob::Option(id), id.spec().key?));
     let options = Live::OPTIONS.into_iter().filter_map(named);
     options.chain(LensPart::ALL.map(|part| (Knob::Lens(part), part.name())))
 }
 
-/// Everything that can be asked for.
+/// The names of all values that can be read.
 fn names() -> impl Iterator<Item = &'static str> {
     settings().map(|(_, name)| name).chain([VIEWS, LAYER])
 }

@@ -1,4 +1,4 @@
-//! Where the sockets are: in a folder that only the user can enter.
+//! The place of the sockets: a folder that only the user can enter.
 #![forbid(unsafe_code)]
 
 use super::ControlError;
@@ -8,14 +8,15 @@ use std::io::ErrorKind;
 use std::os::unix::fs::{DirBuilderExt, MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 
-/// The variable that names the user's folder for such things.
+/// The variable that names the user's runtime folder.
 pub const RUNTIME: &str = "XDG_RUNTIME_DIR";
-/// Of the folder.
+/// Permissions of the folder.
 const FOLDER_MODE: u32 = 0o700;
-/// Of a socket.
+/// Permissions of a socket.
 const SOCKET_MODE: u32 = 0o600;
 
-/// The folder for a user; `runtime` is the value of [`RUNTIME`]. One that is not the user's (after `su`, say) counts as not set.
+/// The folder for a user; `runtime` is the value of [`RUNTIME`]. A value that is not a folder of the user's (after `su`, say) counts as
+/// not set.
 #[must_use]
 pub fn folder(runtime: Option<&OsStr>, user: u32) -> PathBuf {
     let own = |path: &&Path| {
@@ -27,7 +28,7 @@ pub fn folder(runtime: Option<&OsStr>, user: u32) -> PathBuf {
     }
 }
 
-/// Makes the folder unless it is there, and checks that it is the user's alone.
+/// Makes the folder if it does not exist, and checks that it is the user's alone.
 pub fn prepare(folder: &Path, user: u32) -> Result<(), ControlError> {
     match DirBuilder::new().mode(FOLDER_MODE).create(folder) {
         Err(error) if error.kind() != ErrorKind::AlreadyExists => Err(wrong(
@@ -38,7 +39,7 @@ pub fn prepare(folder: &Path, user: u32) -> Result<(), ControlError> {
     }
 }
 
-/// Whether the folder is there; an error if others could have put something into it.
+/// Whether the folder exists. An error if it is not the user's alone, so that others could have put something into it.
 pub fn check(folder: &Path, user: u32) -> Result<bool, ControlError> {
     let about = match fs::symlink_metadata(folder) {
         Ok(about) => about,
@@ -80,25 +81,25 @@ fn reason(error: &std::io::Error) -> String {
     error.kind().to_string()
 }
 
-/// Lets nobody but the user open a socket.
+/// Lets only the user open a socket.
 pub fn close_to_others(socket: &Path) -> std::io::Result<()> {
     fs::set_permissions(socket, fs::Permissions::from_mode(SOCKET_MODE))
 }
 
-/// The socket of a program.
+/// The path of the socket of a program.
 #[must_use]
 pub fn socket(folder: &Path, pid: u32) -> PathBuf {
     folder.join(format!("{pid}.sock"))
 }
 
-/// The program whose socket this is.
+/// The process ID of the program that a socket belongs to. None if the path is not that of a socket.
 #[must_use]
 pub fn pid(socket: &Path) -> Option<u32> {
     let name = socket.file_name()?.to_str()?;
     name.strip_suffix(".sock")?.parse().ok()
 }
 
-/// Whether somebody may ask and tell: only the user who runs the program. Root can do anything anyway, but not by this.
+/// Whether a peer may send requests: only the user who runs the program may, not even root.
 #[must_use]
 pub fn may_talk(peer: Option<u32>, user: u32) -> bool {
     peer == Some(user)
@@ -108,7 +109,7 @@ pub fn may_talk(peer: Option<u32>, user: u32) -> bool {
 mod tests {
     use super::*;
 
-    /// Who runs the tests.
+    /// The user who runs the tests.
     fn user(folder: &Path) -> u32 {
         fs::metadata(folder).unwrap().uid()
     }

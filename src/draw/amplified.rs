@@ -1,4 +1,4 @@
-//! One draw for many views, by instances or a geometry shader, with a generated vertex stage.
+//! Amplified draws: one draw for many views, by instances or a geometry shader, with a generated vertex stage.
 //!
 //! Based on: Luo et al. (GBMVR) and de Sorbier et al. for the geometry shader; instances as in ANGLE's multiview emulation.
 
@@ -14,18 +14,21 @@ use crate::plan::{Method, Reason, Rig, Shear};
 use crate::state::State;
 use crate::view::ViewIndex;
 
-/// A draw that an amplifier can make, decided.
+/// How an amplifier makes a draw, from [`Programs::prepare`].
 #[derive(Clone, Copy, Debug)]
 pub struct Amplified {
     pub(super) stages: Stages,
     pub(super) batch: u32,
     modelview: [f32; 16],
-    /// The mode to draw with instead of the program's.
+    /// The primitive mode to draw with, in place of the program's.
     pub mode: u32,
 }
 
 impl Programs {
     /// Whether all views can be drawn with one viewport and one scissor.
+    ///
+    /// # Errors
+    /// Why they cannot.
     pub fn allow(state: &State, atlas: &Atlas) -> Result<(), Reason> {
         let (tiles, grid) = (&atlas.tiles, &atlas.tiles.grid);
         let apart = grid.step[1] != 0.0 || grid.step[0] != 0.0 && state.rectangles.scissor_test;
@@ -37,7 +40,11 @@ impl Programs {
         Ok(())
     }
 
-    /// Whether and how a draw can be made by an amplifier; the program is compiled if it is new.
+    /// Decides how an amplifier makes a draw, and compiles the program if it is new. `material`: glMaterial occurs between glBegin and
+    /// glEnd.
+    ///
+    /// # Errors
+    /// Why the draw has to be replayed.
     #[allow(
         clippy::too_many_arguments,
         reason = "the parts of one draw; a struct of them would be built for this call alone"
@@ -68,13 +75,13 @@ impl Programs {
         key.target.primitive = primitive;
         key.target.views = 1;
         if key.target.tiles == Tiles::Layer && atlas.layered().is_none() {
-            // One view, or a driver without layered framebuffers.
+            // There is one view, or the driver has no layered framebuffers.
             return Err(Reason::Fixed(Unsupported::VertexLayer));
         }
         let batch = self.batch(method, &mut key, atlas);
         allow_target(&key, mode, geometry)?;
         around.allow(&key).map_err(Reason::Fixed)?;
-        // Measured on llvmpipe 22.3: widened after a geometry shader, they come out in shreds.
+        // Measured on llvmpipe 22.3: wide and smooth points and lines are torn after a geometry shader.
         let drawn = around.rasterised;
         let wide = |size: f32, smooth: bool| size != 1.0 || smooth;
         if geometry
@@ -88,7 +95,7 @@ impl Programs {
         let fragment = if key.target.discards() || grid.is_sample_aligned() {
             let mut read = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
             read.grid = grid.is_sample_aligned();
-            // The driver's own stage does what needs no level of detail.
+            // The driver's own fragment stage is used unless views are cut by discard or the level of detail has to follow the grid.
             Some(read.canonical()).filter(|key| key.discard || key.grid)
         } else {
             None
@@ -103,7 +110,7 @@ impl Programs {
         })
     }
 
-    /// How many views one call draws; chooses the amplifier.
+    /// Chooses the amplifier, and returns the number of views that one call draws.
     fn batch(&self, method: Method, key: &mut FixedKey, atlas: &Atlas) -> u32 {
         match method {
             Method::Geometry => {
@@ -113,7 +120,7 @@ impl Programs {
                     key.target.amplifier = Amplifier::GeometryLoop;
                     batch = fixed::batch(key, &self.limits);
                 }
-                // As few draws as possible, all of the same number of views where that divides evenly.
+                // A batch never spans two rows of tiles.
                 let per_row = atlas
                     .tiles
                     .columns
@@ -133,7 +140,8 @@ impl Programs {
         }
     }
 
-    /// Makes the draw. `call` gets the number of views that one call is for: the instance count of an instanced draw.
+    /// Makes the draw, in one call per batch of views. `call` gets the number of views of its batch, which is the instance count of an
+    /// instanced draw.
     #[allow(
         clippy::too_many_arguments,
         reason = "the parts of one draw; a struct of them would be built for this call alone"
@@ -171,7 +179,7 @@ impl Programs {
             discards,
             size: how.batch as usize,
         };
-        // Layers are chosen by the shader; a row of tiles is bound.
+        // The shader chooses a layer; a row of tiles has to be bound.
         let (rows, per_row) = if layers {
             (1, tiles.views)
         } else {
@@ -198,7 +206,7 @@ impl Programs {
     }
 }
 
-/// What the uniforms of a batch of views are made of.
+/// The inputs for the uniforms of a batch of views.
 struct Batch<'a> {
     state: &'a State,
     rig: &'a Rig,
@@ -206,12 +214,12 @@ struct Batch<'a> {
     shear: Option<Shear>,
     modelview: [f32; 16],
     discards: bool,
-    /// Views in it.
+    /// The number of views in a batch.
     size: usize,
 }
 
 impl Batch<'_> {
-    /// Row 0 of the product of projection and modelview matrix for a view.
+    /// Row 0 of P_i · modelview of a view.
     fn first_row(&self, view: ViewIndex) -> [f32; 4] {
         let (state, tiles) = (self.state, &self.tiles);
         let p = self.shear.map_or(state.matrices.projection, |s| {
@@ -238,7 +246,7 @@ impl Batch<'_> {
             [guard.centre(x), 0.0, layer as f32, 0.0]
         };
         let mut places: Vec<[f32; 4]> = views.iter().map(place).collect();
-        // A geometry shader always makes a whole batch: what is too much lands in a place that shows nothing.
+        // A geometry shader always makes a whole batch: surplus views are placed outside of the clip volume and of the layers.
         rows.resize(self.size, [0.0; 4]);
         places.resize(self.size, [4.0, 0.0, f32::from(u16::MAX), 0.0]);
         Uniforms {
@@ -251,15 +259,18 @@ impl Batch<'_> {
     }
 }
 
-/// Whether primitives of a mode come out of the target as they should.
+/// Whether primitives of a mode are exact with this target and this way of clipping.
+///
+/// # Errors
+/// Why they are not.
 pub(super) fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<(), Reason> {
-    // Without clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
+    // Without clip distances, other vertices of the draw are clipped than in the program's own draw, which changes the diagonal.
     if key.target.discards() && mode == c::QUADS && !key.flat {
         return Err(Reason::Kind(
             "smooth quads under `--clip discard`, which the driver cuts along either diagonal,",
         ));
     }
-    // Of a flat triangle's corners the driver would choose another one after a cut.
+    // After a cut the driver would take the colour of a flat triangle from another corner.
     let whole = match key.target.primitive {
         Primitive::Triangles => !key.flat,
         Primitive::Polygon => true,
@@ -273,19 +284,22 @@ pub(super) fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<
     Ok(())
 }
 
-/// Row 0 of P · M, both column-major, summed in single precision in the order of Mesa's `matmul4`: the driver makes its own
-/// product so, and equal bits here make equal pixels.
+/// Row 0 of P · M, both column-major, summed in single precision in the order of Mesa's `matmul4`. The driver computes its own
+/// product in this way, and equal bits give equal pixels.
 pub(super) fn first_row(p: &[f32; 16], m: &[f32; 16]) -> [f32; 4] {
     [0, 4, 8, 12].map(|column: usize| {
         p[0] * m[column] + p[4] * m[column + 1] + p[8] * m[column + 2] + p[12] * m[column + 3]
     })
 }
 
-/// What a geometry shader is fed with for a mode, and the mode that does it.
+/// The input primitive of the geometry shader for a primitive mode of the program's, and the mode to draw with.
 ///
-/// Smooth quads and quad strips are not among them: the driver cuts a quad in two along one diagonal or the other, and a smooth
-/// colour shows which. Measured on llvmpipe 22.3 (immediate mode and arrays alike): from 0 to 2 where no vertex of the draw is
-/// outside the frustum, from 1 to 3 where one is, and a geometry shader sees one quad only.
+/// Smooth quads and quad strips are refused: the driver cuts a quad along one diagonal or the other, and a smooth colour
+/// shows which. Measured on llvmpipe 22.3 (immediate mode and arrays alike): from 0 to 2 where no vertex of the draw is
+/// outside the frustum, from 1 to 3 where one is. A geometry shader sees only one quad, so it cannot tell.
+///
+/// # Errors
+/// The mode cannot be drawn by a geometry shader.
 pub(super) fn primitive(mode: u32, flat: bool) -> Result<(Primitive, u32), Reason> {
     Ok(match mode {
         c::POINTS => (Primitive::Points, mode),

@@ -1,12 +1,12 @@
-//! Current values (colour, normal, texture coordinates, material) between two sendings of the same immediate-mode calls.
+//! Current values (colour, normal, texture coordinates, material), which are restored between two replays of the same immediate-mode calls.
 
 use crate::gl::{Gl, consts as c};
 use crate::state::Effect;
 
 /// The current values that a sequence of calls starts from.
 ///
-/// They are put back by the calls that set them, not by glPopAttrib: measured on Mesa 22.3, a first point whose colour came from
-/// before glBegin got the last colour of the sequence after glPopAttrib.
+/// They are restored by the calls that set them, not by glPopAttrib. Measured on Mesa 22.3: after glPopAttrib, a first point that takes its
+/// colour from before glBegin got the last colour of the sequence.
 #[derive(Debug, Default)]
 pub struct Current {
     color: Option<[f32; 4]>,
@@ -16,16 +16,16 @@ pub struct Current {
     fog: Option<f32>,
     edge: Option<bool>,
     material: Vec<(u32, u32, [f32; 4])>,
-    /// The material follows the colour (GL_COLOR_MATERIAL), and may have been left behind.
+    /// The material follows the colour (GL_COLOR_MATERIAL), and may be out of date.
     follows: bool,
 }
 
 impl Current {
-    /// Reads the values of some kinds from the driver. `popped`: something else than calls may have changed them
-    /// before they are put, such as a glPopAttrib.
+    /// Reads the values of some kinds from the driver. `popped`: something other than immediate-mode calls may change them
+    /// before they are restored, such as a glPopAttrib.
     pub fn take(gl: &Gl, kinds: Effect, popped: bool) -> Current {
         let mut current = Current::default();
-        // What an array element or an evaluator sets is not known here.
+        // It is not known which values an array element or an evaluator sets.
         let kinds = if kinds.has(Effect::UNKNOWN) {
             Effect::ALL
         } else {
@@ -77,7 +77,7 @@ impl Current {
         current
     }
 
-    /// Sets them again.
+    /// Restores the values.
     pub fn put(&self, gl: &Gl) {
         for (face, name, v) in &self.material {
             gl.material(*face, *name, v);
@@ -86,7 +86,7 @@ impl Current {
             gl.color_4f(r, g, b, a);
         }
         if self.follows {
-            // Mesa 22.3 leaves it at the last colour of the calls before: enabling takes it anew.
+            // Mesa 22.3 leaves the material at the last colour of the earlier calls; enabling takes the current colour anew.
             gl.disable(c::COLOR_MATERIAL);
             gl.enable(c::COLOR_MATERIAL);
         }

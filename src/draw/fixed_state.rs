@@ -1,4 +1,4 @@
-//! The fixed-function state of the driver, read into the key of a generated shader.
+//! Reads the fixed-function state of the driver into the key of a generated shader.
 
 use crate::fixed::{
     ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, LEVELS, LIGHTS, Light, Lighting, Limits,
@@ -7,7 +7,7 @@ use crate::fixed::{
 };
 use crate::gl::{Gl, consts as c};
 
-/// What a context can do for generated shaders.
+/// The limits of a context for generated shaders; `glsl`: its version, such as 150.
 pub fn limits(gl: &Gl, glsl: u32) -> Limits {
     let get = |name| gl.get_integer(name).max(0) as u32;
     let shader5 = gl.has_extension("GL_ARB_gpu_shader5");
@@ -39,20 +39,20 @@ pub fn limits(gl: &Gl, glsl: u32) -> Limits {
     }
 }
 
-/// What does not change in the life of a context, and decides how its state is read.
+/// Constant properties of a context that decide how its state is read.
 #[derive(Clone, Copy, Debug)]
 pub struct Driver {
     pub(super) mesa: bool,
-    /// Has assembly programs.
+    /// It has assembly programs (GL_ARB_vertex_program).
     pub programs: bool,
     fog_distance: bool,
     clip_planes: u32,
-    /// Corners that tessellation may make in one draw.
+    /// The most vertices that tessellation may make in one draw.
     corners: u64,
 }
 
 impl Driver {
-    /// The highest level of tessellation for a draw of so many patches.
+    /// The highest tessellation level for a draw of so many patches.
     pub(super) fn level(&self, patches: u64) -> u32 {
         let each = (self.corners / patches.max(1)).isqrt();
         u32::try_from(each.saturating_sub(1)).map_or(LEVELS, |level| level.clamp(1, LEVELS))
@@ -63,13 +63,13 @@ impl Driver {
         Driver {
             mesa: gl.get_string(c::VERSION).contains("Mesa"),
             programs: gl.has_extension("GL_ARB_vertex_program"),
-            // Measured on llvmpipe 22.3: its indices have 16 bits there, and beyond that they begin again.
+            // Measured on llvmpipe 22.3: indices of tessellated vertices have 16 bits and wrap around.
             corners: match gl.is_llvmpipe() {
                 true => 0xffff,
                 false => u64::MAX,
             },
             fog_distance: gl.has_extension("GL_NV_fog_distance"),
-            // One bit of the key for each.
+            // The key has one bit for each.
             clip_planes: match gl.is_es() {
                 true => 0,
                 false => (gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32).min(u8::BITS),
@@ -78,12 +78,12 @@ impl Driver {
     }
 }
 
-/// State that the vertex stage reads, kept until a command touches it.
+/// The state that the vertex stage depends on, kept until a command touches it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FixedState {
-    /// The key without target and without what depends on the primitives.
+    /// The key, without its target and without the parts that depend on the primitives.
     pub key: FixedKey,
-    /// What can make a generated shader impossible, without what depends on the primitives.
+    /// State that can rule out a generated shader, without the parts that depend on the primitives.
     pub surroundings: Surroundings,
     /// GL_COLOR_SUM as the program set it.
     pub color_sum: bool,
@@ -95,12 +95,12 @@ pub struct FixedState {
     pub quads_follow: bool,
     /// GL_POLYGON_MODE, front and back.
     pub polygon_mode: [u32; 2],
-    /// How the size of points comes about.
+    /// How the size of points is determined.
     pub point: PointSize,
 }
 
 impl FixedState {
-    /// Reads it. Changes no state.
+    /// Reads the state from the driver; `samples` of the framebuffer. Leaves all state as it is.
     pub fn read(gl: &Gl, driver: Driver, samples: u32) -> FixedState {
         let on = |cap| gl.is_enabled(cap);
         let int = |name| gl.get_integer(name) as u32;
@@ -142,7 +142,7 @@ impl FixedState {
             ..FixedKey::default()
         };
         let surroundings = Surroundings {
-            // An assembly fragment program reads texture units that are not enabled: as little known as a vertex program.
+            // An assembly fragment program may read texture units that are not enabled, so it rules out a generated shader, too.
             vertex_program: on(c::VERTEX_PROGRAM_ARB) || on(c::FRAGMENT_PROGRAM_ARB),
             high_texture_unit,
             line_stipple: on(c::LINE_STIPPLE),
@@ -169,14 +169,14 @@ impl FixedState {
         }
     }
 
-    /// Reads again what depends on the material.
+    /// Reads the parts that depend on the material again.
     pub fn reread_material(&mut self, gl: &Gl) {
         if let Some(l) = &mut self.key.lighting {
             l.dull = dull(gl);
         }
     }
 
-    /// The key and what surrounds it for one primitive mode and modelview matrix (column-major); `material`: glMaterial between
+    /// The key and the surroundings for one primitive mode and modelview matrix (column-major); `material`: glMaterial occurs between
     /// glBegin and glEnd.
     pub fn for_mode(
         &self,
@@ -195,7 +195,7 @@ impl FixedState {
             _ => {
                 let has = |m| self.polygon_mode.contains(&m);
                 around.polygon_mode = has(c::POINT) || has(c::LINE);
-                // Client state and current values are not followed: with outlines every edge flag is taken as set somewhere.
+                // Edge flags are not tracked, so with outlines they are assumed to be in use.
                 around.edge_flags = around.polygon_mode;
                 (has(c::POINT), has(c::LINE), has(c::FILL))
             }
@@ -204,7 +204,7 @@ impl FixedState {
             key.point = self.point;
         }
         if let c::QUADS | c::QUAD_STRIP = mode {
-            // Measured on llvmpipe: quads split from 1 to 3 with the last-vertex convention, from 0 to 2 with the first-vertex one.
+            // Measured on llvmpipe: quads are cut from 1 to 3 with the last-vertex convention, from 0 to 2 with the first-vertex one.
             key.target.diagonal = if key.provoking == Provoking::Last {
                 Diagonal::OneThree
             } else {
@@ -263,7 +263,7 @@ fn lighting(gl: &Gl) -> Lighting {
     }
 }
 
-/// Whether a matrix rotates and moves only, within the tolerance of Mesa's `m_matrix.c`.
+/// Whether a matrix only rotates and translates, within the tolerance of Mesa's `m_matrix.c`.
 fn keeps_lengths(m: &[f32; 16]) -> bool {
     let column = |i: usize| glam::Vec3::new(m[i], m[i + 1], m[i + 2]);
     let (x, y, z) = (column(0), column(4), column(8));
@@ -276,7 +276,7 @@ fn keeps_lengths(m: &[f32; 16]) -> bool {
         && [m[3], m[7], m[11], m[15]] == [0.0, 0.0, 0.0, 1.0]
 }
 
-/// Whether a face has shininess 0 with a specular colour, or one that follows the current colour.
+/// Whether a face has shininess 0 and a specular colour that is not black, or that follows the current colour.
 fn dull(gl: &Gl) -> bool {
     let specular_follows = gl.is_enabled(c::COLOR_MATERIAL)
         && gl.get_integer(c::COLOR_MATERIAL_PARAMETER) as u32 == c::SPECULAR;
@@ -303,7 +303,7 @@ fn fog(gl: &Gl, driver: Driver) -> FogSource {
     }
 }
 
-/// The coordinate sets, and whether a unit beyond them is enabled.
+/// The texture units of the key, and whether a unit beyond them is enabled.
 fn units(gl: &Gl) -> ([TextureUnit; UNITS], bool) {
     const TARGETS: [u32; 5] = [
         c::TEXTURE_1D,

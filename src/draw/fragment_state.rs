@@ -1,7 +1,7 @@
-//! The driver's fragment stage, read into the key of a generated one.
+//! Reads the driver's fixed-function fragment stage into the key of a generated one.
 //!
-//! Asked for only where a draw needs such a stage, and only for the units that are enabled. It is not kept from draw to draw:
-//! what a texture is (images, filters) changes by commands of which the layer keeps no copies.
+//! It is read only where a draw needs a generated stage, and only for the enabled units. It is not kept from draw to draw,
+//! because the layer does not track the commands that change a texture's images and filters.
 
 use super::fixed_state::Driver;
 use crate::fixed::{
@@ -10,7 +10,11 @@ use crate::fixed::{
 };
 use crate::gl::{Gl, consts as c};
 
-/// Reads it for the units and the fog of a vertex stage. Changes no state. The grid is left out: it is not the program's.
+/// Reads the fragment stage for the units and the fog of a vertex stage. Leaves all state as it is. The caller adds the grid, which is not
+/// state of the driver.
+///
+/// # Errors
+/// The state has something that a generated stage cannot do.
 pub(super) fn read(gl: &Gl, driver: Driver, vertex: &FixedKey) -> Result<FragmentKey, Unsupported> {
     let mut units = [None; UNITS];
     if vertex.units.iter().any(|unit| unit.enabled) {
@@ -46,7 +50,7 @@ pub(super) fn read(gl: &Gl, driver: Driver, vertex: &FixedKey) -> Result<Fragmen
     Ok(key.after(vertex))
 }
 
-/// The active unit; `None` where its texture is incomplete.
+/// The state of the active unit; `None` where its texture is incomplete.
 fn read_unit(gl: &Gl, driver: Driver) -> Result<Option<FragmentUnit>, Unsupported> {
     if gl.version() >= (3, 3) && gl.get_integer(c::SAMPLER_BINDING) != 0 {
         return Err(Unsupported::SamplerObject);
@@ -68,7 +72,7 @@ fn read_unit(gl: &Gl, driver: Driver) -> Result<Option<FragmentUnit>, Unsupporte
                 environment: environment(gl)?,
             }));
         }
-        // Mesa goes on to the next target (`update_ff_texture_state`); by the specification the unit is off.
+        // Mesa tries the next target (`update_ff_texture_state`); by the specification the unit is off.
         if !driver.mesa {
             break;
         }
@@ -94,7 +98,7 @@ fn images(target: TextureTarget) -> std::ops::Range<u32> {
     }
 }
 
-/// Texture completeness (OpenGL 4.6 compatibility, section 8.17), which no query answers.
+/// Texture completeness (OpenGL 4.6 compatibility, section 8.17), for which there is no query.
 fn complete(gl: &Gl, target: TextureTarget, mipmaps: bool) -> bool {
     let name = target_name(target);
     let base = gl.get_tex_parameter(name, c::TEXTURE_BASE_LEVEL);
@@ -126,7 +130,7 @@ fn complete(gl: &Gl, target: TextureTarget, mipmaps: bool) -> bool {
         && base <= last
 }
 
-/// Base internal format by the components that it has, so that one of any size and extension is known.
+/// The base internal format, from the components that the texture has, so that formats of any size and extension are known.
 fn base_format(gl: &Gl, target: TextureTarget) -> Result<BaseFormat, Unsupported> {
     let base = gl.get_tex_parameter(target_name(target), c::TEXTURE_BASE_LEVEL);
     let ask = |what| gl.get_tex_level_parameter(images(target).start, base, what);

@@ -1,4 +1,4 @@
-//! Executes a plan: the draw, once per view. Never looks at the program's state again.
+//! Executes a plan: makes the draw for each view. Decides nothing about the program's state any more.
 #![forbid(unsafe_code)]
 
 mod amplified;

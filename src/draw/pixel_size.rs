@@ -1,14 +1,14 @@
-//! State that is counted in pixels, where those of the tiles are larger than the window's: widths of lines and points, offsets of
-//! polygons, and the level of detail of textures.
+//! State that is measured in pixels, for tiles whose pixels are larger than the window's: widths of lines and points, polygon offsets,
+//! and the level of detail of textures.
 
 use crate::atlas::Grid;
 use crate::gl::{Gl, consts as c};
 use crate::state::State;
 
-/// What the program has, to be put back.
+/// The program's values, which are restored after the draw.
 #[derive(Debug, Default)]
 pub(super) struct PixelSizeGuard {
-    /// Of lines and points.
+    /// GL_LINE_WIDTH and GL_POINT_SIZE.
     widths: Option<[f32; 2]>,
     /// GL_POLYGON_OFFSET_FACTOR, _UNITS and _CLAMP.
     offset: Option<[f32; 3]>,
@@ -18,18 +18,18 @@ pub(super) struct PixelSizeGuard {
     active: u32,
 }
 
-/// Which texture units of fixed function a draw samples without knowing of the grid.
+/// Which texture units of fixed function need a bias of the level of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Units {
-    /// A generated fragment stage finds the level of detail itself.
+    /// None: a generated fragment stage computes the level of detail itself.
     None,
-    /// Those that are enabled now.
+    /// The units that are enabled now.
     Enabled,
-    /// Perhaps any.
+    /// All units, because the draw may enable any of them.
     All,
 }
 
-/// Texture units of fixed function that are looked at.
+/// The most texture units of fixed function that are biased.
 const UNITS: u32 = 8;
 
 const TARGETS: [u32; 5] = [
@@ -99,8 +99,9 @@ impl PixelSizeGuard {
     }
 }
 
-/// From one pixel to the next depths change as many times more as pixels are farther apart, and the factor of an offset multiplies that.
-/// Where they are farther apart along one axis only, no factor is right for all slopes; the mean is.
+/// Divides the factor of a polygon offset by the spacing of texels; returns the program's values. The factor multiplies the change of depth
+/// from pixel to pixel, which grows with that spacing. Where the spacing differs between the axes no factor is right for all slopes, so the
+/// mean is used.
 fn flatten(gl: &Gl, state: &State, grid: &Grid) -> Option<[f32; 3]> {
     if !gl.is_enabled(c::POLYGON_OFFSET_FILL) {
         return None;

@@ -9,11 +9,11 @@ use crate::plan::Reason;
 use std::collections::HashMap;
 use std::ffi::CString;
 
-/// The texture unit of the distortion map: the last one that all drivers with OpenGL 3.0 have, or where a program's own shaders have a use for it, the
-/// last one that they have none for.
+/// The texture unit of the distortion map: the last one that all drivers with OpenGL 3.0 have. Where a program's own shaders use it, the
+/// last unit that they do not use takes its place.
 pub(super) const DISTORTION_UNIT: u32 = 31;
 
-/// The uniforms of `fixed`'s shaders.
+/// The uniforms of the shaders that [`crate::fixed`] generates.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Uniforms {
     /// `mv_view`: row 0 of P_i · modelview.
@@ -28,7 +28,7 @@ pub(super) struct Uniforms {
     pub(super) grid: [f32; 4],
 }
 
-/// A generated program, and where its uniforms are.
+/// A generated program and the locations of its uniforms.
 #[derive(Debug)]
 pub(super) struct Program {
     pub(super) name: u32,
@@ -41,21 +41,21 @@ pub(super) struct Program {
     pub(super) window: i32,
     pub(super) disparity: i32,
     pub(super) levels: i32,
-    /// What the uniforms hold.
+    /// The present values of the uniforms.
     pub(super) uploaded: Uniforms,
 }
 
-/// Canonical keys of a program: the vertex stage, and the fragment stage where that is generated as well.
+/// Canonical keys of a program: that of the vertex stage, and that of the fragment stage if that is generated as well.
 pub(super) type Stages = (FixedKey, Option<FragmentKey>);
 
 /// The generated programs of one context.
 #[derive(Debug)]
 pub struct Programs {
-    /// What the driver can do.
+    /// Limits of the driver.
     pub limits: Limits,
     pub(super) driver: Driver,
     pub(super) clip: Clip,
-    /// All uniforms are sent with each draw.
+    /// All uniforms are sent with each draw, even if they have not changed.
     pub(super) resends: bool,
     pub(super) cache: HashMap<Stages, Option<Program>>,
     /// Programs compiled so far.
@@ -63,7 +63,7 @@ pub struct Programs {
 }
 
 impl Programs {
-    /// For a context. `clip` is for views that lie side by side; `resends`: uniforms that have their value are sent again.
+    /// For a context. `clip`: how tiles beside each other are clipped; `resends`: uniforms that have not changed are sent again.
     pub fn new(limits: Limits, driver: Driver, clip: Clip, resends: bool) -> Programs {
         Programs {
             limits,
@@ -149,7 +149,7 @@ fn name_units(gl: &Gl, program: u32, key: &FragmentKey) {
 }
 
 impl Program {
-    /// Sets the uniforms that are not set already. `mv_first` stays 0: each call's views begin at index 0.
+    /// Sets the uniforms that have changed. `mv_first` stays 0: the views of each call begin at index 0.
     pub(super) fn upload(&mut self, gl: &Gl, new: Uniforms) {
         if self.uploaded.rows != new.rows {
             gl.uniform_4fv(self.views, &new.rows);

@@ -1,4 +1,4 @@
-//! One draw for the reference image of an occlusion camera, with a generated program or a variant of the program's own.
+//! Repeats a draw in the reference image of an occlusion camera, with a generated program or a variant of the program's own.
 
 use super::fixed_state::FixedState;
 use super::fragment_state;
@@ -13,7 +13,7 @@ use crate::gl::{Gl, consts as c};
 use crate::plan::{Reason, Rig, Shear};
 use crate::state::State;
 
-/// What the rays are distorted by.
+/// The distortion of the occlusion camera's rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rays {
     /// The distortion map.
@@ -22,21 +22,21 @@ pub struct Rays {
     pub disparities: [f32; 2],
 }
 
-/// What a draw of surfaces is made of.
+/// The primitives of a draw of surfaces.
 #[derive(Clone, Copy, Debug)]
 pub struct Drawing {
-    /// Of the primitives; none where they are several, and surfaces.
+    /// The primitive mode; none where there are several, all of which are surfaces.
     pub mode: Option<u32>,
-    /// How many there are at least.
+    /// The number of vertices, at least.
     pub vertices: u64,
-    /// It can be made with `GL_PATCHES` of three vertices, or of four in the place of quads.
+    /// The draw can be made with `GL_PATCHES` of three vertices, or of four for quads.
     pub cuts: bool,
     /// It may change the material.
     pub material: bool,
 }
 
 impl Drawing {
-    /// Its patches, and how many corners they have.
+    /// The patches for tessellation, and the number of their corners; none where the draw cannot be tessellated.
     fn patches(&self) -> Option<(Primitive, i32)> {
         match self.mode.filter(|_| self.cuts)? {
             c::TRIANGLES | c::TRIANGLE_STRIP | c::TRIANGLE_FAN | c::POLYGON => {
@@ -48,17 +48,17 @@ impl Drawing {
     }
 }
 
-/// Pixels of a small triangle, on the average: half a square of those edges that triangles are cut to.
+/// Average area of a small triangle, in pixels: half a square of the edge length to which tessellation subdivides.
 const SMALL: u64 = 8;
 
-/// Whether the triangles of so many vertices are not small in the picture, on the whole, wherever they are.
+/// Whether triangles of so many vertices may be large: if they covered the whole picture, they would be larger than [`SMALL`] on average.
 fn few(vertices: u64, atlas: &Atlas) -> bool {
     let [width, height] = [atlas.tiles.width, atlas.tiles.height].map(u64::from);
     vertices * SMALL < 3 * width * height
 }
 
 impl Rays {
-    /// `mv_window` and `mv_disparity` of a picture; `sparse`: without what is not moved.
+    /// The uniforms `mv_window` and `mv_disparity` of a picture; `sparse`: draw only vertices that the distortion moves.
     fn uniforms(&self, state: &State, atlas: &Atlas, sparse: bool) -> [[f32; 4]; 2] {
         let [x, y, width, height] = state.rectangles.viewport.map(|n| n as f32);
         let (middle, up) = (y + height / 2.0, height / 2.0);
@@ -74,7 +74,7 @@ impl Rays {
     }
 }
 
-/// The map in its unit.
+/// The distortion map, bound to its unit; restores the former binding.
 struct Bound {
     unit: u32,
     active: u32,
@@ -98,7 +98,7 @@ impl Bound {
     }
 }
 
-/// One draw with the program that is in use.
+/// Makes one draw in the reference image, with the program in use.
 fn into_reference(
     gl: &Gl,
     atlas: &mut Atlas,
@@ -121,8 +121,8 @@ fn into_reference(
     );
 }
 
-/// Draws by a variant of the program's own shaders, which is in use, into the reference image; `units` are those that it samples. All state is as
-/// before, but for the program in use. What has no shift by the projection matrix of fixed function has that of the variant.
+/// Repeats a draw in the reference image with a variant of the program's own shaders, which is in use. `units` are the texture units that it
+/// samples; `shear` is for vertices that the projection matrix of fixed function places. All state is as before, but for the program in use.
 #[allow(
     clippy::too_many_arguments,
     reason = "the parts of one draw; a struct of them would be built for this call alone"
@@ -152,11 +152,11 @@ pub fn draw_to_reference(
 }
 
 impl Programs {
-    /// Draws surfaces of fixed function into the reference image; all state is as before. Where their vertices are few for the picture they are cut
-    /// into small ones. `call` makes the draw, in a mode.
+    /// Repeats a draw of fixed-function surfaces in the reference image; all state is as before. Surfaces that may be large are tessellated into
+    /// small triangles, since rays are distorted per vertex. `call` makes the draw in a primitive mode.
     ///
     /// # Errors
-    /// Why there is no such program. Nothing was drawn.
+    /// Why there is no program for the draw; nothing was drawn.
     #[allow(
         clippy::too_many_arguments,
         reason = "the parts of one draw; a struct of them would be built for this call alone"
@@ -178,7 +178,7 @@ impl Programs {
         let mode = drawing.mode.unwrap_or(c::TRIANGLES);
         let (mut key, around) = fixed.for_mode(mode, &modelview, drawing.material);
         let few = few(drawing.vertices, atlas);
-        // Which corner colours a flat one of a strip goes by its place in the strip.
+        // Under flat shading, the corner that colours a triangle of a strip depends on its position in the strip, which patches do not keep.
         let alone = !key.flat || [c::TRIANGLES, c::QUADS].contains(&mode);
         let cut = few && alone && self.limits.glsl >= 400;
         let patches = drawing.patches().filter(|_| cut);

@@ -1,4 +1,4 @@
-//! The draw itself again, per view, with P_i and the tile's viewport and scissor. Needs no shader.
+//! Replay: sends the draw itself again for each view, with P_i and the tile's viewport and scissor. Needs no shader.
 
 use super::current::Current;
 use super::pixel_size::{PixelSizeGuard, Units};
@@ -8,36 +8,35 @@ use crate::plan::{Rig, Shear};
 use crate::state::{Effect, State};
 use crate::view::ViewIndex;
 
-/// What the draw does to the state that its second sending would start from.
+/// The state that a draw changes, and that its second sending would start from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ReplayHazard {
-    /// Nothing: it can be sent again as it is.
+    /// The draw changes no state that it depends on, so it can be sent again as it is.
     None,
-    /// Sets current values that its first vertices used.
+    /// The draw sets current values that its first vertices have used.
     Current(Effect),
-    /// Anything: a display list.
+    /// The draw may change any state, as a display list may.
     Anything {
-        /// Viewport or scissor among it.
+        /// It may change viewport or scissor.
         rects: bool,
-        /// The projection or the matrix mode among it.
+        /// It may change the projection or the matrix mode.
         projection: bool,
-        /// Current values that its first vertices used: glPopAttrib alone does not put them back (see [`Current`]).
+        /// Current values that its first vertices have used: glPopAttrib alone does not restore them (see [`Current`]).
         current: Effect,
     },
-    /// Draws at the raster position, in window pixels, and may move it. The position stands for a point of the scene where it was
-    /// placed under a projection with this shift.
+    /// It draws at the raster position, in window pixels, and may move it. With a shift, the position was placed under a projection with that
+    /// shift, and moves with a point of the scene.
     Raster(Option<Shear>),
-    /// A clear: without a scissor one call does all tiles of a layer.
+    /// It is a clear: without a scissor, one call clears all tiles of a layer.
     Clear,
 }
 
-/// Sends the draw once per view, the program's own view last, so that all state is as after the program's own call. `call` takes
-/// the view; a clear takes one for each layer.
+/// Sends the draw once per view, the program's own view last, so that the state is as after the program's own call. `call` sends the draw
+/// for a view; a clear is sent once per layer.
 ///
-/// `leaves`: the call changes the state for the program; else the program's own view is sent as the others are, and all state is as
-/// before the call.
+/// `leaves`: the draw changes the state for the program. Otherwise all state is as before the call, also after the program's own view.
 ///
-/// Answers false if the draw could not be sent for the other views (the attribute stack is full).
+/// Returns false if the draw could not be sent for the other views, because the attribute stack is full.
 #[allow(
     clippy::too_many_arguments,
     reason = "the parts of one draw; a struct of them would be built for this call alone"
@@ -89,11 +88,11 @@ fn stack_is_full(gl: &Gl) -> bool {
 }
 
 impl ReplayHazard {
-    /// The attribute groups that are pushed around each sending but the program's own.
+    /// The attribute groups that are pushed around each sending, except the program's own.
     fn saves(self) -> u32 {
         match self {
             ReplayHazard::None | ReplayHazard::Clear => 0,
-            // What an array element or an evaluator sets is not known here.
+            // It is not known which values an array element or an evaluator sets.
             ReplayHazard::Current(e) if e.has(Effect::UNKNOWN) || e.has(Effect::ATTRIB) => {
                 c::CURRENT_BIT | c::LIGHTING_BIT
             }
@@ -104,7 +103,7 @@ impl ReplayHazard {
     }
 }
 
-/// One draw while it is sent for the views.
+/// A draw while it is sent for the views.
 struct Sending<'a> {
     gl: &'a Gl,
     state: &'a State,
@@ -129,8 +128,8 @@ impl<'a> Sending<'a> {
     ) -> Self {
         let saves = hazard.saves();
         if saves != 0 {
-            // Mesa 22.3 forgets at a glPushAttrib what it has not sent of the current values, and a glPopAttrib of the program's that
-            // is still to come does not put them back.
+            // The query flushes current values: Mesa 22.3 loses pending ones at a glPushAttrib, and a later glPopAttrib of the program's does
+            // not restore them.
             gl.get_floats::<4>(c::CURRENT_COLOR);
         }
         let units = match hazard {
@@ -168,18 +167,19 @@ impl<'a> Sending<'a> {
         }
     }
 
-    /// Whether tiles have viewports of their own.
+    /// Whether each tile needs a viewport of its own.
     fn beside(&self) -> bool {
         self.tiles.columns > 1 || !self.tiles.grid.is_full()
     }
 
-    /// Whether a view's viewport is the program's to change.
+    /// Whether the draw may change the viewport for the program: in the own view, by a list with viewport or scissor.
     fn is_free(&self, view: ViewIndex) -> bool {
         let rects = matches!(self.hazard, ReplayHazard::Anything { rects: true, .. });
         view == self.tiles.own() && rects
     }
 
-    /// A list that changes the projection starts from the program's own, also where no view stands in the middle.
+    /// Whether the own view may get P_i. A list that changes the projection has to start from the program's own, even where no view stands in
+    /// the middle.
     fn keeps_projection(&self) -> bool {
         !matches!(
             self.hazard,
@@ -206,7 +206,7 @@ impl<'a> Sending<'a> {
         }
     }
 
-    /// The program's own view, whose changes of the state are the program's.
+    /// Sends the program's own view, whose changes of the state remain.
     fn own(&self, call: &mut dyn FnMut(ViewIndex)) {
         let own = self.tiles.own();
         let place = self.rig.position(own);
@@ -218,7 +218,7 @@ impl<'a> Sending<'a> {
         }
     }
 
-    /// A view whose changes of the state are undone.
+    /// Sends a view and undoes its changes of the state.
     fn aside(&self, view: ViewIndex, x: i32, call: &mut dyn FnMut(ViewIndex)) {
         let gl = self.gl;
         if self.saves != 0 {
@@ -245,7 +245,7 @@ impl<'a> Sending<'a> {
         }
     }
 
-    /// A list that may leave matrices and attributes on the stacks.
+    /// Sends a list, which may leave matrices and attributes on the stacks.
     fn anything(&self, view: ViewIndex, call: &mut dyn FnMut(ViewIndex)) {
         let gl = self.gl;
         let stack = Stack::take(gl, self.state.matrices.mode);
@@ -259,7 +259,7 @@ impl<'a> Sending<'a> {
         }
     }
 
-    /// After the program's own view; `leaves` as for [`replay`].
+    /// Restores the state after the program's own view; `leaves` as for [`replay`].
     fn end(&self, leaves: bool) {
         let own = self.tiles.own();
         if self.beside() && !self.is_free(own) {
@@ -276,7 +276,7 @@ impl<'a> Sending<'a> {
     }
 }
 
-/// The program's own view, for what the driver is about to draw there; [`others`] ends it.
+/// Sets up the program's own view for a command that the driver executes first; [`others`] ends it.
 pub fn enter_own(
     gl: &Gl,
     surface: &mut dyn Surface,
@@ -300,7 +300,7 @@ pub fn enter_own(
     }
 }
 
-/// After [`enter_own`]: the other views, where they are wanted, then all state as the program has it.
+/// After [`enter_own`]: sends the other views, if `wanted`, and restores the program's state.
 pub fn others(
     gl: &Gl,
     surface: &mut dyn Surface,
@@ -333,7 +333,7 @@ pub fn others(
     projection.restore();
 }
 
-/// Viewport and scissor of the program in the tile of a view, which begins at an offset in pixels, cut to the tile.
+/// Sets the program's viewport and scissor in the tile of a view, which begins at `offset` pixels; the scissor is cut to the tile.
 pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) {
     if tiles.grid.is_full() {
         let [x, y, w, h] = state.rectangles.viewport;
@@ -348,7 +348,7 @@ pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex,
     gl.scissor(x, y, w, h);
 }
 
-/// What may be drawn in a tile: all of it, or what the program's scissor leaves.
+/// The scissor rectangle of a tile, in pixels of the atlas: the whole tile, or the program's scissor in it.
 pub fn cut(state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) -> [i32; 4] {
     let size = [tiles.width as i32, tiles.height as i32];
     if !state.rectangles.scissor_test {
@@ -367,7 +367,7 @@ pub fn cut(state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) -> [i32; 
     [x0 + offset, y0, (x1 - x0).max(0), (y1 - y0).max(0)]
 }
 
-/// The program's own viewport and scissor.
+/// Restores the program's own viewport and scissor.
 pub fn restore_viewport(gl: &Gl, state: &State) {
     let [x, y, w, h] = state.rectangles.viewport;
     gl.viewport(x, y, w, h);
@@ -378,7 +378,7 @@ pub fn restore_viewport(gl: &Gl, state: &State) {
     }
 }
 
-/// A raster position that stands for a point of the scene.
+/// A raster position that moves with a point of the scene.
 #[derive(Clone, Copy)]
 struct Raster {
     shear: Shear,
@@ -389,7 +389,7 @@ struct Raster {
     width: f64,
 }
 
-/// Steps of a pixel to which what a picture moves the raster position is rounded: two sums of single precision have told it.
+/// Movements of the raster position are rounded to this fraction of a pixel, because they are differences of two single-precision sums.
 const STEPS: f32 = 1024.0;
 
 impl Raster {
@@ -404,8 +404,8 @@ impl Raster {
         }
     }
 
-    /// How far the position of the view at a place is from the program's own, in pixels; `None` where it leaves the viewport, which
-    /// makes it invalid.
+    /// Shift of the raster position in the view at a place, in pixels; `None` where it leaves the viewport, which makes the position
+    /// invalid.
     fn shift(&self, place: f64) -> Option<f32> {
         let clip = self.shear.separation(place) * (self.w - self.shear.conv);
         let shift = clip / self.w * self.width / 2.0;
@@ -413,7 +413,7 @@ impl Raster {
         (inside && shift.is_finite()).then_some(shift as f32)
     }
 
-    /// The program's own view: what the draw moves the position by is kept, what the view does is not.
+    /// Sends the program's own view: the movement by the draw is kept, the shift of the view is undone.
     fn own(&self, gl: &Gl, place: f64, call: &mut dyn FnMut()) {
         let shift = self.shift(place);
         if shift == Some(0.0) {
@@ -433,7 +433,7 @@ impl Raster {
     }
 }
 
-/// The stack of matrices that a list works on: that of the matrix mode it is called in.
+/// The matrix stack that a list works on: that of the matrix mode in which it is called.
 struct Stack {
     mode: u32,
     depth_name: u32,
@@ -457,7 +457,7 @@ impl Stack {
         })
     }
 
-    /// As it was. Also in the mode that the list has left.
+    /// Restores depth, top and matrix mode.
     fn put(&self, gl: &Gl) {
         gl.matrix_mode(self.mode);
         let now = gl.get_integer(self.depth_name);
@@ -475,12 +475,12 @@ struct Projection<'a> {
 }
 
 impl Projection<'_> {
-    /// Whether views need another projection than P_i.
+    /// Whether slanted tiles need another projection than P_i.
     fn leans(&self) -> bool {
         self.grid.shear != 0.0
     }
 
-    /// Loads P_i of the view at a place, as its tile needs it; nothing for a flat draw. The matrix mode stays the program's.
+    /// Loads P_i of the view at a place, slanted if the tiles are; loads nothing for a flat draw in upright tiles. Restores the matrix mode.
     fn load(&self, place: f64) {
         let p = &self.state.matrices.projection;
         let p = match &self.shear {
@@ -495,7 +495,7 @@ impl Projection<'_> {
         });
     }
 
-    /// The program's own again.
+    /// Loads the program's own projection again.
     fn restore(&self) {
         if self.shear.is_some() || self.leans() {
             self.put(&self.state.matrices.projection);

@@ -1,4 +1,4 @@
-//! The program's state around an amplified draw: viewport, scissor, capabilities and pixel sizes, entered and left.
+//! The state guard of an amplified draw: sets viewport, scissor, capabilities and pixel sizes, and restores the program's.
 
 use super::fixed_state::FixedState;
 use super::pixel_size::{PixelSizeGuard, Units};
@@ -9,7 +9,7 @@ use crate::fixed::{Amplifier, FixedKey, Patches, Primitive, Provoking, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::state::State;
 
-/// What may be drawn of a tile, as [`StateGuard`] has it.
+/// The region of a tile that may be drawn to, as in [`StateGuard`].
 struct Region {
     clip: [f32; 4],
     limits: [i32; 2],
@@ -25,8 +25,8 @@ impl Default for Region {
 }
 
 impl Region {
-    /// For tiles beside each other. x: the viewport spans all tiles and clip distances cut at the tile and at the program's viewport and
-    /// scissor. y: viewport and scissor are the program's own. Sets both.
+    /// Sets viewport and scissor for tiles beside each other. Along x, the viewport spans all tiles, and clip distances cut at the tile and at
+    /// the program's viewport and scissor. Along y, viewport and scissor are the program's own.
     fn beside(gl: &Gl, state: &State, atlas: &Atlas) -> Region {
         let [vx, vy, vw, vh] = state.rectangles.viewport;
         let tile = atlas.tiles.width as i32;
@@ -58,7 +58,7 @@ impl Region {
     }
 }
 
-/// Enables and disables what the generated program needs otherwise than the program has it; answers what was changed, as it was.
+/// Enables and disables capabilities as the generated program needs them; returns those that changed, with their former values.
 fn toggle(gl: &Gl, key: &FixedKey, patches: &Patches, fixed: &FixedState) -> Vec<(u32, bool)> {
     let mut toggled = Vec::new();
     let mut set = |cap, was: bool, is: bool| {
@@ -79,7 +79,7 @@ fn toggle(gl: &Gl, key: &FixedKey, patches: &Patches, fixed: &FixedState) -> Vec
     if key.target.amplifier != Amplifier::Instanced
         && !matches!(key.target.primitive, Primitive::Points | Primitive::Lines)
     {
-        // Measured on llvmpipe 22.3: with smooth lines enabled, a geometry shader's triangles lose their colour.
+        // Measured on llvmpipe 22.3: with smooth lines enabled, the triangles of a geometry shader lose their colour.
         set(c::LINE_SMOOTH, fixed.surroundings.line_smooth, false);
         set(c::POINT_SMOOTH, fixed.surroundings.point_smooth, false);
     }
@@ -90,21 +90,21 @@ fn toggle(gl: &Gl, key: &FixedKey, patches: &Patches, fixed: &FixedState) -> Vec
     toggled
 }
 
-/// State around an amplified draw.
+/// The state guard of an amplified draw.
 pub(super) struct StateGuard {
-    /// Width of the program's viewport over the atlas's.
+    /// Width of the program's viewport over the width of a layer of the atlas.
     pub(super) scale: f32,
-    /// What may be drawn, in NDC of the program's viewport: left, right, bottom, top.
+    /// The region of a tile that may be drawn to, in NDC of the program's viewport: left, right, bottom, top.
     pub(super) clip: [f32; 4],
-    /// The same left and right in pixels from the left edge of the tile.
+    /// The left and the right of it, in pixels from the left edge of the tile.
     pub(super) limits: [i32; 2],
     viewport: [i32; 4],
     width: f64,
-    /// Viewport and scissor are not the program's.
+    /// Viewport and scissor differ from the program's.
     placed: bool,
     pixel_sizes: PixelSizeGuard,
     toggled: Vec<(u32, bool)>,
-    /// The last-vertex convention was set where the program has the first.
+    /// The last-vertex convention is set in place of the program's first-vertex convention.
     last: bool,
 }
 
@@ -153,7 +153,7 @@ impl StateGuard {
         }
     }
 
-    /// Centre of the program's viewport inside the tile at x, in NDC of the atlas.
+    /// Centre, along x, of the program's viewport in the tile at the offset `x` in pixels, in NDC of the atlas.
     pub(super) fn centre(&self, x: u32) -> f32 {
         let [vx, _, vw, _] = self.viewport;
         ((2.0 * (f64::from(x) + f64::from(vx)) + f64::from(vw)) / self.width - 1.0) as f32

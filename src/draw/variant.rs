@@ -1,5 +1,5 @@
-//! A variant of one of the program's own GLSL programs, linked from rewritten shaders: what draws the views. The program's own stays as
-//! it is, and everything that the program asks about it is answered by it.
+//! Program variants: a variant draws the views in place of one of the program's own GLSL programs, and is linked from rewritten shaders.
+//! The program's own object stays as it is and answers all queries of the program.
 
 use crate::gl::{Active, Gl, consts as c};
 use crate::plan::{Flat, Shear};
@@ -14,64 +14,64 @@ use std::sync::Arc;
 /// How a variant draws the views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariantKind {
-    /// One at a time, where its viewport or framebuffer is.
+    /// One at a time, to the bound framebuffer and viewport.
     Alone,
-    /// One at a time, to a layer that it chooses.
+    /// One at a time, to a layer that the shader chooses.
     Layer(VertexLayer),
-    /// All at once, up to so many: an instance for each, to the layer of each.
+    /// All at once, up to so many: an instance for each view, to the layer of that view.
     Instances(VertexLayer, u32),
-    /// To the reference image of an occlusion camera, by distorted rays; also what the projection matrix of fixed function places.
+    /// In the reference image of an occlusion camera, by distorted rays; also for vertices that the projection matrix of fixed function places.
     DistortedRays,
 }
 
-/// What a program draws the views by.
+/// How the draws of a program get their views.
 #[derive(Debug)]
 pub enum Drawn {
-    /// Its vertices are placed by the projection matrix of fixed function, which the layer moves.
+    /// The projection matrix of fixed function places its vertices; the layer loads P_i there.
     ByMatrix,
     /// A variant shifts its vertices.
     ByVariant(Arc<Variant>),
 }
 
-/// Why a program has no variant. Its draws are the same in all views.
+/// Why a program has no variant. Its draws are then the same in all views.
 #[derive(Debug, thiserror::Error)]
 pub enum NoVariant {
-    /// The text.
+    /// A source cannot be rewritten.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// There is no text: a binary, SPIR-V, or a program that was linked before the layer saw it.
+    /// There is no source: a binary, SPIR-V, or a program that was linked before the layer saw it.
     #[error("the text of its shaders is not known")]
     NoText,
-    /// Subroutines are chosen per context, and not followed.
+    /// Subroutines are context state that the layer does not track.
     #[error("it has subroutines")]
     Subroutines,
-    /// Nothing is drawn with it.
+    /// It is a compute program, which draws nothing.
     #[error("it computes")]
     Computes,
-    /// Nothing moves vertices that could be shifted.
+    /// There is no vertex stage in which vertices could be shifted.
     #[error("it has no vertex shader")]
     NoVertex,
-    /// Distorted rays end at the vertex stage.
+    /// Rays can be distorted in a vertex shader only, and a later stage places the vertices.
     #[error("its vertices are placed after the vertex stage")]
     Stages,
-    /// Colours come from fixed function.
+    /// Fixed function makes the colours.
     #[error("it has no fragment shader")]
     NoFragment,
-    /// Sent once more, it would do it once more.
+    /// Its shaders have side effects, which a further draw would repeat.
     #[error("it writes to images, buffers or counters")]
     Effects,
-    /// There is no place for another output, or nobody says where one is.
+    /// There is no free location for another output, or it cannot be found.
     #[error("the outputs of its fragment shader are several, or not known")]
     Outputs,
-    /// What passes between the stages has no name that both leave free.
+    /// No name for a variable between the stages is free in both.
     #[error("its shaders have names like ours")]
     Names,
-    /// The driver says no.
+    /// The driver refuses the rewritten shaders, with this log.
     #[error("the driver refused the rewritten shaders: {0}")]
     Driver(String),
 }
 
-/// The rewritten program.
+/// A linked variant, with the locations of the layer's uniforms; -1 where it has none.
 #[derive(Debug)]
 pub struct Variant {
     name: u32,
@@ -80,11 +80,11 @@ pub struct Variant {
     views: i32,
     across: i32,
     up: i32,
-    /// The map, where its texels lie, disparities.
+    /// The uniforms of distorted rays: the distortion map, the place of its texels, disparities.
     distortion: [i32; 3],
-    /// Type, location in the program, location here; one for each element of arrays.
+    /// The program's uniforms: type, location in the program, location in the variant; one entry for each element of an array.
     uniforms: Vec<(u32, i32, i32)>,
-    /// Index of each block in the program, here the index in the variant.
+    /// By index of a uniform block in the program: its index in the variant.
     blocks: Vec<Option<u32>>,
 }
 
@@ -127,7 +127,7 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], kind: VariantKind) -> Result
     Ok(Drawn::ByVariant(Arc::new(variant)))
 }
 
-/// The stage that places vertices at last.
+/// The last stage that writes positions of vertices.
 fn last_stage(texts: &[Text]) -> Result<Stage, NoVariant> {
     if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
         return Err(NoVariant::NoText);
@@ -148,17 +148,17 @@ fn last_stage(texts: &[Text]) -> Result<Stage, NoVariant> {
         .ok_or(NoVariant::NoVertex)
 }
 
-/// The texts of a program's shaders, rewritten.
+/// The rewritten sources of a program's shaders.
 #[derive(Default)]
 struct Rewritten<'a> {
-    /// Each with the kind of its shader.
+    /// The sources, each with the kind of its shader.
     texts: Vec<(u32, Cow<'a, [u8]>)>,
-    /// Vertices are placed by the projection matrix of fixed function.
+    /// The projection matrix of fixed function places the vertices.
     projection: bool,
-    /// Names of ours in the stage that shifts vertices, and in the fragment stage that reads places in the window.
+    /// The layer's names in the stage that shifts vertices, and in the fragment stage, if that reads window coordinates.
     shift: Option<Names>,
     window: Option<Names>,
-    /// The fragment stage writes the outputs that GLSL has built in.
+    /// The fragment stage writes built-in outputs, such as gl_FragColor.
     built_in: bool,
 }
 
@@ -196,7 +196,7 @@ impl<'a> Rewritten<'a> {
         Ok(all)
     }
 
-    /// By how much a sample is displaced is another output, and the function that distorts rays another vertex shader.
+    /// Adds the displacement of samples as a further output at location 1, and the function that distorts rays as a further vertex shader.
     fn add_displacement(
         &mut self,
         gl: &Gl,
@@ -304,7 +304,7 @@ impl Variant {
         }
     }
 
-    /// Another value for a matrix of the program's, by its location there; the variant is in use.
+    /// Sets a matrix, by its location in the program; the variant has to be in use.
     pub fn set_matrix(&self, gl: &Gl, location: i32, m: &[f32; 16]) {
         let found = self.uniforms.iter().find(|(_, from, _)| *from == location);
         if let Some((_, _, to)) = found {
@@ -312,7 +312,7 @@ impl Variant {
         }
     }
 
-    /// The layers of the views that are drawn next; the variant is in use, and chooses layers.
+    /// Sets the layers of the views that are drawn next; the variant has to be in use and of a kind that chooses layers.
     pub fn set_layers(&self, gl: &Gl, layers: &[u32]) {
         let tiles: Vec<_> = layers.iter().map(|&l| [0.0, 0.0, l as f32, 0.0]).collect();
         gl.uniform_4fv(self.tile, &tiles);
@@ -321,7 +321,8 @@ impl Variant {
         }
     }
 
-    /// What rays are distorted by: the texture unit of the map, where its texels lie, disparities. The variant is in use, and distorts rays.
+    /// Sets the distortion of rays: the texture unit of the map, the place of its texels, disparities. The variant has to be in use and of the
+    /// kind [`VariantKind::DistortedRays`].
     pub(super) fn set_distortion(&self, gl: &Gl, unit: u32, [window, disparities]: [[f32; 4]; 2]) {
         let [at_map, at_window, at_heights] = self.distortion;
         gl.uniform_1i(at_map, unit as i32);
@@ -329,8 +330,8 @@ impl Variant {
         gl.uniform_4fv(at_heights, &[disparities]);
     }
 
-    /// The views that are drawn next; the variant is in use. `shear` of the scene, `flat` of what has no depth, both at the `places` of the
-    /// views (see [`crate::plan::Rig::position`]); `stride`: pixels from tile to tile.
+    /// Sets the shifts of the views that are drawn next; the variant has to be in use. `shear` is the shift of the scene, `flat` that of
+    /// vertices with a w of 1; `places` are the positions of the views (see [`crate::plan::Rig::position`]); `stride`: pixels from tile to tile.
     pub fn set_views(
         &self,
         gl: &Gl,

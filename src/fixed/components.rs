@@ -1,4 +1,4 @@
-//! What passes between the stages, and whether it fits the driver.
+//! The values that pass between the stages, and whether they fit the driver's limits.
 
 use super::key::{Amplifier, FixedKey, Tiles};
 use super::limits::Limits;
@@ -22,7 +22,7 @@ pub(super) enum Varying {
     Fog,
     /// Size of a point.
     PointSize,
-    /// The program's vertex, from which each view makes its own x.
+    /// The program's vertex, from which each view computes its own x.
     Vertex,
     /// Distance to a user clip plane.
     Plane(u32),
@@ -37,7 +37,7 @@ impl Varying {
         }
     }
 
-    /// Scalars.
+    /// Number of scalars.
     pub(super) fn components(self) -> u32 {
         match self {
             Varying::Front
@@ -65,7 +65,7 @@ impl Varying {
         }
     }
 
-    /// The built-in output that the fixed fragment stage or the rasteriser reads; `None` for what is used up before.
+    /// The built-in output that the fixed fragment stage or the rasteriser reads; `None` for a value that neither of them reads.
     pub(super) fn builtin(self, key: &FixedKey) -> Option<String> {
         Some(match self {
             Varying::Front => "gl_FrontColor".into(),
@@ -83,7 +83,7 @@ impl Varying {
         })
     }
 
-    /// A flat primitive takes it from its provoking vertex.
+    /// Whether a flat primitive takes it from its provoking vertex.
     pub(super) fn is_color(self) -> bool {
         matches!(
             self,
@@ -126,7 +126,7 @@ fn output_components(key: &FixedKey) -> u32 {
         .filter(|&v| v != Varying::Vertex)
         .map(Varying::components)
         .sum::<u32>();
-    // The layer, or by how much the vertex is moved.
+    // The layer, or the displacement of the vertex.
     let layer = match key.target.tiles {
         Tiles::ClipLeftRight => 0,
         Tiles::Layer => 1,
@@ -145,11 +145,11 @@ fn passed_components(key: &FixedKey) -> u32 {
         .sum::<u32>()
 }
 
-/// The largest number of views that one draw of this key can make, 0 if it cannot make any.
+/// The largest number of views that one draw of this key can draw, 0 if it cannot draw any.
 ///
-/// The loop of a geometry shader is bounded by the vertices and by the scalars it may emit in all (table 23.60:
-/// at least 256 and 1024); invocations by their number (at least 32), and each may emit as much (`ARB_gpu_shader5`,
-/// issue 17). Instances are bounded by the array of views alone.
+/// A loop in a geometry shader is limited by the vertices and the scalars that it may emit in all (table 23.60: at least
+/// 256 and 1024). Invocations are limited by their number (at least 32), and each may emit as much as one loop
+/// (`ARB_gpu_shader5`, issue 17). Instances are limited by the array of views alone.
 pub fn batch(key: &FixedKey, limits: &Limits) -> u32 {
     let key = key.canonical();
     let capacity = super::VIEWS;

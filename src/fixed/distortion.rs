@@ -1,19 +1,22 @@
 //! Projection by the distorted rays of an occlusion camera.
 //!
 //! Based on: Popescu et al., "3D display rendering acceleration using occlusion camera reference images", Equations 1 and 2, with
-//! the map of `synthesis::RowDistortionMap` and what `shaders/distortion.wgsl` keeps of it:
+//! the map of `synthesis::RowDistortionMap`, in the encoding of `shaders/distortion.wgsl`:
 //! ```text
-//! u = x/w·window.x + window.z     v = y/w·window.y + window.w       the place, in texels
-//! h = z/w·entry.x + entry.y                                           the height: it goes with 1/w
-//! x' = x + moved·entry.z·w                                           moved: pixels
+//! u = x/w·window.x + window.z     v = y/w·window.y + window.w       the place, in pixels; a texel covers two of a row
+//! h = z/w·disparity.x + disparity.y                                   the disparity, which is linear in 1/w
+//! x' = x + moved·disparity.z·w                                       moved: displacement in pixels
 //! ```
-//! Of many small triangles, a corner that is not moved is put behind the far plane, and what it is a corner of is discarded: the own
-//! view has it, and nobody asks the reference image for it. That leaves few triangles to draw. The vertex stage hands moved·w on: what is linear in clip space divided by w is linear in the picture, as moved is, however the
-//! triangle is cut.
+//! In a draw of many small triangles, `disparity.w` is 1: a vertex that is not moved is put behind the far plane, and the fragments
+//! of its triangles are discarded. The own view shows those surfaces already, so the reference image does not need them, and few
+//! triangles remain to be drawn.
+//!
+//! The vertex stage passes on moved·w. It is interpolated linearly in clip space, so divided by w it is linear in the picture, as
+//! the displacement is, however the triangle is clipped.
 
 use super::text::{Text, VERSION};
 
-/// Between the stages: pixels by which a sample is moved, times w; and what is below 1 where a corner is not moved.
+/// Varying between the stages: displacement of a sample in pixels, times w; and a value below 1 where a vertex is left out.
 pub(super) const MOVED: &str = "mv_moved";
 /// `uniform sampler2DArray mv_distortion_map`
 pub const UNIFORM_DISTORTION_MAP: &str = "mv_distortion_map";
@@ -59,7 +62,7 @@ vec4 mv_distort_rays(vec4 p) {
     return p;
 }";
 
-/// `mv_place(p)`: position, and by how much it is moved.
+/// Writes `mv_place(p)`, which sets the position and the displacement.
 pub(super) fn write_position(text: &mut Text) {
     text.line(BODY);
     text.line("");
@@ -68,8 +71,9 @@ pub(super) fn write_position(text: &mut Text) {
     text.close("}");
 }
 
-/// Text of a vertex shader object beside another's: `vec4 mv_distort_rays(vec4 p)` is the position of p, and by how much it is moved is handed on. Of
-/// a version of its own, which has what it calls. `prefix`: what its names begin with, in the place of `mv_`.
+/// Source of a vertex shader object that is linked beside another. Its `vec4 mv_distort_rays(vec4 p)` returns the moved position
+/// of p in clip space, and writes the displacement to a varying. The `#version` is its own, so that the functions which it calls
+/// exist. `prefix` replaces `mv_` in all names.
 pub fn ray_distortion(prefix: &str) -> String {
     format!("#version {VERSION}\n{UNIFORMS}\nout vec2 {MOVED};\n\n{BODY}\n").replace("mv_", prefix)
 }

@@ -1,6 +1,6 @@
 //! Texture environments (OpenGL 4.6 compatibility, section 16.2, tables 16.1 to 16.4).
 //!
-//! With C and A the colour and alpha of the result, p what comes in, s the texel and c the environment colour:
+//! With C and A the colour and alpha of the result, p the incoming colour, s the texel and c the environment colour:
 //! ```text
 //! REPLACE    C = Cs                 A = As
 //! MODULATE   C = Cp·Cs              A = Ap·As
@@ -8,7 +8,7 @@
 //! BLEND      C = Cp·(1−Cs) + Cc·Cs  A = Ap·As     INTENSITY: A = Ap·(1−As) + Ac·As
 //! ADD        C = Cp + Cs            A = Ap·As     INTENSITY: A = Ap + As
 //! ```
-//! where a texture without colour leaves C = Cp, and one without alpha A = Ap. Results are clamped to [0, 1].
+//! A texture without colour leaves C = Cp, one without alpha A = Ap. Results are clamped to [0, 1].
 
 use super::fragment_key::{
     Argument, BaseFormat, Combine, Combiner, Environment, FragmentKey, FragmentUnit, Function,
@@ -17,7 +17,7 @@ use super::fragment_key::{
 use super::reason::Unsupported;
 use super::text::Text;
 
-/// `color` through the environment of one unit. Expects the texels that [`FragmentKey::sampled`] names.
+/// Applies the environment of one unit to `color`. Expects the texels that [`FragmentKey::sampled`] names.
 pub(super) fn write(
     text: &mut Text,
     key: &FragmentKey,
@@ -25,7 +25,7 @@ pub(super) fn write(
     state: &FragmentUnit,
 ) -> Result<(), Unsupported> {
     if let Environment::Combine(combine) = &state.environment {
-        // A texture that is not there: no colour that the specification names, and in Mesa not always the same.
+        // The specification defines no colour for an absent texture, and Mesa's is not always the same.
         let there = |source| match source {
             Source::Unit(other) => key
                 .units
@@ -95,7 +95,7 @@ fn write_combine(text: &mut Text, unit: usize, combine: &Combine) {
     text.line(format!("color = clamp({value}{scale}, 0.0, 1.0);"));
 }
 
-/// One half of a combination, of type `vec3` for the swizzle `rgb` (a number for the dot products), a number for `a`.
+/// The function of one half of a combination: a `vec3` for the swizzle `rgb` (a float for dot products), a float for `a`.
 fn function(unit: usize, combiner: &Combiner, swizzle: &str) -> String {
     let [a, b, c] = combiner
         .arguments

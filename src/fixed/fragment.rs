@@ -1,7 +1,7 @@
 //! The fragment shader: everything that fixed function computes per fragment before alpha test and blending.
 //!
-//! It is needed only where the driver's own fragment stage cannot know what is asked of it: textures in tiles whose pixels
-//! are further apart than the window's, and fragments beyond their tile.
+//! The driver's own fragment stage does not suffice in three cases: textures are filtered in tiles whose pixels are further
+//! apart than the window's, fragments beyond their tile are discarded, or the displacement by distorted rays is an output.
 //!
 //! ```text
 //! textures ──► environments ──► colour sum ──► fog ──► discard
@@ -18,17 +18,17 @@ use super::reason::Unsupported;
 use super::text::{Text, VERSION};
 use super::{LIMITS, UNIFORM_GRID};
 
-/// Name of the sampler of a texture unit; it has to hold the unit's index.
+/// Name of the sampler uniform of a texture unit; its value has to be the unit's index.
 pub fn sampler(unit: usize) -> String {
     format!("mv_texture{unit}")
 }
 
-/// Writes the fragment shader of a key, for the program of a vertex stage that [`FragmentKey::after`] has been told of.
-/// Equal canonical keys give equal text.
+/// Writes the fragment shader of a key that [`FragmentKey::after`] has matched to the vertex stage of the program.
+/// Equal canonical keys give equal sources.
 ///
 /// # Errors
-/// What the driver cannot run, or an environment that the specification leaves undefined; the driver's own fragment stage
-/// then has to do.
+/// If the driver cannot run the shader, or if the specification leaves a texture environment undefined. The draw then has
+/// to be replayed with the driver's own fragment stage.
 pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, Unsupported> {
     if limits.glsl < VERSION {
         return Err(Unsupported::ShadingLanguage {
@@ -81,7 +81,7 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
         }
     }
     write_fog(&mut text, key.fog);
-    // Last: what is sampled after a discard has no gradients.
+    // The discard comes last, because textures that are sampled after it have no gradients.
     if key.discard {
         text.line(format!(
             "if (gl_FragCoord.x < {LIMITS}.x || gl_FragCoord.x >= {LIMITS}.y) {{"
@@ -117,7 +117,7 @@ fn sampler_type(target: TextureTarget) -> &'static str {
     }
 }
 
-/// `texelN`, from coordinates divided by q (section 16.2: all but those of a cube map; Mesa divides those too).
+/// Declares `texelN`. Coordinates are divided by q, except those of a cube map (section 16.2); Mesa divides those too.
 fn write_texel(text: &mut Text, key: &FragmentKey, unit: usize, state: &FragmentUnit) {
     let sampler = sampler(unit);
     let coordinate = format!("gl_TexCoord[{unit}]");
@@ -155,7 +155,7 @@ fn write_texel(text: &mut Text, key: &FragmentKey, unit: usize, state: &Fragment
     ));
 }
 
-/// Blends with the fog colour (16.4); alpha stays.
+/// Blends with the fog colour (16.4), without alpha.
 fn write_fog(text: &mut Text, mode: FogMode) {
     let factor = match mode {
         FogMode::None => return,

@@ -1,11 +1,11 @@
-//! The state that a generated fragment shader is specialised to.
+//! The state to which a generated fragment shader is specialised.
 //!
-//! As in [`FixedKey`](super::FixedKey), what is computed is in the key and the values are not: fog parameters and
+//! As in [`FixedKey`](super::FixedKey), the key names the computations and not their values: fog parameters and
 //! environment colours reach the shader through built-in uniforms, texture images through samplers.
 
 use super::key::{Dialect, FixedKey, FogSource, Tiles, UNITS};
 
-/// Everything that decides the text of a generated fragment shader.
+/// Everything that decides the source of a generated fragment shader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct FragmentKey {
     /// Texture units; `None`: no target is enabled, or the texture is incomplete.
@@ -14,12 +14,12 @@ pub struct FragmentKey {
     pub fog: FogMode,
     /// The secondary colour is added after the textures (section 16.3).
     pub color_sum: bool,
-    /// Pixels of the tile are further apart than the window's: textures are sampled as on the window's grid, which
-    /// [`UNIFORM_GRID`](super::UNIFORM_GRID) gives.
+    /// Pixels of the tile are further apart than the window's: textures are sampled with the gradients of the window's grid,
+    /// by [`UNIFORM_GRID`](super::UNIFORM_GRID).
     pub grid: bool,
     /// Fragments outside the limits of their view are discarded: [`Clip`](super::Clip) of the vertex stage.
     pub discard: bool,
-    /// By how much a sample is moved is written as well: [`Tiles::DistortedRays`](super::Tiles::DistortedRays) of the vertex stage.
+    /// A second output is the displacement of the sample: [`Tiles::DistortedRays`](super::Tiles::DistortedRays) of the vertex stage.
     pub displaced: bool,
     /// How the driver reads the specification where drivers differ.
     pub dialect: Dialect,
@@ -34,7 +34,7 @@ pub struct FragmentUnit {
     pub format: BaseFormat,
     /// `GL_TEXTURE_MIN_FILTER` uses mipmaps or differs from `GL_TEXTURE_MAG_FILTER`: the level of detail decides.
     pub detail: bool,
-    /// What becomes of the texel.
+    /// How the texel is combined with the incoming colour.
     pub environment: Environment,
 }
 
@@ -103,9 +103,9 @@ pub enum Environment {
 /// State of `GL_COMBINE`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Combine {
-    /// `GL_COMBINE_RGB` and what goes with it.
+    /// `GL_COMBINE_RGB`, with its arguments and scale.
     pub rgb: Combiner,
-    /// `GL_COMBINE_ALPHA` and what goes with it; its operands are those of alpha.
+    /// `GL_COMBINE_ALPHA`, with its arguments and scale; its operands are those of alpha.
     pub alpha: Combiner,
 }
 
@@ -161,9 +161,9 @@ impl Function {
 /// `GL_SRCn_RGB` with `GL_OPERANDn_RGB`, or those of alpha.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Argument {
-    /// Where it comes from.
+    /// The colour that is read.
     pub source: Source,
-    /// What is taken of it.
+    /// The channels that are taken of it.
     pub operand: Operand,
 }
 
@@ -212,7 +212,7 @@ pub enum FogMode {
 }
 
 impl FragmentKey {
-    /// This stage after the vertex stage of a key: what is not written there is not read here.
+    /// The key of the stage after the vertex stage `vertex`: values that the vertex stage does not write are not read.
     #[must_use]
     pub fn after(mut self, vertex: &FixedKey) -> Self {
         let vertex = vertex.canonical();
@@ -225,7 +225,7 @@ impl FragmentKey {
         self
     }
 
-    /// The same key with everything zeroed that cannot change the shader.
+    /// The same key, with every field zeroed that does not affect the shader.
     #[must_use]
     pub fn canonical(mut self) -> Self {
         let (grid, dialect) = (self.grid, self.dialect);
@@ -252,13 +252,13 @@ impl FragmentKey {
         self
     }
 
-    /// Indices of the units whose texture is sampled, ascending; sampler [`sampler`](super::sampler) of each has to hold
+    /// Indices of the units whose texture is sampled, ascending. The uniform [`sampler`](super::sampler) of each has to hold
     /// the index.
     pub fn sampled(&self) -> impl Iterator<Item = usize> + '_ {
         (0..UNITS).filter(|&unit| self.samples(unit))
     }
 
-    /// Some environment reads the texture of a unit.
+    /// Whether some environment reads the texture of a unit.
     fn samples(&self, unit: usize) -> bool {
         self.units[unit].is_some()
             && (0..UNITS).any(|reader| {

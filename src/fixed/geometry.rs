@@ -1,11 +1,11 @@
-//! The geometry shader: the primitive of one view, for each view.
+//! The geometry shader, which emits the primitive for each view.
 //!
 //! Based on: Q. Luo et al., "GPU-based multi-view rendering" and F. de Sorbier et al., "GPU rendering for
-//! autostereoscopic displays" (3DPVT 2008): the primitive is emitted once per view, shifted and cut at its tile. All ways of the latter to cut are
-//! here: fragments are discarded, primitives are left out as well, or triangles are cut.
+//! autostereoscopic displays" (3DPVT 2008): the primitive is emitted once per view, shifted and clipped to its tile. All three ways
+//! of the latter to clip are here: fragments are discarded, whole primitives are dropped as well, or triangles are cut.
 //!
 //! The order of emission keeps the order of the input, so the driver's provoking vertex is the program's own. A quad or
-//! polygon arrives as something else (see [`Primitive`]), and its flat colour is given to every vertex instead.
+//! polygon arrives as another primitive (see [`Primitive`]), so its flat colour is written to every vertex.
 
 use super::components::varyings;
 use super::key::{Amplifier, Diagonal, FixedKey, Primitive, Provoking};
@@ -26,8 +26,8 @@ fn order(key: &FixedKey) -> &'static [&'static [u8]] {
     }
 }
 
-/// The input vertex whose colours all vertices of a flat primitive take; `None`: the driver chooses rightly.
-/// Table 13.2, with the order of [`Primitive`].
+/// The input vertex whose colours all vertices of a flat primitive take, by table 13.2 in the vertex order of [`Primitive`];
+/// `None` where the driver's provoking vertex is the right one.
 fn flat_source(key: &FixedKey) -> Option<u8> {
     if !key.flat {
         return None;
@@ -60,7 +60,7 @@ fn output_layout(primitive: Primitive) -> &'static str {
     }
 }
 
-/// Text of the geometry shader of a canonical key.
+/// Source of the geometry shader of a canonical key.
 pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupported> {
     let mut text = Text::default();
     let views = key.target.views;
@@ -108,8 +108,8 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
     Ok(text.finish())
 }
 
-/// `mv_emit(vertex, view)`: one vertex with everything that the fixed fragment stage and the rasteriser read. All of it
-/// is written again each time: outputs are undefined after `EmitVertex()`.
+/// Writes `mv_emit(vertex, view)`, which emits one vertex with all outputs that the fixed fragment stage and the rasteriser
+/// read. It sets all of them each time, because outputs are undefined after `EmitVertex()`.
 fn write_emit(text: &mut Text, key: &FixedKey) {
     text.open("void mv_emit(int vertex, int view) {");
     text.line("mv_place(view, gl_in[vertex].gl_Position, mv_in[vertex].vertex);");
@@ -128,8 +128,8 @@ fn write_emit(text: &mut Text, key: &FixedKey) {
     text.close("}");
 }
 
-/// `mv_emit(at, view)`: a vertex of a triangle's inside or edges; `at` is what it has of each corner. What is linear in clip space is
-/// linear in it, so everything that is interpolated is as at that place of the whole triangle.
+/// Writes `mv_emit(at, view)`, which emits a vertex inside a triangle or on its edges; `at` holds its barycentric coordinates.
+/// Values are linear in these in clip space, so the vertex gets the values of that point of the whole triangle.
 fn write_emit_between(text: &mut Text, key: &FixedKey) {
     let between = |of: &dyn Fn(u8) -> String| {
         format!("at.x * {} + at.y * {} + at.z * {}", of(0), of(1), of(2))
@@ -144,8 +144,8 @@ fn write_emit_between(text: &mut Text, key: &FixedKey) {
     text.close("}");
 }
 
-/// `mv_cut(view)`: the triangle without what is beyond the left and the right edge of its tile, as Sutherland and Hodgman cut polygons.
-/// A corner counts by its distance from an edge in homogeneous coordinates, so the sign of w does not matter.
+/// Writes `mv_cut(view)`, which cuts the triangle at the left and the right edge of its tile by the algorithm of Sutherland and
+/// Hodgman. Distances from an edge are in homogeneous coordinates, so the sign of w does not matter.
 fn write_cut(text: &mut Text) {
     text.open("void mv_cut(int view) {");
     text.line(format!("vec4 row = {UNIFORM_VIEWS}[view];"));
@@ -176,7 +176,7 @@ fn write_cut(text: &mut Text) {
     text.line("count = number;");
     text.close("}");
     text.line("if (count < 3) return;");
-    // From side to side, so that a strip covers the polygon.
+    // Alternating from both ends, so that a strip covers the polygon.
     text.line("int low = 0;");
     text.line("int high = count;");
     text.open("for (int i = 0; i < count; ++i) {");
@@ -186,8 +186,8 @@ fn write_cut(text: &mut Text) {
     text.close("}");
 }
 
-/// `mv_outside(view)`: the primitive lies beyond the left or beyond the right edge of its tile as a whole. With a plane in
-/// homogeneous coordinates that holds for all of a primitive if it holds for its corners, whatever the sign of w.
+/// Writes `mv_outside(view)`, which tells whether the whole primitive lies beyond the left or beyond the right edge of its tile.
+/// The edges are planes in homogeneous coordinates: a primitive lies beyond one if all its corners do, whatever the sign of w.
 fn write_outside(text: &mut Text) {
     text.open("bool mv_outside(int view) {");
     text.line(format!("vec4 row = {UNIFORM_VIEWS}[view];"));

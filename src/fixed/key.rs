@@ -1,12 +1,12 @@
-//! The state a generated shader is specialised to.
+//! The state to which a generated shader is specialised.
 //!
-//! A key names *which* computations the fixed-function vertex stage would make, never the values it makes them with:
-//! those reach the shader through the built-in uniforms of the compatibility profile (`gl_LightSource`,
+//! A key names *which* computations the fixed-function vertex stage would make, never their values: those reach the
+//! shader through the built-in uniforms of the compatibility profile (`gl_LightSource`,
 //! `gl_TextureMatrix`, `gl_ClipPlane`, …), which the driver fills from the program's own state.
 //!
 //! Two draws whose [`canonical`](FixedKey::canonical) keys are equal use the same program. The idea and most of the
-//! fields are those of Mesa's `struct state_key` (`src/mesa/main/ffvertex_prog.c`); zeroing what does not matter
-//! before hashing is Regal's (`RegalIff`).
+//! fields are those of Mesa's `struct state_key` (`src/mesa/main/ffvertex_prog.c`). Zeroing irrelevant fields before
+//! hashing is an idea of Regal's (`RegalIff`).
 
 use crate::config::Clip;
 
@@ -15,7 +15,7 @@ pub const LIGHTS: usize = 8;
 /// Number of texture units the generator knows (`GL_MAX_TEXTURE_COORDS` is 8 likewise).
 pub const UNITS: usize = 8;
 
-/// Everything that decides the text of a generated shader.
+/// Everything that decides the source of a generated shader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct FixedKey {
     /// How the draw is repeated for the views, and where the views lie.
@@ -24,9 +24,9 @@ pub struct FixedKey {
     pub lighting: Option<Lighting>,
     /// `GL_NORMALIZE`, `GL_RESCALE_NORMAL`.
     pub normals: NormalScaling,
-    /// What the fragment stage's fog reads.
+    /// Source of the fog coordinate.
     pub fog: FogSource,
-    /// How large points are.
+    /// How the size of a point is computed.
     pub point: PointSize,
     /// Bit i: `GL_CLIP_PLANEi` is enabled.
     pub clip_planes: u8,
@@ -52,14 +52,14 @@ pub struct Target {
     pub amplifier: Amplifier,
     /// Where the views lie.
     pub tiles: Tiles,
-    /// What keeps a view within its tile. Layers need nothing.
+    /// How a view is clipped to its tile. Layers need no clipping.
     pub clip: Clip,
-    /// What the geometry shader is given. Without a geometry shader it does not matter.
+    /// Input primitive of the geometry or tessellation shader; instanced draws ignore it.
     pub primitive: Primitive,
-    /// How the driver cuts a quad in two. Matters for [`Primitive::Quads`] alone.
+    /// How the driver splits a quad into triangles. Matters for quads alone.
     pub diagonal: Diagonal,
     /// Views per draw, at least 1; [`batch`](super::batch) is the largest number that fits the driver. It enters the
-    /// text of a geometry shader only: an instanced draw takes it as its instance count.
+    /// source of a geometry shader only: an instanced draw takes it as its instance count.
     pub views: u8,
 }
 
@@ -73,20 +73,20 @@ pub enum Amplifier {
     GeometryLoop,
     /// A geometry shader runs once per view (`layout(invocations = N)`).
     GeometryInvocations,
-    /// Tessellation cuts triangles and quads, drawn as patches, into small ones.
+    /// Tessellation subdivides triangles and quads, which are drawn as patches.
     Tessellation,
 }
 
 /// Where the views lie in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tiles {
-    /// Side by side in one row: [`Clip`] cuts a view at the left and right of its tile, and the frustum at the bottom and
-    /// top.
+    /// Side by side in one row: [`Clip`] clips a view at the left and right of its tile, and the frustum clips it at the
+    /// bottom and top.
     #[default]
     ClipLeftRight,
     /// One layer of an array texture per view: `gl_Layer`, no clip distances, no map.
     Layer,
-    /// No views: the picture of an occlusion camera, whose rays are distorted.
+    /// No views, but the reference image of an occlusion camera, whose rays are distorted.
     DistortedRays,
 }
 
@@ -99,12 +99,12 @@ impl Target {
         }
     }
 
-    /// The geometry shader cuts triangles at the sides of the tile.
+    /// Whether the geometry shader cuts triangles at the sides of the tile.
     pub const fn cuts(&self) -> bool {
         matches!((self.tiles, self.clip), (Tiles::ClipLeftRight, Clip::Cut))
     }
 
-    /// Vertices that a geometry shader emits per view at most: a triangle has up to two more after a cut at either side.
+    /// Greatest number of vertices that a geometry shader emits per view. A triangle that is cut at both sides has up to five.
     pub const fn emitted(&self) -> u32 {
         if self.cuts() {
             5
@@ -113,7 +113,7 @@ impl Target {
         }
     }
 
-    /// The fragment stage has to discard what is outside.
+    /// Whether the fragment stage has to discard fragments outside the tile.
     pub const fn discards(&self) -> bool {
         matches!(
             (self.tiles, self.clip),
@@ -122,7 +122,7 @@ impl Target {
     }
 }
 
-/// The primitives a geometry shader is fed with.
+/// Input primitives of a geometry shader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Primitive {
     /// `GL_POINTS`.
@@ -143,8 +143,9 @@ pub enum Primitive {
 }
 
 impl Primitive {
-    /// Vertices that a geometry shader emits per view: a quad is two triangles, not a strip of four vertices, because the
-    /// driver's own triangles begin at other vertices than those of a strip, and interpolation is rounded otherwise then.
+    /// Number of vertices that a geometry shader emits per view. A quad is emitted as two triangles and not as a strip of four
+    /// vertices: the driver's own triangles start at other vertices than those of a strip, so interpolation would round
+    /// differently.
     pub const fn emitted(self) -> u32 {
         match self {
             Primitive::Points => 1,
@@ -155,13 +156,13 @@ impl Primitive {
     }
 }
 
-/// The edge that the driver adds inside a quad.
+/// The diagonal along which the driver splits a quad.
 ///
-/// Colours are interpolated over triangles, so a smooth quad whose corners differ freely shows which. Measured on
-/// llvmpipe (Mesa 22.3.6), in the vertex order of [`Primitive`]: a quad strip is always cut from 0 to 2. Quads are cut
-/// from 1 to 3 when flat shaded or with the first-vertex convention; smooth ones with the last-vertex convention are
-/// cut from 0 to 2 if no vertex of the driver's batch was clipped, and from 1 to 3 otherwise, which nobody can know
-/// beforehand: 0 to 2 is then the better guess, and replay is exact.
+/// Colours are interpolated over triangles, so the diagonal shows in a smooth quad with four different colours. Measured on
+/// llvmpipe (Mesa 22.3.6), in the vertex order of [`Primitive`]: a quad strip is always split from 0 to 2. Quads are split
+/// from 1 to 3 when flat shaded or with the first-vertex convention. Smooth ones with the last-vertex convention are
+/// split from 0 to 2 if no vertex of the driver's batch was clipped, and from 1 to 3 otherwise. Clipping is not known
+/// beforehand, so 0 to 2 is a guess there; replay is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Diagonal {
     /// Triangles 0 1 3 and 1 2 3.
@@ -193,17 +194,17 @@ pub struct Lighting {
     pub two_side: bool,
     /// `GL_LIGHT_MODEL_COLOR_CONTROL` is `GL_SEPARATE_SPECULAR_COLOR`.
     pub separate_specular: bool,
-    /// `GL_SHININESS` of a lit face is 0, and its specular colour is not black or follows the colour. A factor of one
-    /// by the specification; [`Dialect::Mesa`] has its own ideas.
+    /// `GL_SHININESS` of a lit face is 0, and its specular colour is not black or follows the vertex colour. By the
+    /// specification the specular factor is then 1; [`Dialect::Mesa`] deviates.
     pub dull: bool,
-    /// The modelview matrix keeps lengths. [`Dialect::Mesa`] then lights in object space, where all lights are directional
-    /// and nothing else asks for eye space: the same colours but for their last bits.
+    /// The modelview matrix preserves lengths. [`Dialect::Mesa`] then lights in object space, if all lights are directional
+    /// and nothing else needs eye space. The colours differ in their last bits only.
     pub object_space: bool,
     /// `GL_COLOR_MATERIAL`; `None` when disabled.
     pub color_material: Option<ColorMaterial>,
 }
 
-/// What one enabled light needs computed.
+/// The terms that one enabled light needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Light {
     /// `GL_POSITION` (as GL returns it, in eye space) has w ≠ 0.
@@ -216,8 +217,8 @@ pub struct Light {
 
 /// `glColorMaterial`.
 ///
-/// The driver updates `gl_FrontMaterial` from the *current* colour alone; a colour per vertex has to be put in by the
-/// shader, which is why face and mode are in the key.
+/// The driver updates `gl_FrontMaterial` from the *current* colour alone. The shader has to insert a colour per vertex
+/// itself, so face and mode are in the key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ColorMaterial {
     /// `GL_COLOR_MATERIAL_FACE`.
@@ -252,7 +253,7 @@ pub enum MaterialMode {
     AmbientAndDiffuse,
 }
 
-/// What happens to a normal after its matrix (section 12.1.2).
+/// How a normal is scaled after the normal matrix (section 12.1.2).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum NormalScaling {
     /// Nothing.
@@ -281,16 +282,16 @@ pub enum FogSource {
     Radial,
 }
 
-/// How the size of a point comes about (section 14.4).
+/// How the size of a point is computed (section 14.4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PointSize {
     /// No points are drawn (neither `GL_POINTS` nor `glPolygonMode(…, GL_POINT)`).
     #[default]
     Unused,
     /// `GL_POINT_DISTANCE_ATTENUATION` is (1, 0, 0), and `GL_POINT_SIZE` lies between `GL_POINT_SIZE_MIN` and `_MAX`
-    /// (Mesa clamps it with a program too: always this one there). Nothing is written, the state holds.
+    /// (Mesa clamps it with a program too, so the upper and lower limit do not matter there). The shader writes no size.
     Constant,
-    /// Attenuated with the distance, or clamped.
+    /// Attenuated with distance, or clamped.
     Attenuated,
 }
 
@@ -320,8 +321,8 @@ pub enum TexGen {
     NormalMap,
 }
 
-/// Where drivers differ in fixed function, what this one does. The goal is the driver's own picture, so the caller says
-/// which; `GL_VERSION` of a Mesa driver contains "Mesa".
+/// How the driver reads the specification of fixed function, where drivers differ. A generated shader has to match the
+/// driver's own picture, so the caller names the driver; `GL_VERSION` of a Mesa driver contains "Mesa".
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Dialect {
     /// As the specification has it.
@@ -334,7 +335,7 @@ pub enum Dialect {
 }
 
 impl FixedKey {
-    /// The same key with everything zeroed that cannot change the shader.
+    /// The same key, with every field zeroed that does not affect the shader.
     pub fn canonical(mut self) -> Self {
         for unit in &mut self.units {
             if !unit.enabled {
@@ -468,12 +469,12 @@ impl FixedKey {
         }
     }
 
-    /// Lighting in which this driver leaves the specification in ways not worth following. Mesa 22.3.6, measured with
-    /// `ffcheck`:
-    /// * with all shininess 0 an attenuated or spot light shines as (n·L)^(n·L), and where one of two lit faces has 0,
-    ///   as the processor's 0^0;
-    /// * colour material on the back face alone, lit on both sides, with colours per vertex, changes the other terms as
-    ///   well (emission excepted).
+    /// Whether the driver's lighting deviates from the specification in a way that is not imitated. Measured on Mesa 22.3.6
+    /// with `ffcheck`:
+    /// * if every shininess is 0, an attenuated or spot light has the specular factor (n·L)^(n·L); if one of two lit faces has
+    ///   shininess 0, the factor is the CPU's 0^0;
+    /// * colour material of the back face alone, with two-sided lighting and colours per vertex, changes the other terms too,
+    ///   unless it follows emission.
     pub(super) fn driver_quirk(&self) -> bool {
         let Some(lighting) = self.lighting else {
             return false;
@@ -485,17 +486,17 @@ impl FixedKey {
         self.dialect == Dialect::Mesa && (lighting.dull || lighting.two_side && lit && back_product)
     }
 
-    /// Primitives are cut into small ones.
+    /// Whether primitives are subdivided by tessellation.
     pub(super) fn tessellates(&self) -> bool {
         self.target.amplifier == Amplifier::Tessellation
     }
 
-    /// What is drawn comes from a stage behind the vertices.
+    /// Whether a stage after the vertex shader makes the primitives.
     pub(super) fn geometry(&self) -> bool {
         self.target.amplifier != Amplifier::Instanced
     }
 
-    /// Clip distances in all: the tile's own, then one per user plane.
+    /// Number of clip distances: the tile's own, then one per user plane.
     pub(super) fn clip_distances(&self) -> u32 {
         self.target.clip_distances() + self.clip_planes.count_ones()
     }

@@ -36,7 +36,7 @@ impl Face {
         }
     }
 
-    /// Local variables.
+    /// Prefix of the local variables.
     fn local(self) -> &'static str {
         match self {
             Face::Front => "front",
@@ -44,7 +44,7 @@ impl Face {
         }
     }
 
-    /// What is put before a dot product with the normal.
+    /// Sign of a dot product with the normal.
     fn sign(self) -> &'static str {
         match self {
             Face::Front => "",
@@ -64,7 +64,7 @@ impl Property {
     }
 }
 
-/// The property follows the colour of the vertex.
+/// Whether the property follows the colour of the vertex.
 fn follows(material: Option<ColorMaterial>, face: Face, property: Property) -> bool {
     let Some(ColorMaterial { face: faces, mode }) = material else {
         return false;
@@ -105,7 +105,7 @@ fn product(lighting: &Lighting, face: Face, light: usize, property: Property) ->
     }
 }
 
-/// Emission and what the scene's ambient light adds.
+/// The sum of emission and the scene's ambient light.
 fn scene(lighting: &Lighting, face: Face) -> String {
     let varies = |property| follows(lighting.color_material, face, property);
     if varies(Property::Emission) || varies(Property::Ambient) {
@@ -138,7 +138,7 @@ pub(super) fn write_functions(text: &mut Text, key: &FixedKey) {
     ]);
 }
 
-/// The colours, into the outputs named by `name`. Expects `vec4 eye` and `vec3 normal` where the key needs them.
+/// Writes the colours to the outputs that `name` gives. Expects `vec4 eye` and `vec3 normal` where the key needs them.
 pub(super) fn write(text: &mut Text, key: &FixedKey, name: &dyn Fn(Varying) -> String) {
     match &key.lighting {
         Some(lighting) => write_lit(text, key, lighting, name),
@@ -215,7 +215,7 @@ fn write_lit(
     }
 }
 
-/// The vertex for vectors to lights and viewer, and the direction to the viewer.
+/// Declares the vertex position, from which vectors to lights and viewer start, and the direction to the viewer.
 fn write_viewer(text: &mut Text, key: &FixedKey, lighting: &Lighting) {
     if lighting.local_viewer || key.lights().any(|light| light.positional) {
         text.line(match key.dialect {
@@ -229,8 +229,8 @@ fn write_viewer(text: &mut Text, key: &FixedKey, lighting: &Lighting) {
     }
 }
 
-/// One light. The sums are in the order of Mesa's `ffvertex_prog.c` (`build_lighting`): with the same roundings most vertices get
-/// the very colours of fixed function.
+/// Adds one light. The sums are in the order of Mesa's `ffvertex_prog.c` (`build_lighting`), so that rounding is the same and
+/// most vertices get exactly the colours of fixed function.
 fn write_light(text: &mut Text, lighting: &Lighting, faces: &[Face], index: usize, light: Light) {
     let source = format!("gl_LightSource[{index}]");
     text.open(format!("{{ // light {index}"));
@@ -269,7 +269,7 @@ fn write_light(text: &mut Text, lighting: &Lighting, faces: &[Face], index: usiz
         });
     }
     text.line("float facing = dot(normal, to_light);");
-    // What the driver makes once on the CPU is summed from x to z, and dot() on the GPU from z to x (Mesa 22.3).
+    // Mesa 22.3 sums from x to z where it computes a vector once on the CPU, as mv_unit does; dot() sums from z to x on the GPU.
     let half = match (
         lighting.local_viewer,
         light.positional,

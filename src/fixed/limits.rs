@@ -1,4 +1,4 @@
-//! What the driver can do, as far as generated shaders ask.
+//! Limits of the driver that matter for generated shaders.
 
 /// Limits and extensions of a context. [`Limits::default`] has the least values of OpenGL 4.6 (tables 23.55 to 23.60)
 /// and no extension.
@@ -20,7 +20,7 @@ pub struct Limits {
     pub geometry_total_output_components: u32,
     /// `GL_MAX_GEOMETRY_SHADER_INVOCATIONS`; 0 without `GL_ARB_gpu_shader5` and OpenGL 4.0.
     pub geometry_invocations: u32,
-    /// `GL_ARB_gpu_shader5` is there. From GLSL 4.00 on it does not matter.
+    /// `GL_ARB_gpu_shader5` is supported. From GLSL 4.00 on it does not matter.
     pub gpu_shader5: bool,
     /// The extension that lets a vertex shader write `gl_Layer`.
     pub vertex_layer: Option<VertexLayer>,

@@ -1,9 +1,9 @@
-//! Fixed-function state in, GLSL out.
+//! Generates GLSL from fixed-function state.
 //!
 //! The instanced and geometry strategies need a program where the application has none. Only the vertex stage has to be
 //! replaced: a program without a fragment shader leaves the fixed fragment stage at work (OpenGL 4.6 compatibility,
 //! chapter 15), so texture environments, fog blending, alpha test and the rest stay the driver's. The fragment stage is
-//! replaced as well where the tile asks for it: see [`generate_fragment`].
+//! replaced as well where the tiles need it: see [`generate_fragment`].
 //!
 //! ```text
 //! FixedKey ── canonical ──► vertex ─┬─ lighting   section 12.2.1
@@ -11,7 +11,7 @@
 //!                                   ├─ distortion the rays of an occlusion camera
 //!                                   └─ view       shift, tile, clip distances, layer
 //!                           geometry ── view      one primitive per view
-//!                           tessellation ── distortion  small ones for distorted rays
+//!                           tessellation ── distortion  small primitives for distorted rays
 //!
 //! FragmentKey ── canonical ──► fragment ── environment   sections 16.2 to 16.4
 //! ```
@@ -24,14 +24,14 @@
 //! | uniform | holds |
 //! |---|---|
 //! | `vec4 mv_view[64]` | per view: row 0 of its projection times the modelview matrix; the other rows are the program's own |
-//! | `vec4 mv_tile[64]` | per view: centre of its tile x and y in NDC of the atlas, layer |
+//! | `vec4 mv_tile[64]` | per view: centre of its tile x and y in NDC of the atlas; its layer, or its sides where fragments are discarded |
 //! | `vec4 mv_map` | width and height of the program's viewport over those of the atlas |
-//! | `vec4 mv_clip` | left, right, bottom, top of what may be drawn, in NDC of the program's viewport: −1, 1, −1, 1 if the viewport is inside the tile |
+//! | `vec4 mv_clip` | left and right of the visible part, in NDC of the program's viewport: −1 and 1 if that is inside the tile; z, w unused |
 //! | `int mv_first` | index in `mv_view` of the first view of this draw |
-//! | `vec4 mv_grid` | what one pixel of the window is in the tile, for textures: x and y of a step in x, then of a step in y, in tile pixels |
-//! | `sampler2DArray mv_distortion_map`, `vec4 mv_window`, `vec4 mv_disparity` | the map of an occlusion camera, where its texels lie, and disparities: see `distortion` |
+//! | `vec4 mv_grid` | tile pixels per window pixel, for texture gradients: x and y of a step in x, then of a step in y |
+//! | `sampler2DArray mv_distortion_map`, `vec4 mv_window`, `vec4 mv_disparity` | map, pixels and disparities of an occlusion camera: `distortion` |
 //! | `float mv_levels` | the highest level of tessellation |
-//! | `mv_texture0` … `mv_texture7` | the index of its texture unit |
+//! | `mv_texture0` … `mv_texture7` | samplers; each has to hold the index of its texture unit |
 //!
 //! A uniform that a key does not need is absent (location −1).
 #![forbid(unsafe_code)]
@@ -71,7 +71,7 @@ pub use patches::Patches;
 pub use reason::{Rasterised, Surroundings, Unsupported};
 pub use tessellation::{LEVELS, UNIFORM_LEVELS};
 
-/// Views that `mv_view` holds; more go in further draws with other contents.
+/// Number of views that `mv_view` holds. More views take further draws, with new contents of the array.
 pub const VIEWS: u32 = 64;
 /// `uniform vec4 mv_view[VIEWS]`
 pub const UNIFORM_VIEWS: &str = "mv_view";
@@ -89,24 +89,24 @@ pub const UNIFORM_GRID: &str = "mv_grid";
 /// `flat vec2 mv_limits`, between the stages: left (inclusive) and right (exclusive) of the view in window coordinates.
 const LIMITS: &str = "mv_limits";
 
-/// A program's text, and what has to be set when it is bound.
+/// Sources of a generated program, and the state that has to be set when it is bound.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Shaders {
     /// The vertex shader.
     pub vertex: String,
     /// The geometry shader, if the amplifier is one.
     pub geometry: Option<String>,
-    /// The tessellation control and evaluation shaders, if they are what multiplies primitives.
+    /// The tessellation control and evaluation shaders, if the amplifier is [`Amplifier::Tessellation`].
     pub tessellation: Option<[String; 2]>,
-    /// State around the draw.
+    /// State that the caller sets for the draw.
     pub patches: Patches,
 }
 
-/// Writes the program of a key. Equal canonical keys (and limits) give equal text.
+/// Writes the program of a key. Equal canonical keys (and limits) give equal sources.
 ///
 /// # Errors
-/// What the driver cannot run; the draw then has to be replayed. [`Surroundings::allow`] has the reasons that do not
-/// depend on the text.
+/// If the driver cannot run the shaders; the draw then has to be replayed. [`Surroundings::allow`] has the reasons that do
+/// not depend on the sources.
 pub fn generate(key: &FixedKey, limits: &Limits) -> Result<Shaders, Unsupported> {
     let key = key.canonical();
     if key.driver_quirk() {

@@ -1,8 +1,8 @@
-//! State that means something else while a program replaces the fixed-function vertex stage.
+//! State whose meaning changes while a program replaces the fixed-function vertex stage.
 
 use super::key::{FixedKey, PointSize, Primitive};
 
-/// What the caller sets around the draw, and puts back after it. Each enable is the state itself, not a change: `false`
+/// State that the caller sets for the draw and restores after it. Each enable is the state itself, not a change: `false`
 /// means disabled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Patches {
@@ -11,11 +11,11 @@ pub struct Patches {
     /// `GL_VERTEX_PROGRAM_TWO_SIDE`. Chooses between front and back colour (12.2.1) in place of
     /// `GL_LIGHT_MODEL_TWO_SIDE`.
     pub two_side: bool,
-    /// `GL_PROGRAM_POINT_SIZE`. Off where the size is constant: it is then the state's (14.4). Writing that same size
-    /// would not do: llvmpipe cuts points at the edge of the viewport by which of the two it is.
+    /// `GL_PROGRAM_POINT_SIZE`. Off where the size is constant: it is then the state's (14.4). The shader must not write that
+    /// same size instead, because llvmpipe clips points at the edge of the viewport differently if their size is written.
     pub point_size: bool,
-    /// `glProvokingVertex(GL_LAST_VERTEX_CONVENTION)` for this draw; `false`: as the program has it. A fan that stands
-    /// for a flat polygon finds its first vertex in `gl_in[0]`; Mesa rotates it to `gl_in[2]` with the other convention.
+    /// `glProvokingVertex(GL_LAST_VERTEX_CONVENTION)` for this draw; `false` keeps the program's setting. A flat polygon is
+    /// drawn as a fan and takes its colour from `gl_in[0]`; with the other convention Mesa rotates that vertex to `gl_in[2]`.
     pub last_vertex_convention: bool,
     /// Bit i: `GL_CLIP_DISTANCEi`, the same enables as `GL_CLIP_PLANEi`. All other planes have to be disabled: their
     /// distances are not written (13.7).

@@ -2,15 +2,15 @@
 
 use super::key::{Amplifier, Dialect, FixedKey, PointSize, Primitive, Tiles, UNITS};
 
-/// A reason for the report, short and without values that would make two of a kind look different.
+/// A reason for the report, which counts draws by the message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum Unsupported {
-    /// `#version 150 compatibility` or what the amplifier needs is more than the driver speaks.
+    /// The driver lacks `#version 150 compatibility`, or the version that the amplifier needs.
     #[error("the driver's shading language is {has}, generated shaders need {needed}")]
     ShadingLanguage {
-        /// Version the text needs.
+        /// Version that the shaders need.
         needed: u32,
-        /// Version there is.
+        /// Version that the driver has.
         has: u32,
     },
     /// No extension for `gl_Layer` in a vertex shader.
@@ -32,10 +32,10 @@ pub enum Unsupported {
     Components {
         /// Scalars per vertex.
         needed: u32,
-        /// The limit they break.
+        /// The limit that is exceeded.
         limit: u32,
     },
-    /// One draw cannot make that many views; ask [`batch`](super::batch) first.
+    /// One draw cannot draw that many views; [`batch`](super::batch) is the largest number.
     #[error("{views} views in one draw, the driver can make {limit}")]
     Views {
         /// Asked for.
@@ -43,10 +43,10 @@ pub enum Unsupported {
         /// Possible.
         limit: u32,
     },
-    /// The driver's own picture is not what the specification says, and not imitated.
+    /// The driver deviates from the specification in a way that is not imitated.
     #[error("the driver lights this material in its own way")]
     DriverQuirk,
-    /// `glRenderMode` is not `GL_RENDER`: hits and feedback are the program's own view.
+    /// `glRenderMode` is not `GL_RENDER`: hits and feedback are those of the program's own view.
     #[error("selection or feedback mode")]
     RenderMode,
     /// Colour-index mode (geometry shaders are undefined, vertex shaders write RGBA).
@@ -64,14 +64,14 @@ pub enum Unsupported {
     /// A texture unit beyond those with coordinates in the shader is enabled.
     #[error("a texture unit above {} is enabled", UNITS - 1)]
     TextureUnit,
-    /// Depth and integer textures in the generated fragment stage.
+    /// A depth or integer texture, which the generated fragment stage does not sample.
     #[error("a texture is neither colour nor luminance")]
     TextureFormat,
-    /// An environment of another extension, or one that the specification leaves undefined: a decal without colour, a
-    /// combination of the texture of a unit that has none.
+    /// An environment of another extension, or one that the specification leaves undefined: a decal whose texture is not RGB or
+    /// RGBA, or a combination that reads the texture of a unit without one.
     #[error("a texture environment is not one of OpenGL 1.5, or undefined for its textures")]
     TextureEnvironment,
-    /// A sampler object is bound: its filters are not followed.
+    /// A sampler object is bound, whose filters the generated fragment stage does not use.
     #[error("a sampler object is bound")]
     SamplerObject,
     /// `glMaterial` between `glBegin` and `glEnd`: built-in uniforms hold one material per draw.
@@ -80,10 +80,10 @@ pub enum Unsupported {
     /// `glPolygonMode` other than fill with a quad or a polygon in the geometry shader: inner edges would show.
     #[error("polygon mode is not fill, and the primitive is cut into triangles")]
     PolygonMode,
-    /// Edge flags do not pass a geometry shader (`ARB_geometry_shader4`, issue 9).
+    /// Edge flags do not pass through a geometry shader (`ARB_geometry_shader4`, issue 9).
     #[error("edge flags with a geometry shader")]
     EdgeFlags,
-    /// The pattern restarts with each line that a geometry shader emits.
+    /// The stipple pattern restarts with each line that a geometry shader emits.
     #[error("line stipple with a geometry shader")]
     LineStipple,
     /// Clip distances cut a point by its centre, so half of it leaks into the next tile.
@@ -132,7 +132,7 @@ impl Unsupported {
     }
 }
 
-/// What is drawn, as the rasteriser sees it: after the program's mode and `glPolygonMode`.
+/// Kinds of primitives that the rasteriser gets, by the draw's mode and `glPolygonMode`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rasterised {
     /// Some points.
@@ -143,7 +143,7 @@ pub struct Rasterised {
     pub polygons: bool,
 }
 
-/// State around a draw that does not enter the shader but can make one impossible. [`Default`] is GL's initial state
+/// State of a draw that does not affect the shader but can make one impossible. [`Default`] is GL's initial state
 /// with filled polygons. More than 12 fields: one for each state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surroundings {
@@ -161,7 +161,7 @@ pub struct Surroundings {
     pub high_texture_unit: bool,
     /// `glMaterial` was called between `glBegin` and `glEnd` of this draw (or of the list).
     pub material_per_vertex: bool,
-    /// What the rasteriser gets.
+    /// Primitives that the rasteriser gets.
     pub rasterised: Rasterised,
     /// `GL_POLYGON_MODE` of a face that is not culled is other than `GL_FILL`, and the draw has polygons.
     pub polygon_mode: bool,
@@ -217,8 +217,8 @@ impl Default for Surroundings {
 }
 
 impl Surroundings {
-    /// Whether a draw with this state around it may go through the shader of `key` (as the caller built it, not
-    /// canonical: a canonical one forgets the dialect where the text is the same).
+    /// Whether a draw in this state may use the shader of `key`. The key must not be canonical: a canonical one omits the
+    /// dialect where the shader does not depend on it.
     ///
     /// # Errors
     /// The first reason found, in the order of [`Unsupported`].

@@ -1,8 +1,9 @@
-//! Tessellation shaders: triangles and quads are cut until no edge is longer in the picture than what rays bend differently for.
+//! Tessellation shaders: triangles and quads are subdivided until their edges in the picture are too short for distorted rays to
+//! bend them visibly.
 //!
-//! Based on: Popescu et al., section V: an occlusion camera keeps no lines, so what it draws is subdivided. What is written for a corner
-//! in between is linear in clip space, as it is over the whole triangle. No level is above [`LEVELS`]: longer edges stay
-//! coarser, and samples where they belong.
+//! Based on: Popescu et al., section V: an occlusion camera does not keep lines straight, so primitives are subdivided before
+//! they are projected. Values of the new vertices are interpolated linearly in clip space, as over the whole triangle. No level is
+//! above [`LEVELS`]: edges that need more stay coarser, and each sample still says how far it was moved.
 
 use super::components::varyings;
 use super::distortion::UNIFORM_WINDOW;
@@ -10,7 +11,7 @@ use super::key::{FixedKey, Primitive, Provoking};
 use super::text::{TESSELLATION_VERSION, Text};
 use super::vertex;
 
-/// Edges in pixels.
+/// Length of an edge after subdivision, in pixels.
 const LONGEST: u32 = 4;
 /// The highest level that every driver with tessellation has.
 pub const LEVELS: u32 = 64;
@@ -24,7 +25,7 @@ fn corners(key: &FixedKey) -> u8 {
     }
 }
 
-/// Text of the tessellation control shader of a canonical key.
+/// Source of the tessellation control shader of a canonical key.
 pub(super) fn write_control(key: &FixedKey) -> String {
     let mut text = Text::default();
     text.line(format!("#version {TESSELLATION_VERSION} compatibility"));
@@ -55,7 +56,7 @@ pub(super) fn write_control(key: &FixedKey) -> String {
         ));
     }
     text.open("if (gl_InvocationID == 0) {");
-    // An outer level is that of the side opposite to its corner, or the left, lower, right and upper one.
+    // Outer levels belong to the sides opposite to the corners of a triangle, or to the left, lower, right and upper side of a quad.
     let sides: &[[u8; 2]] = match corners(key) {
         4 => &[[0, 3], [0, 1], [1, 2], [3, 2]],
         _ => &[[1, 2], [2, 0], [0, 1]],
@@ -78,7 +79,7 @@ pub(super) fn write_control(key: &FixedKey) -> String {
     text.finish()
 }
 
-/// The corner whose colours all of a flat primitive have.
+/// The corner that gives a flat primitive its colours.
 fn flat_source(key: &FixedKey) -> Option<u8> {
     key.flat.then(|| match key.provoking {
         Provoking::First => 0,
@@ -86,7 +87,7 @@ fn flat_source(key: &FixedKey) -> Option<u8> {
     })
 }
 
-/// Text of the tessellation evaluation shader of a canonical key.
+/// Source of the tessellation evaluation shader of a canonical key.
 pub(super) fn write_evaluation(key: &FixedKey) -> String {
     let corners = corners(key);
     let mut text = Text::default();

@@ -7,7 +7,7 @@ use super::text::Text;
 /// Swizzles and the letters in the names of the built-in planes.
 const COORDINATES: [(&str, &str); 4] = [("x", "S"), ("y", "T"), ("z", "R"), ("w", "Q")];
 
-/// The coordinate sets, into the outputs named by `name`. Expects `vec4 eye` and `vec3 normal` where the key needs them.
+/// Writes the coordinate sets to the outputs that `name` gives. Expects `vec4 eye` and `vec3 normal` where the key needs them.
 pub(super) fn write(text: &mut Text, key: &FixedKey, name: &dyn Fn(Varying) -> String) {
     if key.needs_reflection() {
         text.line("vec3 ray = normalize(eye.xyz);");
@@ -38,7 +38,7 @@ fn write_unit(text: &mut Text, key: &FixedKey, unit: usize, output: &str) {
         match state.generation[part] {
             None => format!("gl_MultiTexCoord{unit}.{swizzle}"),
             Some(TexGen::ObjectLinear) => format!("dot(gl_Vertex, gl_ObjectPlane{letter}[{unit}])"),
-            // The stored plane already carries the inverse of the modelview matrix it was given under.
+            // The stored plane already includes the inverse of the modelview matrix at the time of glTexGen.
             Some(TexGen::EyeLinear) => format!("dot(eye, gl_EyePlane{letter}[{unit}])"),
             // S and T alone have this mode; GL refuses it for the others.
             Some(TexGen::SphereMap) if part < 2 => format!("sphere.{swizzle}"),

@@ -3,7 +3,7 @@
 /// `#version` of vertex, geometry and fragment shaders: the compatibility profile has clip distances, `gl_InstanceID`, gradients and flat
 /// inputs from here on.
 pub(super) const VERSION: u32 = 150;
-/// `#version` of shaders that tessellate.
+/// `#version` of tessellation shaders.
 pub(super) const TESSELLATION_VERSION: u32 = 400;
 
 /// A shader under construction.

@@ -7,10 +7,10 @@ use super::reason::Unsupported;
 use super::text::{Text, VERSION};
 use super::{UNIFORM_FIRST, lighting, texgen, view};
 
-/// Name of the block between vertex and geometry shader.
+/// Name of the block between the vertex shader and a geometry or tessellation shader.
 pub(super) const BLOCK: &str = "mv_Vertex";
 
-/// Text of the vertex shader of a canonical key.
+/// Source of the vertex shader of a canonical key.
 pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupported> {
     if limits.glsl < VERSION {
         return Err(Unsupported::ShadingLanguage {
@@ -39,7 +39,7 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
     Ok(text.finish())
 }
 
-/// The interface block with what a geometry shader takes per vertex.
+/// Writes the interface block of the values that a later stage takes per vertex.
 pub(super) fn write_block(text: &mut Text, key: &FixedKey, direction: &str, instance: &str) {
     text.open(format!("{direction} {BLOCK} {{"));
     for varying in varyings(key) {
@@ -48,7 +48,7 @@ pub(super) fn write_block(text: &mut Text, key: &FixedKey, direction: &str, inst
     text.close(format!("}} {instance};"));
 }
 
-/// What a later stage has that is the last one: its inputs, and the view.
+/// Writes the declarations of a last stage that is not the vertex shader: its inputs, and those of the view.
 pub(super) fn write_last(text: &mut Text, key: &FixedKey) {
     write_block(text, key, "in", "mv_in[]");
     view::write_uniforms(text, key);
@@ -58,11 +58,11 @@ pub(super) fn write_last(text: &mut Text, key: &FixedKey) {
     text.line("");
 }
 
-/// A sum over a primitive's corners, of what a number of a corner names.
+/// Writes an interpolated value, from a function that gives the expression of the value at a corner.
 type Between<'a> = dyn Fn(&dyn Fn(u8) -> String) -> String + 'a;
 
-/// Everything that is read of a place in a primitive, as the built-ins have it: `between` sums what it has of each corner. A flat primitive
-/// has the colours of one of them.
+/// Writes the built-in outputs of a vertex within a primitive; `between` interpolates each value from the corners. A flat
+/// primitive has the colours of corner `flat`.
 pub(super) fn write_between(
     text: &mut Text,
     key: &FixedKey,
@@ -81,7 +81,7 @@ pub(super) fn write_between(
     }
 }
 
-/// Where a value goes: into the block, or to the built-in that the next stage reads.
+/// Name of the output of a value: a member of the block, or the built-in that the next stage reads.
 fn output(key: &FixedKey, varying: Varying) -> String {
     match varying.builtin(key) {
         Some(builtin) if !key.geometry() => builtin,
@@ -121,7 +121,7 @@ fn write_main(text: &mut Text, key: &FixedKey) {
     text.close("}");
 }
 
-/// Only `ftransform()` is guaranteed to give what fixed function gives (11.1.3.11); passes that test for equal depth
+/// Only `ftransform()` is guaranteed to give the position of fixed function (11.1.3.11); passes that test for equal depth
 /// rely on it.
 fn write_position(text: &mut Text, key: &FixedKey) {
     if key.geometry() {

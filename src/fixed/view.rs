@@ -1,11 +1,10 @@
-//! The shift of a view and its place in the atlas, for whichever stage is last.
+//! The shift of a view and its place in the atlas, for the last stage before the rasteriser.
 //!
 //! Based on: Q. Luo et al., "GPU-based multi-view rendering" (the tile equation and the two clip distances), with the
 //! shift in the form that is exact for every homogeneous vertex:
 //! ```text
 //! x' = row0(P_i · M) · vertex                            P_i: projection of the view, M: modelview
 //! d0 = x' − left·w      d1 = right·w − x'               d ≥ 0 inside the tile
-//! d2 = y − bottom·w     d3 = top·w − y
 //! X  = x'·scale_x + centre_x·w      Y = y·scale_y + centre_y·w
 //! ```
 //! (x, y, w) is in clip space of the program's own viewport; (X, Y, w) in that of a viewport over the whole atlas. z and w
@@ -68,10 +67,10 @@ pub(super) fn write_outputs(text: &mut Text, key: &FixedKey) {
     }
 }
 
-/// `mv_place(view, p, vertex)`: position, clip distances of the tile and layer.
+/// Writes `mv_place(view, p, vertex)`, which sets the position, the clip distances of the tile and the layer.
 ///
-/// x is summed as the driver sums the rows of `ftransform()`, so that a view has the very position that fixed function gives it
-/// with its own projection loaded (measured on llvmpipe 22.3: equal bits).
+/// x is summed as the driver sums the rows of `ftransform()`. A view thus gets exactly the position that fixed function gives it
+/// with the view's projection loaded (measured on llvmpipe 22.3: equal bits).
 pub(super) fn write_position(text: &mut Text, key: &FixedKey) {
     if key.target.tiles == Tiles::DistortedRays {
         return distortion::write_position(text);

@@ -17,7 +17,7 @@ macro_rules! names {
 }
 
 names! {
-    /// Of a program object; 0 is fixed function.
+    /// Name of a program object; 0 is fixed function.
     ProgramName;
     /// Of a framebuffer object; 0 is the window's.
     FramebufferName;

@@ -1,4 +1,4 @@
-//! Colours for coloured glasses.
+//! Anaglyphs: two views mixed for coloured glasses.
 //!
 //! `anaglyph = L · left + R · right` with 3x3 matrices on linear light, clamped to 0 to 1.
 //!
@@ -8,7 +8,7 @@
 
 use crate::config::{Anaglyph, Glasses, Mixture};
 
-/// Rows give R, G and B of the anaglyph, columns are those of the view.
+/// Rows are R, G and B of the anaglyph, columns are R, G and B of the view.
 pub type Matrix = [[f32; 3]; 3];
 
 /// Weights of linear light (Rec. 709).
@@ -26,7 +26,7 @@ impl Anaglyph {
             Mixture::HalfColour => {
                 let grey = [LUMINANCE; 3];
                 let colour = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-                // The glass that lets two colours through gets them.
+                // The eye whose glass passes two colours sees colour, the other one sees grey.
                 match self.glasses {
                     Glasses::AmberBlue => self.glasses.split(colour, grey),
                     Glasses::RedCyan | Glasses::GreenMagenta => self.glasses.split(grey, colour),
@@ -37,7 +37,7 @@ impl Anaglyph {
 }
 
 impl Glasses {
-    /// Of each matrix the rows of its own glass.
+    /// Keeps the rows of each matrix that its own glass passes.
     fn split(self, left: Matrix, right: Matrix) -> (Matrix, Matrix) {
         let own = match self {
             Self::RedCyan => [true, false, false],

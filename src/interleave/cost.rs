@@ -1,4 +1,4 @@
-//! What the interleave pass costs: over a plain copy of a picture of the same size, timed in turn.
+//! The cost of the interleave pass, compared with a plain copy of a picture of the same size. The two are timed alternately.
 #![forbid(unsafe_code)]
 
 use super::shader::{Pass, VIEWS_UNIT};
@@ -23,26 +23,26 @@ pub struct Cost {
     pub views: u32,
     /// Name of the display.
     pub display: String,
-    /// One fetch a pixel from a texture of the picture's size; milliseconds, median.
+    /// Median time of the copy, one fetch per pixel from a texture of the picture's size, in milliseconds.
     pub copy: f64,
-    /// The same for the panel's picture.
+    /// Median time of the panel's picture, in milliseconds.
     pub interleave: f64,
-    /// Median of the second over the mean of the copies before and after it.
+    /// Median of the time of a picture over the mean time of the copies before and after it.
     pub ratio: f64,
 }
 
-/// What is measured.
+/// A case to measure.
 #[derive(Clone, Copy, Debug)]
 pub struct Case<'a> {
-    /// Views, display and where the views lie.
+    /// Number of views, display, and memory layout of the atlas.
     pub config: &'a Config,
     /// Pixels of the picture and of each view.
     pub size: (u32, u32),
-    /// Times that are taken.
+    /// Number of measurements.
     pub rounds: usize,
 }
 
-/// Measures in a context that nobody else uses, whose shading language has this version × 100. The error says what does not fit.
+/// Measures in a context that nobody else uses, whose shading language has this version × 100. The error says why that is not possible.
 pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, String> {
     let Case { config, size, .. } = *case;
     let (width, height) = size;
@@ -68,7 +68,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
     let source = Plain::new(gl, names.texture(gl), size);
     let mut interleaver = Interleaver::new(gl, &mut names, glsl, None);
     let copy = Program::new(gl, glsl, Pass::Copy)?;
-    // Memory that nothing was written to is not there, and costs nothing.
+    // Memory that was never written may not be backed by pages, and would cost nothing to read.
     let (w, h) = (width as i32, height as i32);
     gl.bind_framebuffer(c::READ_FRAMEBUFFER, shown.framebuffer());
     gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, source.framebuffer);
@@ -103,7 +103,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
         let none = &mut |_| Default::default();
         interleaver.draw(gl, &neutral, config, &views, none, Output::Panel, &panel)
     };
-    // The mask is made, and the driver compiles.
+    // The first picture makes the mask and lets the driver compile.
     weave()?;
     let vertex_array = gl.gen_vertex_array();
     let mut plain = || {
@@ -142,7 +142,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
     }
 }
 
-/// A picture in a texture of two dimensions.
+/// A picture in a 2D texture.
 struct Plain {
     texture: u32,
     framebuffer: u32,
@@ -174,7 +174,7 @@ impl Plain {
     }
 }
 
-/// A window of RGBA with 8 bits each and nothing else.
+/// A window with 8 bits each of RGBA and no other buffers.
 fn window((width, height): (u32, u32)) -> Window {
     Window {
         buffers: Buffers {

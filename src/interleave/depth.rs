@@ -1,8 +1,8 @@
-//! Colour beside depth (RGBD): the program's own view on the left, how near it is as grey on the right.
+//! Colour beside depth (RGBD): the program's own view on the left, its nearness as grey on the right.
 //!
-//! Values of a depth buffer are linear in 1/w under any projection and glDepthRange, so the grey is the same step everywhere for the
-//! same step of parallax: `grey = (d − far) / (near − far)`, with the nearest and the farthest depth that the frame has drawn, but for
-//! one pixel in 200 at either end. White is near, as Looking Glass's tools have it.
+//! `grey = (d − far) / (near − far)`, where `near` and `far` are the nearest and the farthest depth that the frame has drawn, without one
+//! pixel in 200 at either end. Values of a depth buffer are linear in 1/w under any projection and glDepthRange, so equal steps of
+//! parallax are equal steps of grey. White is near, as in Looking Glass's tools.
 #![forbid(unsafe_code)]
 
 use super::reference::{ReferenceError, picture, resample};
@@ -16,13 +16,13 @@ pub struct Depth {
     size: (u32, u32),
     /// Row 0 on top.
     values: Vec<u32>,
-    /// White and black, 0 to 1 of the depth buffer.
+    /// Depth buffer values that are shown white and black, 0 to 1.
     pub ends: [f32; 2],
 }
 
 impl Depth {
-    /// Of values from 0 to `u32::MAX`. `nearer_is_larger`: of two values the larger one is nearer. What is at the far end of all
-    /// values was not drawn.
+    /// From values between 0 and `u32::MAX`. `nearer_is_larger`: of two values the larger one is nearer. A pixel with the farthest
+    /// possible value was not drawn.
     pub fn new(size: (u32, u32), values: Vec<u32>, nearer_is_larger: bool) -> Self {
         let farthest = if nearer_is_larger { 0 } else { u32::MAX };
         let mut drawn: Vec<u32> = values.iter().copied().filter(|&v| v != farthest).collect();
@@ -44,7 +44,7 @@ impl Depth {
         }
     }
 
-    /// Of the pixel that a place num/den across the picture lies in.
+    /// The grey of the pixel that contains the place num/den across the picture.
     fn grey(&self, [x, y]: [u64; 2], [den_x, den_y]: [u64; 2]) -> u8 {
         let at = |num: u64, den: u64, size: u32| (num * u64::from(size) / den) as usize;
         let (x, y) = (at(x, den_x, self.size.0), at(y, den_y, self.size.1));
@@ -52,7 +52,7 @@ impl Depth {
         let d = value.map_or(0.0, |&v| (f64::from(v) / f64::from(u32::MAX)) as f32);
         let [near, far] = self.ends;
         let grey = if near == far {
-            // One depth, or nothing: what was drawn is near.
+            // There is one depth, or nothing: pixels that were drawn are white.
             f32::from(u8::from(d == near && d > 0.0 && d < 1.0))
         } else {
             ((d - far) / (near - far)).clamp(0.0, 1.0)
@@ -61,7 +61,7 @@ impl Depth {
     }
 }
 
-/// The own view and its depth, each in half of a picture of any size. Depth is not blended: between two depths there is nothing.
+/// The own view and its depth, each in half of a picture of any size. Depths are not interpolated, since no surface lies between two.
 pub fn rgbd(own: &RgbImage, depth: &Depth, size: (u32, u32)) -> Result<RgbImage, ReferenceError> {
     let mut out = picture(size)?;
     let colour = resample(own, (2, 1), size)?;

@@ -1,44 +1,45 @@
-//! What the depths of a picture are, for views that are synthesised from it; `shaders/disparity.wgsl` says how.
+//! The disparities of a depth image, for the views that are synthesised from it by `shaders/disparity.wgsl`.
 #![forbid(unsafe_code)]
 
 use super::Sources;
 
-/// Disparities of the samples of a picture, in pixels by which they stand before what is infinitely far for a camera one place further:
-/// `height = scale·depth + offset`, where the baseline of a camera is how many places it stands to the side.
+/// Parameters of the synthesis. The disparity of a sample is the number of pixels by which it moves, relative to an infinitely far point, for a
+/// camera one place to the side: `disparity = scale·depth + offset`. Baselines are in places of the camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disparities {
-    /// The same for what is nearer than a depth: scale and offset, that depth, and 1 where nearer is larger, −1 where it is smaller; 0 for none.
+    /// Other disparities for what is nearer than a depth: scale, offset, that depth, and 1 where nearer depths are larger, −1 where they are smaller;
+    /// 0 for none.
     pub before: [f32; 4],
-    /// For a unit of depth.
+    /// Disparity per unit of the depth buffer.
     pub scale: f32,
-    /// At depth 0.
+    /// Disparity at depth 0.
     pub offset: f32,
-    /// What infinitely far moves by; what has this height has zero parallax.
+    /// Disparity of zero parallax, which is also the motion of an infinitely far point.
     pub far: f32,
-    /// What nothing was drawn on.
+    /// Pixels on which nothing was drawn.
     pub cleared: Cleared,
-    /// Baseline of view 0, and from each view to the next; of the view that the picture is of, it is 0.
+    /// Baseline of view 0, and the step from each view to the next. The view of the picture itself has the baseline 0.
     pub baselines: [f32; 2],
-    /// What is added to depths of views that are drawn on, so that they are farther, in units of the depth buffer.
+    /// Added to the depths of synthesised views, in units of the depth buffer, so that later draws over the same surface pass the depth test.
     pub margin: f32,
-    /// The view that is made, and the left edge of its tile in pixels.
+    /// The view to synthesise, and the left edge of its tile in pixels.
     pub aim: (u32, u32),
-    /// The views that are drawn; none where it is the own one alone.
+    /// The drawn views. None where only the own view is drawn.
     pub sources: Option<Sources>,
-    /// Where what is looked at lies.
+    /// Where the pictures lie that are read.
     pub places: Places,
     /// Holes are marked instead of filled.
     pub marked: bool,
-    /// Of an occlusion camera: the pixels that it reaches behind at most.
+    /// The most pixels that an occlusion camera reaches behind an occluder.
     pub reach: f32,
 }
 
-/// What nothing was drawn on.
+/// Pixels on which nothing was drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cleared {
-    /// Its depth.
+    /// Their depth.
     pub depth: f32,
-    /// It is infinitely far; else it is behind everything, and the same in all views.
+    /// They are infinitely far; else they are behind everything, and the same in all views.
     pub sky: bool,
 }
 
@@ -50,15 +51,15 @@ pub enum Places {
     Tiles,
     /// In copies, one to a layer.
     Copies,
-    /// While one of them is measured: its left edge and its layer, and which it is.
+    /// The one picture whose pyramid is built: its left edge, its layer, and its index among the pictures.
     One([u32; 3]),
 }
 
-/// Lower than everything; as `shaders/disparity.wgsl` has it.
+/// A disparity below everything, as in `shaders/disparity.wgsl`.
 const NOTHING: f32 = -1.0e6;
 
 impl Disparities {
-    /// The longest baseline of a view of the picture that is looked at.
+    /// The longest baseline of any view that is synthesised from the picture.
     fn longest(&self, views: u32) -> f32 {
         let [first, step] = self.baselines;
         match (&self.sources, self.places) {
@@ -69,7 +70,7 @@ impl Disparities {
         }
     }
 
-    /// `field`, `baseline`, `aim`, `occlusion` and those of the sources of `shaders/common.wgsl`.
+    /// `disparity`, `baseline`, `aim`, `occlusion`, `sources_low`, `sources_high` and `before` of `shaders/common.wgsl`.
     pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 7] {
         let [first, step] = self.baselines;
         let clear = if self.cleared.sky { 0.0 } else { NOTHING };

@@ -1,4 +1,4 @@
-//! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
+//! The output passes in the program's context: on the GPU, or by the CPU reference where a pass does not compile.
 
 use super::shader::{
     BLOCK_BOUNDS_UNIT, DEPTH_UNIT, MASK_UNIT, MaskUniforms, Pass, RAY_RANGE_UNIT, REFERENCE_UNITS,
@@ -28,11 +28,11 @@ pub struct Source<'a> {
     pub depth: Option<(u32, &'a Depth)>,
     /// The own view alone was drawn: the textures of its disparities, measured, and what they are; only a panel's picture is made of it.
     pub pyramid: Option<(PyramidTextures, Disparities)>,
-    /// Its colours are stored as sRGB, and so are the window's.
+    /// Colours of the atlas are stored as sRGB, and so are the window's.
     pub srgb: bool,
 }
 
-/// The panel that is in force.
+/// The current panel, and the place of the picture on it.
 #[derive(Clone, Copy, Debug)]
 pub struct PanelPlacement<'a> {
     /// Its description.
@@ -41,7 +41,7 @@ pub struct PanelPlacement<'a> {
     pub placement: Placement,
 }
 
-/// What a mask depends on that can change.
+/// The variable inputs of a mask.
 type Of = (Output, Placement, Option<Lens>);
 
 /// Programs and mask of one context.
@@ -50,22 +50,22 @@ pub struct Interleaver {
     vertex_array: u32,
     /// None where the CPU does it.
     programs: Vec<(Pass, Program)>,
-    /// Of an output whose picture lay there.
+    /// The last mask, and the inputs that it was made for.
     mask: Option<(Of, Mask)>,
-    /// The views in it.
+    /// The views in the mask.
     shown: ViewSet,
-    /// It has no black subpixels.
+    /// The mask has no black subpixels.
     lit: bool,
     mask_texture: u32,
     uploaded: Option<Uploaded>,
     cpu: Option<String>,
 }
 
-/// What the mask's texture has.
+/// The contents of the mask's texture.
 #[derive(Clone, Copy, Debug)]
 struct Uploaded {
     of: Of,
-    /// Where the views lie, if it has places instead of views.
+    /// The tiles, if the texture holds tile addresses instead of views.
     places: Option<Tiles>,
     period: [u32; 2],
     whole: bool,
@@ -85,7 +85,7 @@ fn column_bits(tiles: &Tiles) -> u32 {
     u32::BITS - (tiles.columns.max(1) - 1).leading_zeros()
 }
 
-/// Layer and column of a view's tile in one number, as the passes of texels take it; black where there is no such view.
+/// Layer and column of a view's tile in one number, for the passes of texels; black where there is no such view.
 fn tile_address(tiles: &Tiles, view: u32) -> u32 {
     if view >= tiles.views {
         return u32::from(GUARD);
@@ -94,7 +94,7 @@ fn tile_address(tiles: &Tiles, view: u32) -> u32 {
     (slot / tiles.columns) << column_bits(tiles) | (slot % tiles.columns)
 }
 
-/// Binds a reference image.
+/// Binds the textures of a reference image.
 pub fn bind_reference(gl: &Gl, textures: Option<ReferenceTextures>) {
     let all = textures.map(|reference| [reference.map].into_iter().chain(reference.image));
     for (texture, unit) in all.into_iter().flatten().zip(REFERENCE_UNITS) {
@@ -113,8 +113,8 @@ fn reserve(gl: &Gl, names: &mut Names) -> u32 {
 }
 
 impl Interleaver {
-    /// Compiles the passes, with `synthesis` also those that make a panel's picture of views that are drawn. Where that fails the CPU takes over and
-    /// [`Interleaver::note`] says why.
+    /// Compiles the output passes, and with `synthesis` those that synthesise a panel's picture with this source of disocclusions. Where one fails,
+    /// the CPU takes over and [`Interleaver::note`] says why.
     pub fn new(
         gl: &Gl,
         names: &mut Names,
@@ -132,7 +132,7 @@ impl Interleaver {
             cpu: None,
         };
         let panels = Synthesis::ALL.into_iter().filter(|pass| match pass {
-            // There is no reference image in the first frame.
+            // The first frame has no reference image, so it needs the pass without one.
             Synthesis::Panel { behind, .. } => {
                 synthesis == Some(*behind)
                     || (synthesis, *behind)
@@ -161,12 +161,12 @@ impl Interleaver {
         i
     }
 
-    /// Whether pictures are made by shaders, and not by the CPU.
+    /// Whether shaders compute the pictures, and not the CPU.
     pub fn on_gpu(&self) -> bool {
         self.cpu.is_none()
     }
 
-    /// What the user should know about how pictures are made.
+    /// A note for the user where the CPU computes the pictures.
     pub fn note(&self) -> Option<String> {
         self.cpu
             .as_ref()
@@ -178,7 +178,7 @@ impl Interleaver {
         self.shown
     }
 
-    /// Whether each subpixel of an output shows the colour of some view as it is, as far as the last picture told.
+    /// Whether no subpixel of an output is black. False until a picture of that output was made.
     pub fn lit(&self, output: Output) -> bool {
         let known = self
             .mask
@@ -197,7 +197,7 @@ impl Interleaver {
         self.programs.iter().map(|(_, program)| program.name())
     }
 
-    /// The mask's texture gets another name: its contents are made anew.
+    /// Gives the mask's texture another name, whose contents are then uploaded anew.
     pub fn rename(&mut self, gl: &Gl, names: &mut Names) {
         if self.mask_texture != 0 {
             gl.delete_texture(self.mask_texture);
@@ -206,8 +206,8 @@ impl Interleaver {
         }
     }
 
-    /// Draws the picture of an output over the whole framebuffer that is bound, which lies on `panel`; `tile` reads one view for the
-    /// CPU (and may change the read framebuffer).
+    /// Draws the picture of an output over the whole of the bound framebuffer, whose place is given by `panel`. `tile` reads back one
+    /// view for the CPU, and may change the read framebuffer. The error says why there is no picture.
     #[allow(
         clippy::too_many_arguments,
         reason = "the parts of one picture; a struct of them would be built for this call alone"
@@ -291,7 +291,7 @@ impl Interleaver {
                 .map_or(Disparities::default(), |(_, disparities)| disparities),
         };
         program.bind(gl, &uniforms.words());
-        // A view is decoded to linear light when it is fetched; written to an sRGB window it is encoded again.
+        // A view is decoded to linear light when it is fetched, and encoded again when it is written to an sRGB window.
         if source.srgb {
             gl.enable_srgb(true);
         }
@@ -302,7 +302,7 @@ impl Interleaver {
         Ok(())
     }
 
-    /// The pass that makes a picture; where it needs the mask, that is bound.
+    /// The pass of a picture. Binds the mask where the pass needs it.
     fn pass(&mut self, gl: &Gl, of: Of, form: &Form, source: &Source, size: [u32; 2]) -> Pass {
         let tiles = &source.tiles;
         if let Some((textures, disparities)) = source.pyramid
@@ -339,8 +339,8 @@ impl Interleaver {
         }
     }
 
-    /// Binds the mask, uploaded where the texture has another one: its views or their places, and of N views the last instead of view
-    /// 1 where it is that of two eyes. None where there is no texture or no mask.
+    /// Binds the mask, and uploads it where the texture holds another one. The texture holds views, or tile addresses with `places`. A mask
+    /// of two eyes, with `eyes` the number of views, has the last view in place of view 1. None where there is no texture or no mask.
     fn upload(
         &mut self,
         gl: &Gl,
@@ -388,7 +388,7 @@ impl Interleaver {
         self.uploaded
     }
 
-    /// The output, drawn without shaders. None where the views are not there yet, or the form has no mask.
+    /// The picture of an output, computed by the CPU. None where the depth of RGBD, or the mask, is missing.
     fn picture_by_cpu(
         &self,
         tiles: Vec<RgbImage>,
@@ -414,7 +414,7 @@ impl Interleaver {
     }
 }
 
-/// Draws a picture into the window by the fixed pipeline.
+/// Draws a picture into the window with the fixed-function pipeline.
 fn draw_picture(gl: &Gl, neutral: &Neutral, mut picture: RgbImage) {
     image::imageops::flip_vertical_in_place(&mut picture);
     let [width, height] = [picture.width(), picture.height()].map(|n| n as i32);

@@ -11,12 +11,12 @@ use crate::config::{Config, Output};
 pub enum Layout {
     /// One row, view 0 on the left.
     SideBySide {
-        /// In the size of one view.
+        /// The picture has the size of one view.
         half: bool,
     },
     /// One column, view 0 on top.
     TopBottom {
-        /// In the size of one view.
+        /// The picture has the size of one view.
         half: bool,
     },
     /// The Looking Glass order: view 0 bottom left, rows upwards.
@@ -31,14 +31,14 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// That of an output of whole views; none for the others.
+    /// The layout of an output of whole views. None for other outputs.
     pub fn of(config: &Config, output: Output) -> Option<Self> {
         match output {
             Output::SideBySide { half } => Some(Self::SideBySide { half }),
             Output::TopBottom { half } => Some(Self::TopBottom { half }),
             Output::Quilt => Some(Self::quilt(config.views, config.display.facts.quilt)),
             Output::View(view) => Some(Self::View(view)),
-            // The left eye's; the right one's is shown beside it, in another buffer.
+            // The view of the left eye; that of the right eye goes to another buffer of the window.
             Output::Quad => Some(Self::View(0)),
             Output::Panel | Output::Interlaced(_) | Output::Anaglyph(_) | Output::Rgbd => None,
         }
@@ -90,7 +90,7 @@ impl Layout {
         matches!(self, Self::TopBottom { .. })
     }
 
-    /// Size in pixels where each tile keeps its own size, or all share the size of one.
+    /// Size of the picture in pixels where each tile keeps its own size, or all share the size of one.
     pub fn native_size(self, views: u32, tile: (u32, u32)) -> (u32, u32) {
         if let Self::SideBySide { half: true } | Self::TopBottom { half: true } = self {
             return tile;

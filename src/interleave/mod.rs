@@ -1,7 +1,8 @@
 //! From N views to the picture that is shown.
 //!
-//! `reference` does it exactly on the CPU and is what the GPU is compared with; `shader` translates the passes of
-//! `shaders/*.wgsl` for the program's context, `program` compiles them; `pass` names them; `layout`, `anaglyph`, `depth` and `field` hold what both agree on; `gpu` draws.
+//! `reference` computes the exact picture on the CPU, with which tests compare the GPU. `pass` names the passes of `shaders/*.wgsl`, `shader`
+//! translates them for the program's context, and `program` compiles them. `layout`, `anaglyph`, `depth` and `disparities` hold the parameters of
+//! both. `gpu` draws.
 #![forbid(unsafe_code)]
 
 mod anaglyph;
@@ -34,12 +35,12 @@ use crate::atlas::Grid;
 use crate::config::{Anaglyph, Config, Filter, Interlace, Output};
 use crate::display::{Display, DisplayError, Mask, Placement};
 
-/// How a picture is made of the views.
+/// How the views are arranged in the picture.
 #[derive(Clone, Copy, Debug)]
 pub enum Form<'a> {
-    /// Each subpixel by the mask of a display; finely, where views are filtered.
+    /// Each subpixel by the mask of a display; by its fine mask where views are filtered.
     Panel(&'a Display, Filter),
-    /// The first and the last view by pixels of the screen.
+    /// The first and the last view, by the pixels of the screen.
     Interlaced(Interlace),
     /// Whole views beside each other.
     Layout(Layout),
@@ -50,7 +51,7 @@ pub enum Form<'a> {
 }
 
 impl<'a> Form<'a> {
-    /// What an output is made by.
+    /// The form of an output.
     pub fn of(config: &'a Config, display: &'a Display, output: Output) -> Self {
         if let Some(layout) = Layout::of(config, output) {
             return Self::Layout(layout);
@@ -63,7 +64,8 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// Tiles with a column, or a row, for each lens of a picture at a place; none where there are no lenses in rank and file.
+    /// The grid of sample-aligned tiles: a column, or a row, of texels for each lens of a picture at a place. None where the lenses do not repeat
+    /// regularly.
     pub fn sample_aligned(&self, placement: &Placement, views: u32) -> Option<Grid> {
         let window = [placement.width, placement.height];
         match self {
@@ -74,14 +76,14 @@ impl<'a> Form<'a> {
             Self::Interlaced(interlace) => {
                 let display = Display::named(interlace.display()).ok()?;
                 let phase = display.lens_phase(placement, 2)?;
-                // The right eye's is the last view.
+                // The right eye sees the last view.
                 Grid::sample_aligned(&phase, window, 2.0, 1.0 / f64::from(views.max(2) - 1))
             }
             _ => None,
         }
     }
 
-    /// Size of a tile over that of the picture, width and height, which has as many texels as the picture shows of a view.
+    /// Width and height of a tile over those of the picture, such that a tile has as many texels as the picture shows of a view.
     pub fn share(&self, views: u32) -> [f64; 2] {
         let n = f64::from(views);
         match self {
@@ -103,7 +105,7 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// The mask of a picture at a place; none where none is needed.
+    /// The mask of a picture at a place. None where the form needs none.
     fn mask(&self, placement: &Placement, views: u32) -> Option<Result<Mask, DisplayError>> {
         let made = match self {
             Self::Panel(display, Filter::Nearest) => display.mask(placement, views),

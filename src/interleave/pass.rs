@@ -1,37 +1,37 @@
-//! What the passes of `shaders/*.wgsl` make.
+//! The passes of `shaders/*.wgsl`.
 #![forbid(unsafe_code)]
 
 use crate::config::DisocclusionSource;
 
-/// What a pass makes.
+/// A pass, by its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pass {
     /// The panel's picture, through the mask: views of any size, filtered or not.
     Interleave,
-    /// The same for views of the picture's size.
+    /// The same picture from views of the picture's size.
     Texels(Texels),
-    /// The same for views that have fewer texels, aligned with the panel's samples or evenly spread.
+    /// The same picture from views with fewer texels, aligned with the panel's samples or evenly spread.
     SampleAligned(SampleAligned),
     /// Quilt, side by side or a single view.
     Layout,
     /// A single view of the picture's size.
     Whole,
-    /// Two views for coloured glasses.
+    /// The first and the last view for coloured glasses.
     Anaglyph,
     /// The own view beside its depth.
     Rgbd,
-    /// A copy of a texture of two dimensions, which the others are measured by.
+    /// A copy of a 2D texture, with which the cost of the others is compared.
     Copy,
     /// A step of the accumulation buffer.
     Accumulate(Step),
-    /// Views of a picture with depths.
+    /// Synthesis of views from depth images.
     Synthesis(Synthesis),
 }
 
-/// What the mask and the atlas are like; see `shaders/texels.wgsl`.
+/// Cases of mask and atlas; see `shaders/texels.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Texels {
-    /// Any.
+    /// Any mask and any atlas.
     Subpixels,
     /// All views lie in one layer.
     SubpixelsOfOneLayer,
@@ -39,62 +39,62 @@ pub enum Texels {
     Pixels,
 }
 
-/// How far the texels are from where the panel shows their view; see `shaders/sample_aligned.wgsl`.
+/// Where the panel's pixels lie among the texels of their view; see `shaders/sample_aligned.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SampleAligned {
-    /// Nowhere: each pixel shows one view.
+    /// On the centres of texels, and each pixel shows one view.
     Pixels,
     /// Between texels.
     Texels,
 }
 
-/// What is made of a picture with depths; see `shaders/disparity.wgsl`.
+/// A pass of the synthesis from depth images; see `shaders/disparity.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Synthesis {
-    /// The greatest and the least height of each block of a row.
+    /// The greatest and the least disparity of each block of a row.
     BlockBounds,
-    /// The greatest of each row.
+    /// The greatest disparity of each row.
     RowMaxima,
-    /// The greatest and the least of all that the rays of a block can meet.
+    /// The greatest and the least disparity that the rays of each block can meet.
     RayRange,
-    /// Where disparities step down or up.
+    /// The depth discontinuities of each block.
     Steps,
-    /// Which blocks are near such steps.
+    /// Which blocks are near depth discontinuities.
     Splats,
     /// The distortion map of an occlusion camera.
     DistortionMap,
-    /// One view, with depths, and what is known of what is hidden.
+    /// One view with depths, with this source of disocclusions.
     View(DisocclusionSource),
-    /// The panel's picture, through a mask of views; of one view for each pixel, where the mask is `whole`.
+    /// The panel's picture, through a mask of views.
     Panel {
-        /// Red, green and blue show the same view.
+        /// Red, green and blue of each pixel show the same view.
         whole: bool,
-        /// As for a view.
+        /// The source of disocclusions.
         behind: DisocclusionSource,
     },
 }
 
-/// What is done to the accumulation buffer, texel by texel; see `shaders/accumulate.wgsl`.
+/// An operation on the accumulation buffer, texel by texel; see `shaders/accumulate.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Step {
-    /// Four values.
+    /// Becomes four values.
     Fill,
-    /// As it is.
+    /// Copies it unchanged.
     Copy,
-    /// The colour.
+    /// Becomes the colour.
     Load,
-    /// The colour is added.
+    /// Adds the colour.
     Accumulate,
-    /// Multiplied by a value.
+    /// Multiplies by a value.
     Multiply,
-    /// A value is added.
+    /// Adds a value.
     Add,
-    /// The colour becomes what was accumulated.
+    /// The colour becomes the accumulated value.
     Return,
 }
 
 impl Pass {
-    /// All that make a picture of views.
+    /// All passes that assemble a picture from views.
     pub const OUTPUTS: [Self; 10] = [
         Self::Interleave,
         Self::Texels(Texels::Subpixels),

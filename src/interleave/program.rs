@@ -1,4 +1,4 @@
-//! A pass as a program of the context.
+//! A pass as a GL program.
 
 use super::shader::{self, GlslVersion, Pass, Stage};
 use crate::gl::{Gl, consts as c};
@@ -13,7 +13,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// For a context whose shading language has this version × 100. The error is naga's or the driver's.
+    /// For a context whose shading language has this version × 100. The error is the text of naga or of the driver.
     pub fn new(gl: &Gl, glsl: u32, pass: Pass) -> Result<Program, String> {
         let number = glsl.min(u32::from(u16::MAX)) as u16;
         let version = match gl.is_es() {
@@ -33,7 +33,7 @@ impl Program {
             gl.uniform_1i(location(&t.name), t.unit as i32);
         }
         gl.use_program(current);
-        // Those that the pass does not read have no place.
+        // Uniforms that the pass does not read have no location.
         let uniforms = fragment
             .uniforms
             .into_iter()
@@ -48,7 +48,7 @@ impl Program {
         self.name
     }
 
-    /// Makes it current, its uniforms with these words.
+    /// Makes the program current and sets its uniforms from these words.
     pub fn bind(&self, gl: &Gl, words: &[u32]) {
         gl.use_program(self.name);
         for (location, slot) in &self.uniforms {

@@ -9,12 +9,12 @@ use image::{RgbImage, imageops};
 pub struct Cut {
     /// In order: view 0 from the bottom left, to the right, then upwards.
     pub views: Vec<RgbImage>,
-    /// Columns and rows are the other way round than the name says.
+    /// The name of the file has columns and rows in the wrong order.
     pub swapped: bool,
 }
 
-/// Cuts a quilt. Where its size is no multiple of its columns and rows, a view has the whole pixels of its share, and what is left
-/// over lies to the right and on top.
+/// Cuts a quilt. Where its size is no multiple of its columns and rows, the size of a view is rounded down, and the pixels left over
+/// lie on the right and on top.
 pub fn cut(quilt: &RgbImage, name: QuiltName) -> Result<Cut, QuiltError> {
     let ((columns, rows), swapped) = name.grid(quilt.dimensions())?;
     let (width, height) = (quilt.width() / columns, quilt.height() / rows);

@@ -1,8 +1,8 @@
-//! The exact picture, on the CPU: the gold standard for the shaders.
+//! The exact picture, on the CPU: the reference for the shaders.
 //!
 //! Pictures have row 0 on top. Resampling: a pixel centre at place p in (0, 1) of its cell takes the tile's colour at p,
-//! bilinear between texel centres and clamped inside the tile, in whole numbers, rounded half up to 8 bits. Where tile
-//! and cell have the same size that is the texel itself. Views are blended with each other only by [`filtered`] and [`anaglyph`].
+//! bilinear between texel centres and clamped inside the tile, in integers, rounded half up to 8 bits. Where tile and cell
+//! have the same size, that is the texel itself. Only [`filtered`] and [`anaglyph`] blend views with each other.
 #![forbid(unsafe_code)]
 
 use super::Layout;
@@ -10,22 +10,22 @@ use crate::config::{Anaglyph, Filter};
 use crate::display::{FINE, GUARD, Mask};
 use image::{ImageBuffer, Pixel, Rgb, RgbImage};
 
-/// Views of one size, RGB or RGBA with 8 bits; alpha is ignored.
+/// A view, RGB or RGBA with 8 bits; alpha is ignored.
 pub type Tile<P> = ImageBuffer<P, Vec<u8>>;
 
 /// Why there is no picture.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ReferenceError {
-    /// Nothing to show.
+    /// There are no views.
     #[error("no views were given; give at least one tile")]
     NoTiles,
-    /// Two sizes, or a tile without pixels.
+    /// Tiles differ in size, or have no pixels.
     #[error(
         "tile {index} is {width}x{height} pixels, but tile 0 is {first_width}x{first_height}; \
          all tiles must have one size, not 0"
     )]
     TileSize {
-        /// The view.
+        /// Index of the view.
         index: usize,
         /// Pixels.
         width: u32,
@@ -36,31 +36,31 @@ pub enum ReferenceError {
         /// Pixels.
         first_height: u32,
     },
-    /// Grey tiles.
+    /// Tiles have fewer than three channels.
     #[error("tiles must be RGB or RGBA, found {channels} channels")]
     Channels {
         /// Per pixel.
         channels: u8,
     },
-    /// The mask names a view that is not there.
+    /// The mask shows a view that does not exist.
     #[error(
         "the mask shows view {view}, but there are {views} tiles; give a mask for {views} views"
     )]
     View {
-        /// The index found.
+        /// Index of the view in the mask.
         view: u32,
         /// N.
         views: usize,
     },
-    /// The view asked for is not there.
+    /// The requested view does not exist.
     #[error("there is no view {view}; the views are numbered from 0 and there are {views}")]
     NoView {
-        /// As asked for.
+        /// The requested view.
         view: u32,
         /// N.
         views: usize,
     },
-    /// A picture without pixels or with more than 2^28 of them.
+    /// The picture would have no pixels, or more than 2^28.
     #[error("a picture of {width}x{height} pixels cannot be made; give 1 to 2^28 pixels")]
     Size {
         /// Pixels.
@@ -70,8 +70,8 @@ pub enum ReferenceError {
     },
 }
 
-/// The picture of a panel: each subpixel from the view that the mask names, guard subpixels black. The picture has the
-/// size of the mask.
+/// The picture of a panel: each subpixel is from the view that the mask names, and guard subpixels are black. The picture
+/// has the size of the mask.
 pub fn interleave<P: Pixel<Subpixel = u8>>(
     tiles: &[Tile<P>],
     mask: &Mask,
@@ -104,8 +104,8 @@ pub fn interleave<P: Pixel<Subpixel = u8>>(
     Ok(out)
 }
 
-/// As [`interleave`], where the mask is a [fine one](crate::display::Display::fine_mask) unless the filter is the nearest view.
-/// Views are weighted as linear light; beyond the first and the last one lies that one again.
+/// As [`interleave`] for [`Filter::Nearest`]. For other filters the mask is a [fine one](crate::display::Display::fine_mask), and views are
+/// weighted as linear light; beyond the first and the last view, that one is repeated.
 pub fn filtered<P: Pixel<Subpixel = u8>>(
     tiles: &[Tile<P>],
     mask: &Mask,
@@ -144,11 +144,11 @@ pub fn filtered<P: Pixel<Subpixel = u8>>(
     Ok(out)
 }
 
-/// Of the Gaussian, in views.
+/// Standard deviation of the Gaussian, in views.
 const SIGMA: f32 = 0.6;
 
 impl Filter {
-    /// Views around the middle of a step of a fine mask, and their weights.
+    /// The views around the middle of a step of a fine mask, and their weights. Indices may lie outside 0 to N−1.
     fn weights(self, step: u16) -> Vec<(i64, f32)> {
         let place = (f32::from(step) + 0.5) / f32::from(FINE) - 0.5;
         let nearest = (place + 0.5).floor();
@@ -255,7 +255,7 @@ pub(crate) fn linear(value: f32) -> f32 {
     }
 }
 
-/// And back.
+/// From linear light to sRGB (IEC 61966-2-1).
 pub(crate) fn encoded(light: f32) -> f32 {
     if light <= 0.003_130_8 {
         light * 12.92
@@ -264,7 +264,7 @@ pub(crate) fn encoded(light: f32) -> f32 {
     }
 }
 
-/// One view in each cell of a picture.
+/// A picture that shows one view in each cell of a grid.
 pub(super) fn resample(
     view: &RgbImage,
     grid: (u32, u32),
@@ -312,7 +312,7 @@ pub(super) fn picture((width, height): (u32, u32)) -> Result<RgbImage, Reference
     Ok(RgbImage::new(width, height))
 }
 
-/// Where one column or row of the picture takes its colour from.
+/// The two texels from which one column or row of the picture takes its colour.
 #[derive(Clone, Copy)]
 struct Tap {
     /// Cell, from the left or the top.
@@ -323,11 +323,11 @@ struct Tap {
     weight: u64,
 }
 
-/// All columns and rows of a picture.
+/// The taps of all columns and rows of a picture.
 struct Taps {
     columns: Vec<Tap>,
     rows: Vec<Tap>,
-    /// The weight 1 of columns and of rows.
+    /// The number that stands for the weight 1, of columns and of rows.
     full: (u64, u64),
 }
 
@@ -377,7 +377,7 @@ impl Tap {
         let [at, size, cells, texels] = [at, size, cells, texels].map(i64::from);
         let centre = (2 * at + 1) * cells;
         let cell = centre / (2 * size);
-        // Texels from the centre of the first one, over 4 · size.
+        // Distance from the centre of the first texel, in texels times 4 · size.
         let place = 2 * (centre - cell * 2 * size) * texels - 2 * size;
         let low = place.div_euclid(4 * size);
         let clamped = |texel: i64| texel.clamp(0, texels - 1) as u32;

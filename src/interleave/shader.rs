@@ -1,8 +1,8 @@
 //! The output passes of `shaders/*.wgsl`, validated and translated by naga to the GLSL of a program's context.
 //!
-//! The uniforms are a WGSL `var<immediate>`, which naga writes as plain uniforms (`glUniform*` by name), not as a block: so
-//! no buffer and no indexed binding of the application's is touched. Nothing is flipped in translation
-//! (no `ADJUST_COORDINATE_SPACE`): the shaders are written for OpenGL's window space, y upwards.
+//! The uniforms are a WGSL `var<immediate>`, which naga writes as plain uniforms (`glUniform*` by name), not as a block, so no
+//! buffer and no indexed binding of the application's is touched. The translation flips nothing (no
+//! `ADJUST_COORDINATE_SPACE`): the shaders are written for OpenGL's window space, y upwards.
 #![forbid(unsafe_code)]
 
 pub use super::pass::{Pass, SampleAligned, Step, Synthesis, Texels};
@@ -41,16 +41,16 @@ pub const MASK_UNIT: u32 = 1;
 /// Texture unit of the depths of the views: a 2D array texture.
 pub const DEPTH_UNIT: u32 = 2;
 
-/// Texture unit of the range of disparities that rays meet: an array texture of one layer; see `shaders/disparity.wgsl`.
+/// Texture unit of the range of disparities that rays can meet: a 2D array texture; see `shaders/disparity.wgsl`.
 pub const RAY_RANGE_UNIT: u32 = 3;
-/// Texture unit of the same of blocks.
+/// Texture unit of the disparity range of blocks: a 2D array texture.
 pub const BLOCK_BOUNDS_UNIT: u32 = 4;
-/// Texture units of the depth discontinuities of blocks, and of what is near them; see `shaders/distortion.wgsl`.
+/// Texture units of the depth discontinuities of blocks, and of the blocks near them; see `shaders/distortion.wgsl`.
 pub const STEPS_UNITS: [u32; 2] = [5, 6];
-/// Texture units of the reference image of an occlusion camera: its map, colours, depths, and by how much samples are moved.
+/// Texture units of the reference image of an occlusion camera: distortion map, colours, depths, and distortions of the samples in pixels.
 pub const REFERENCE_UNITS: [u32; 4] = [5, 6, 7, 8];
 
-/// Which half of the program.
+/// A shader stage of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
     /// One triangle over the window: three vertices, no attributes.
@@ -69,7 +69,7 @@ pub enum GlslVersion {
 }
 
 impl GlslVersion {
-    /// All that can be written.
+    /// All versions that can be written.
     pub const SUPPORTED: [Self; 14] = [
         Self::Desktop(130),
         Self::Desktop(140),
@@ -87,7 +87,7 @@ impl GlslVersion {
         Self::Embedded(320),
     ];
 
-    /// The newest version that can be written and is not newer than what the context takes; None below 130 and ES 300.
+    /// The newest supported version that is no newer than the context's. None below 130 and ES 300.
     pub fn for_context(self) -> Option<Self> {
         let rank = |version| match version {
             Self::Desktop(number) => (0, number),
@@ -126,11 +126,11 @@ pub struct Translated {
 pub struct TextureBinding {
     /// Name in the GLSL.
     pub name: String,
-    /// [`VIEWS_UNIT`], [`MASK_UNIT`] or [`DEPTH_UNIT`]; as `shaders/accumulate.wgsl` numbers them.
+    /// One of the units of this module, such as [`VIEWS_UNIT`]; for the accumulation passes, the binding in `shaders/accumulate.wgsl`.
     pub unit: u32,
 }
 
-/// One uniform of the shader. Those the linker dropped have location -1, which OpenGL ignores.
+/// One uniform of the shader. One that the linker dropped has location -1, which OpenGL ignores.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UniformSlot {
     /// Name in the GLSL.
@@ -142,39 +142,39 @@ pub struct UniformSlot {
 }
 
 impl UniformSlot {
-    /// Its part of [`Uniforms::words`].
+    /// The part of [`Uniforms::words`] that belongs to the uniform.
     pub fn of<'w>(&self, words: &'w [u32]) -> Option<&'w [u32]> {
         words.get(self.first..self.first.checked_add(self.count)?)
     }
 }
 
-/// Why there is no shader.
+/// Why a pass cannot be translated.
 #[derive(Debug, thiserror::Error)]
 pub enum ShaderError {
-    /// Below what naga writes.
+    /// The version is below what naga writes.
     #[error("{0} is too old for the output passes; they need GLSL 130 or GLSL ES 300")]
     Version(GlslVersion),
-    /// A mistake in our own WGSL.
+    /// The WGSL of the pass is wrong.
     #[error("the {pass:?} pass is not valid WGSL: {reason}")]
     Wgsl {
         /// The pass.
         pass: Pass,
-        /// From naga.
+        /// The text of naga's error.
         reason: String,
     },
-    /// A feature the version lacks.
+    /// The version lacks a feature.
     #[error("the {pass:?} pass cannot be written as {version}: {reason}")]
     Glsl {
         /// The pass.
         pass: Pass,
         /// The version asked for.
         version: GlslVersion,
-        /// From naga.
+        /// The text of naga's error.
         reason: String,
     },
 }
 
-/// One stage of a pass as GLSL. `version` is what the context takes; the nearest one below that naga knows is written.
+/// Translates one stage of a pass to GLSL. `version` is that of the context; the newest supported one up to it is written.
 pub fn translate(
     pass: Pass,
     stage: Stage,
@@ -194,7 +194,7 @@ pub fn translate(
         .map_err(|e| wgsl(e.emit_to_string(&text)))?;
     let options = glsl::Options {
         version: match version {
-            // The oldest that naga writes; what the passes use of it is all in 130 too.
+            // 140 is the oldest that naga writes; all that the passes use of it is in 130, too.
             GlslVersion::Desktop(number) => glsl::Version::Desktop(number.max(140)),
             GlslVersion::Embedded(number) => glsl::Version::new_gles(number),
         },
@@ -211,7 +211,7 @@ pub fn translate(
         multiview: None,
     };
     let mut source = String::new();
-    // All fetches are inside their textures by construction, see common.wgsl.
+    // All fetches lie inside their textures by construction, see common.wgsl.
     let bounds = naga::proc::BoundsCheckPolicies::default();
     let reflection = glsl::Writer::new(&mut source, &module, &info, &options, &pipeline, bounds)
         .map_err(glsl_error)?
@@ -252,7 +252,7 @@ pub fn translate(
     })
 }
 
-/// The function of a pass.
+/// The entry point of a pass.
 fn entry(pass: Pass) -> &'static str {
     match pass {
         Pass::Interleave => "interleave",
@@ -286,7 +286,7 @@ fn entry(pass: Pass) -> &'static str {
     }
 }
 
-/// The WGSL of a pass, which has no includes.
+/// The WGSL of a pass. WGSL has no includes, so the files are joined.
 fn source(pass: Pass) -> String {
     match pass {
         Pass::Interleave => [COVER, COMMON, ATLAS, MASK, INTERLEAVE].join("\n"),
@@ -329,10 +329,10 @@ fn source(pass: Pass) -> String {
     }
 }
 
-/// A panel's picture whose subpixels ask the reference image one after another.
+/// The panel's picture whose subpixels ask the reference image one after another.
 const REFERENCE_PANEL: Synthesis = Synthesis::panel(false, DisocclusionSource::Reference);
 
-/// What is known of what is hidden.
+/// The functions that see disocclusions, by their source.
 fn hidden(behind: DisocclusionSource) -> &'static str {
     match behind {
         DisocclusionSource::Nothing => PLAIN,

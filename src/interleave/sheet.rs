@@ -1,9 +1,9 @@
-//! A mask as a texture, as small as it can be: one period of it, in bytes where they do.
+//! A mask as the smallest possible texture: one period, in bytes where values fit.
 #![forbid(unsafe_code)]
 
 use crate::display::{GUARD, Mask};
 
-/// What is uploaded.
+/// The texture to upload.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Sheet {
     /// Columns and rows; the mask repeats after them.
@@ -24,7 +24,7 @@ pub(super) enum Texels {
 }
 
 impl Sheet {
-    /// A mask with `code` of each view instead of it; [`GUARD`] stays and is black.
+    /// From a mask, with `code(view)` in place of each view; a [`GUARD`] is black.
     pub(super) fn new(mask: &Mask, code: impl Fn(u16) -> u16) -> Self {
         let (columns, rows) = period(mask);
         let rows_of = mask.data().chunks_exact(mask.width() as usize);
@@ -70,7 +70,7 @@ fn period(mask: &Mask) -> (usize, usize) {
     let repeats = |pixels: &[[u16; 3]], after: usize| {
         pixels.get(after..) == pixels.get(..pixels.len() - after)
     };
-    // Different columns or rows may have one sum.
+    // Different columns or rows may have the same hash.
     if mask.rows().all(|row| repeats(row, x)) && repeats(mask.data(), y * width) {
         (x, y)
     } else {
@@ -78,15 +78,15 @@ fn period(mask: &Mask) -> (usize, usize) {
     }
 }
 
-/// One more value in a sum of all of them.
+/// A hash with one more value.
 fn mixed(sum: u64, value: u64) -> u64 {
     (sum ^ value)
         .wrapping_mul(0x9E37_79B9_7F4A_7C15)
         .rotate_left(29)
 }
 
-/// The smallest distance at which all symbols repeat, at most their number: what is left of them beside the longest beginning that
-/// is also their end.
+/// The smallest period of the symbols, at most their number: the number without the longest proper prefix that is also a suffix.
+/// Computed with the failure function of Knuth, Morris and Pratt.
 fn smallest_period(symbols: &[u64]) -> usize {
     let mut borders: Vec<usize> = Vec::with_capacity(symbols.len());
     for symbol in symbols {
@@ -107,7 +107,7 @@ mod tests {
     use super::*;
     use crate::display::{Display, Placement};
 
-    /// What a shader reads at a pixel.
+    /// The value that a shader reads at a pixel.
     fn read(sheet: &Sheet, x: u32, row: u32) -> [u16; 3] {
         let [columns, rows] = sheet.period;
         let at = (row % rows * columns + x % columns) as usize;

@@ -1,9 +1,9 @@
-//! The views that are drawn while others are made of them.
+//! The views that are drawn while others are synthesised from them.
 #![forbid(unsafe_code)]
 
 use crate::view::ViewIndex;
 
-/// Some views, from left to right.
+/// The drawn views, from left to right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sources {
     views: [ViewIndex; Sources::MOST as usize],
@@ -11,11 +11,11 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// As many as there may be: what `shaders/between.wgsl` has room for.
+    /// The greatest number of drawn views, for which `shaders/between.wgsl` has room.
     pub const MOST: u32 = 8;
 
-    /// `count` of `views`, at least 1 and at most [`Sources::MOST`]: the own one, and each time the one that is farthest from all
-    /// before, the rightmost of them. So those of a smaller count are among those of a larger one.
+    /// Chooses `count` of `views`, at least 1 and at most [`Sources::MOST`]: the own one, and each time the view that is farthest from all
+    /// chosen ones, the rightmost where several are. The views of a smaller count are therefore among those of a larger one.
     #[must_use]
     pub fn spread(own: ViewIndex, views: u32, count: u32) -> Sources {
         let count = count.clamp(1, views.min(Self::MOST));
@@ -44,14 +44,14 @@ impl Sources {
         self.iter().any(|source| source == view)
     }
 
-    /// As many as there are.
+    /// The number of drawn views.
     #[must_use]
     pub fn count(&self) -> u32 {
         self.count
     }
 
-    /// Which of them a view is made of: the nearest, the left one of two that are equally near, and the nearest on the other side of the
-    /// view, or beyond the first where there is none.
+    /// Indices of the two sources of a view: the nearest one, or the left of two equally near ones; and the nearest one on the other side of the
+    /// view, or where there is none, the next one beyond the first.
     #[must_use]
     pub fn pair(&self, view: ViewIndex) -> [u32; 2] {
         let right = self.iter().filter(|&source| source <= view).count() as u32;
@@ -69,13 +69,13 @@ impl Sources {
         }
     }
 
-    /// One of them.
+    /// A drawn view by its index from the left.
     #[must_use]
     pub fn view(&self, i: u32) -> ViewIndex {
         self.views.get(i as usize).copied().unwrap_or(ViewIndex(0))
     }
 
-    /// How many places away the farthest of `views` is that one of them is needed for.
+    /// The distance, in views, from a source to the farthest of `views` that is synthesised from it; 0 where there is none.
     #[must_use]
     pub fn farthest(&self, i: u32, views: u32) -> u32 {
         let made = ViewIndex::all(views).filter(|&view| !self.has(view));

@@ -22,7 +22,7 @@ fn seeded(cases: u32) -> ProptestConfig {
     }
 }
 
-/// Every subpixel of every view has its own value, as far as 8 bits go.
+/// Every subpixel of every view has a value of its own, as far as 8 bits allow.
 fn tiles(views: u32, width: u32, height: u32) -> Vec<RgbImage> {
     (0..views)
         .map(|view| {
@@ -385,8 +385,8 @@ fn filters_at_places_between_views() {
         let mask = Mask::new(1, 1, vec![[step; 3]]).unwrap();
         filtered(&views, &mask, filter).unwrap().get_pixel(0, 0).0[0]
     };
-    // In the middle of a view, which lies between two steps, blending takes it nearly alone: half a step is a 512th of the light of
-    // 100, which is 0.127. At the ends there is no view beyond.
+    // The middle of a view lies between two steps, so blending takes nearly that view alone: half a step adds a 512th of the light of
+    // 100, which is 0.127. Beyond the ends there is no view.
     assert_eq!(
         [0, 127, 128].map(|step| shown(step, Filter::Blend)),
         [0, 0, 1]
@@ -396,7 +396,7 @@ fn filters_at_places_between_views() {
         [512 + 128, 767].map(|step| shown(step, Filter::Blend)),
         [200, 200]
     );
-    // Half way from 100 to 200 there is the mean of the light: 0.127 and 0.578 make 0.352, which is 161.
+    // Halfway from 100 to 200 is the mean of their light: 0.127 and 0.578 give 0.352, which is 161.
     assert!((160..=162).contains(&shown(511, Filter::Blend)));
     // A view's neighbours have a quarter of its weight: (0.127 + 0.249 (0 + 0.578)) / 1.499 is 0.181, which is 118.
     assert!((117..=119).contains(&shown(256 + 128, Filter::Gaussian)));
@@ -410,7 +410,7 @@ fn filters_at_places_between_views() {
     }
 }
 
-/// Sums of rows: what both glasses let through of white is white.
+/// White through both glasses is white: the rows of both matrices add up to 1.
 #[test]
 fn anaglyphs_keep_white_and_separate_the_eyes() {
     let white = RgbImage::from_pixel(1, 1, Rgb([255; 3]));
@@ -446,7 +446,7 @@ fn anaglyphs_keep_white_and_separate_the_eyes() {
             assert!((sum - 1.0).abs() < 0.0025, "{kind:?}: {sum}");
         }
     }
-    // Colours of one view, by hand: luminance of red in linear light is 0.2126.
+    // One view by hand: the luminance of red in linear light is 0.2126.
     let red = RgbImage::from_pixel(1, 1, Rgb([255, 0, 0]));
     let half = |glasses| Anaglyph {
         glasses,

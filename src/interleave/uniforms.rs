@@ -7,44 +7,44 @@ use super::disparities::Disparities;
 use crate::atlas::Tiles;
 use crate::config::Filter;
 
-/// What the passes need to know. Sizes in pixels, width and height.
+/// The parameters of a pass. Sizes are in pixels, width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniforms {
-    /// The views, and where they lie.
+    /// Places of the views in the atlas.
     pub tiles: Tiles,
     /// True when row 0 of the views' texture is the top row of the picture.
     pub rows_top_down: bool,
-    /// The picture made.
+    /// Size of the output picture.
     pub picture: [u32; 2],
     /// Whole views beside each other; only the layout pass reads it.
     pub layout: Layout,
-    /// Colours are linear light when they are fetched, and are written as such.
+    /// Colours are fetched and written as linear light.
     pub linear: bool,
     /// Only the passes of a panel read it.
     pub mask: MaskUniforms,
-    /// Of the left and the right view; only the anaglyph pass reads them.
+    /// The matrices of the left and the right view; only the anaglyph pass reads them.
     pub matrices: (Matrix, Matrix),
-    /// White and black as values of the depth buffer; only the RGBD pass reads them.
+    /// Depth buffer values that are shown white and black; only the RGBD pass reads them.
     pub depth: [f32; 2],
-    /// What depths are; only the passes of synthesis read it.
+    /// Disparities of the depths; only the passes of synthesis read them.
     pub disparities: Disparities,
 }
 
-/// What a panel's passes need to know of the mask.
+/// The parameters of a panel's passes that describe the mask.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaskUniforms {
-    /// What a subpixel between views shows; only the interleave pass reads it.
+    /// How a subpixel between views is filtered; only the interleave pass reads it.
     pub filter: Filter,
-    /// It repeats after as many columns and rows, at least 1.
+    /// Columns and rows after which the mask repeats, at least 1.
     pub period: [u32; 2],
-    /// Bits of a place in it that are its column; only the passes of texels read it.
+    /// Number of low bits of a tile address that are its column; only the passes of texels read it.
     pub column_bits: u32,
-    /// What it has at black subpixels.
+    /// Value of the mask at black subpixels.
     pub black: u32,
 }
 
 impl Default for MaskUniforms {
-    /// Of no mask.
+    /// Values for a pass without a mask.
     fn default() -> Self {
         MaskUniforms {
             filter: Filter::Nearest,
@@ -72,7 +72,7 @@ impl Words {
 }
 
 impl Uniforms {
-    /// In the order and alignment of the WGSL struct.
+    /// The words in the order and alignment of the WGSL struct.
     pub fn words(&self) -> Vec<u32> {
         let (tiles, mask) = (&self.tiles, &self.mask);
         let views = tiles.views.max(1);

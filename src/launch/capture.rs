@@ -1,4 +1,4 @@
-//! Running a program until the pictures that were asked for are on disk.
+//! Runs a program until the requested pictures are on disk.
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
@@ -21,30 +21,31 @@ const END_LIMIT: Duration = Duration::from_secs(2);
 /// One capture.
 #[derive(Debug)]
 pub struct CaptureJob<'a> {
-    /// The program, checked, with the capture among its options.
+    /// The checked program, with the capture among its options.
     pub launch: &'a Launch,
     /// The pictures.
     pub capture: &'a Capture,
-    /// Where the layer reports, if it does.
+    /// The file in which the layer reports its status.
     pub status: &'a Path,
-    /// How long the last picture may take.
+    /// Time limit for all pictures.
     pub timeout: Duration,
 }
 
-/// What came of it.
+/// The result of a capture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Captured {
-    /// The pictures, in order.
+    /// The pictures, in the order of frames.
     pub files: Vec<PathBuf>,
-    /// What the layer wants the user to know.
+    /// Notes of the layer for the user.
     pub notes: Vec<String>,
 }
 
-/// Tells one version of a file from the next: device, inode, seconds and nanoseconds of its last change.
+/// Identifies a version of a file: device, inode, seconds and nanoseconds of its last change.
 type Stamp = (u64, u64, i64, i64);
 
 impl CaptureJob<'_> {
-    /// Starts the program, waits for the pictures, ends the program. `progress` gets pictures so far and frames seen.
+    /// Starts the program, waits for the pictures and ends the program. `progress` gets the number of pictures so far, and the number of
+    /// frames if it is known.
     pub fn run(&self, mut progress: impl FnMut(u64, Option<u64>)) -> Result<Captured, LaunchError> {
         let mut signals = signals::catch()?;
         let screen = Screen::find()?;
@@ -54,7 +55,7 @@ impl CaptureJob<'_> {
         let mut next = self.capture.first;
         let mut files = Vec::new();
         loop {
-            // Asked before the files are looked at: what the program wrote before its end counts.
+            // Checked before the files are listed, so that a picture which the program wrote just before its end counts.
             let ended = program.ended();
             while next <= self.capture.last
                 && let Some(file) = self.new_file(next, &before)
@@ -96,7 +97,7 @@ impl CaptureJob<'_> {
         }
     }
 
-    /// What the layer said, also after a failure.
+    /// Notes of the layer for the user, also after a failure.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         Status::read(self.status)
@@ -110,7 +111,7 @@ impl CaptureJob<'_> {
         Program::start(self.launch, command)
     }
 
-    /// The picture of a frame, once it is there: what the layer adds to the name of a quilt is not known before.
+    /// The picture of a frame, once it exists. The folder is searched for quilts, because the layer adds columns and rows to their names.
     fn new_file(&self, frame: u64, before: &HashMap<PathBuf, Stamp>) -> Option<PathBuf> {
         let is_new = |path: &PathBuf| stamp(path).is_some_and(|now| before.get(path) != Some(&now));
         let plain = self.capture.path_for(frame);
@@ -126,7 +127,7 @@ impl CaptureJob<'_> {
         })
     }
 
-    /// How many frames the program got, in words: the layer tells ten times a second.
+    /// How many frames the program has shown, in words. "At least", because the layer reports only ten times a second.
     fn seen(&self, next: u64) -> String {
         let pictures = next - self.capture.first;
         match Status::read(self.status) {
@@ -138,7 +139,7 @@ impl CaptureJob<'_> {
     }
 }
 
-/// The program and everything in its process group; ended when dropped.
+/// The program and all others in its process group. They are ended when it is dropped.
 pub(super) struct Program {
     child: Child,
     ended: Option<Ended>,
@@ -146,7 +147,8 @@ pub(super) struct Program {
 
 impl Program {
     pub(super) fn start(launch: &Launch, mut command: Command) -> Result<Self, LaunchError> {
-        // The program leads its own group, so that ending it ends what it started; a terminal would stop it on a read.
+        // The program leads a group of its own, so that the programs that it starts end with it. Such a group is in the background, where a
+        // read from the terminal would stop it.
         command.process_group(0);
         if std::io::stdin().is_terminal() {
             command.stdin(Stdio::null());
@@ -170,7 +172,7 @@ impl Drop for Program {
         if self.ended.is_some() {
             return;
         }
-        // The program stays a zombie while NOWAIT asks, so its number, and the group's, cannot go to somebody else.
+        // With NOWAIT an ended program stays a zombie, so its number, which is also the group's, is not given to another process.
         let peek = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
         let limit = Instant::now() + END_LIMIT;
         let _ = kill_process_group(group, Signal::TERM);
@@ -182,7 +184,7 @@ impl Drop for Program {
     }
 }
 
-/// The files that are in the folder of the pictures already.
+/// The versions of the files that are already in the folder of the pictures.
 fn stamps(capture: &Capture) -> HashMap<PathBuf, Stamp> {
     entries(capture)
         .filter_map(|path| stamp(&path).map(|stamp| (path, stamp)))

@@ -1,7 +1,7 @@
-//! What a program would meet here: the layer, the OpenGL libraries, and the contexts they give.
+//! Examines the environment of a program: the layer, the OpenGL libraries, and the contexts that these give.
 //!
-//! Contexts are tried by the helper `manyview-probe API` in a process of its own, with the layer preloaded and a time
-//! limit; it answers one line of JSON, a [`Probe`]. A driver that crashes takes only the helper with it.
+//! The helper `manyview-probe API` tries contexts in a process of its own, with the layer preloaded and a time limit. It
+//! prints one line of JSON, a [`Probe`]. A driver that crashes ends only the helper.
 #![forbid(unsafe_code)]
 
 use super::elf::Elf;
@@ -23,10 +23,10 @@ use std::time::{Duration, Instant};
 const HELPER: &str = "manyview-probe";
 const APIS: &[&str] = &["glx", "egl", "osmesa"];
 const PROBE_LIMIT: Duration = Duration::from_secs(20);
-/// Prefixes of hooked names; the longer one first where one starts another.
+/// Prefixes of hooked names. Where one is the beginning of another, the longer one comes first.
 const FAMILIES: &[&str] = &["OSMesa", "glX", "egl", "gl", "dl"];
 
-/// Everything `doctor` says.
+/// Everything that `manyview doctor` reports.
 #[derive(Debug, Serialize)]
 pub struct Findings {
     /// The program, if one was named.
@@ -35,7 +35,7 @@ pub struct Findings {
     pub library: Result<PathBuf, String>,
     /// Number of hooked names by prefix.
     pub hooks: BTreeMap<String, usize>,
-    /// The OpenGL libraries the program would get.
+    /// The OpenGL libraries that the program would load.
     pub libraries: Vec<GlLibrary>,
     /// `DISPLAY`, if set.
     pub display: Option<String>,
@@ -48,7 +48,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Looks at everything. A program that cannot be started under the layer is an error.
+    /// Gathers all findings. A program that cannot be started under the layer is an error.
     pub fn gather(app: Option<&OsStr>) -> Result<Self, LaunchError> {
         let app = app.map(preflight::check_app).transpose()?;
         let library = library::find();
@@ -76,7 +76,7 @@ impl Findings {
         })
     }
 
-    /// What keeps the layer from working here at all.
+    /// The reason why the layer cannot work here at all. None if it can.
     #[must_use]
     pub fn obstacle(&self) -> Option<String> {
         if let Err(reason) = &self.library {
@@ -98,7 +98,7 @@ impl Findings {
     }
 }
 
-/// Counts the names that the library puts before those of the drivers.
+/// Counts the hooked names that the library exports, by prefix.
 fn hooks(library: &Path) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     let exports = Elf::open(library)
@@ -114,7 +114,7 @@ fn hooks(library: &Path) -> BTreeMap<String, usize> {
     counts
 }
 
-/// Tries one API with the layer as it is by default, whatever the caller's variables say.
+/// Tries one API with the layer at its defaults, whatever the caller's variables are.
 fn probe(helper: &Path, api: &str, library: Option<&Path>, screen: Option<&Xvfb>) -> Probe {
     let mut command = Command::new(helper);
     command.arg(api).env_remove(config::DISABLE);
@@ -136,7 +136,7 @@ fn probe(helper: &Path, api: &str, library: Option<&Path>, screen: Option<&Xvfb>
     })
 }
 
-/// Runs the helper to its end and reads its last line.
+/// Runs the helper to its end and parses its last line.
 fn answer(mut command: Command) -> Result<Probe, String> {
     command
         .stdin(Stdio::null())

@@ -1,4 +1,4 @@
-//! As much of the ELF format as the launcher asks about: class, machine, interpreter, needed libraries, symbols.
+//! The parts of the ELF format that the launcher needs: class, machine, interpreter, needed libraries, symbols.
 //!
 //! Based on: System V ABI, gABI chapters 4 and 5. Little-endian 64-bit files are read in full, others by their class.
 #![forbid(unsafe_code)]
@@ -16,28 +16,28 @@ const DT_RPATH: u64 = 15;
 const DT_RUNPATH: u64 = 29;
 const SHT_DYNSYM: u32 = 11;
 const SHN_UNDEF: u16 = 0;
-/// No table we read is larger; a larger one is a broken file.
+/// The most bytes read of a table. A larger table belongs to a broken file.
 const MAX_TABLE: u64 = 16 * 1024 * 1024;
 
-/// What a program or library says about itself.
+/// Facts about a program or library, from its file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Elf {
     /// 32 or 64.
     pub bits: u8,
     /// `e_machine`.
     pub machine: u16,
-    /// The file asks for a dynamic loader.
+    /// The file names a dynamic loader.
     pub has_interpreter: bool,
     /// `DT_NEEDED`, in order.
     pub needed: Vec<String>,
-    /// `DT_RUNPATH`, else `DT_RPATH`, folders in order.
+    /// The folders of `DT_RUNPATH`, or else of `DT_RPATH`, in order.
     pub search: Vec<String>,
-    /// Names of the dynamic symbols it defines.
+    /// Names of the dynamic symbols that the file defines.
     pub exports: Vec<String>,
 }
 
 impl Elf {
-    /// Reads a file; `None` if it is no ELF file, an error if it cannot be read or is cut short.
+    /// Reads a file. `None` if it is not an ELF file, an error if it cannot be read.
     pub fn open(path: &Path) -> std::io::Result<Option<Self>> {
         let mut file = File::open(path)?;
         let mut head = Vec::new();
@@ -59,7 +59,7 @@ impl Elf {
         Ok(Some(elf))
     }
 
-    /// True if this machine's 64-bit programs can load it.
+    /// True if 64-bit programs of this machine can load the file.
     #[must_use]
     pub fn is_native(&self) -> bool {
         let ours = match std::env::consts::ARCH {
@@ -95,7 +95,7 @@ impl Elf {
         let loads = segments
             .iter()
             .filter(|segment| u32_at(segment, 0) == PT_LOAD);
-        // The string table is named by its address in memory; the segment that holds it says where that is in the file.
+        // The string table is given by its address in memory; the segment that holds the address gives the place in the file.
         let Some(strings) = loads.into_iter().find_map(|segment| {
             let (start, length) = (u64_at(segment, 16), u64_at(segment, 32));
             let inside = address

@@ -1,27 +1,27 @@
-//! Why a program was not started, or its pictures not taken.
+//! Errors of starting programs and of taking pictures.
 #![forbid(unsafe_code)]
 
 use crate::config::ConfigError;
 use std::path::PathBuf;
 
-/// What went wrong; each kind has its exit status.
+/// Why a program was not started, or its pictures were not taken. Each kind has an exit status.
 #[derive(Debug, thiserror::Error)]
 pub enum LaunchError {
-    /// An option.
+    /// An option is wrong.
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// The program is neither a path nor in PATH.
     #[error("{0}: not found; give a path, or a name that is in PATH")]
     AppNotFound(String),
-    /// The program cannot be executed at all.
+    /// The program cannot be executed.
     #[error("{}: {reason}", path.display())]
     AppNotExecutable {
         /// The program.
         path: PathBuf,
-        /// What stands in the way.
+        /// The obstacle.
         reason: String,
     },
-    /// The program runs, but never with the layer in it.
+    /// The program can run, but the loader would not preload the layer.
     #[error("{}: {reason}, so the layer cannot enter it", path.display())]
     AppClosed {
         /// The program.
@@ -29,10 +29,10 @@ pub enum LaunchError {
         /// What keeps the layer out.
         reason: &'static str,
     },
-    /// A folder for results that is not there or not writable.
+    /// The folder of a result does not exist or is not writable.
     #[error("{purpose} cannot be written to {}: {reason}", path.display())]
     NotWritable {
-        /// What would be written.
+        /// The kind of result.
         purpose: &'static str,
         /// The file.
         path: PathBuf,
@@ -45,10 +45,10 @@ pub enum LaunchError {
         searched.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(" nor in ")
     )]
     NoLibrary {
-        /// Where it was looked for.
+        /// The folders that were searched.
         searched: Vec<PathBuf>,
     },
-    /// The library that was named cannot be preloaded.
+    /// The library cannot be preloaded.
     #[error("the library {} cannot be preloaded: {reason}", path.display())]
     BadLibrary {
         /// The library.
@@ -56,36 +56,36 @@ pub enum LaunchError {
         /// What is wrong with it.
         reason: String,
     },
-    /// No DISPLAY and no X server of our own.
+    /// DISPLAY is not set, and no X server of our own starts.
     #[error("DISPLAY is not set and Xvfb {reason}; install the package xvfb, or set DISPLAY")]
     NoDisplay {
-        /// What happened to Xvfb.
+        /// Why there is no Xvfb.
         reason: String,
     },
-    /// No context of any kind.
+    /// No API gives an OpenGL context.
     #[error(
         "no OpenGL context can be made here; install a driver such as the package libgl1-mesa-dri"
     )]
     NoOpenGl,
-    /// Something the system refused.
+    /// The system refused a request.
     #[error("{doing}: {source}")]
     System {
-        /// What was tried.
+        /// The request.
         doing: &'static str,
-        /// The refusal.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The program ended before the last picture was taken.
     #[error("the program ended {how} after {seen}; frame {wanted} was never shown")]
     EndedEarly {
-        /// With which status.
+        /// Its exit status or signal, in words.
         how: String,
-        /// How many frames it got.
+        /// How many frames the program has shown, in words.
         seen: String,
         /// The first frame that is missing.
         wanted: u64,
     },
-    /// The time for the capture is over.
+    /// The time limit of a capture has passed.
     #[error(
         "frame {wanted} was not shown within {seconds} s, the program got to {seen}; give it more with --timeout"
     )]
@@ -94,39 +94,39 @@ pub enum LaunchError {
         wanted: u64,
         /// The limit.
         seconds: u64,
-        /// How many frames it got.
+        /// How many frames the program has shown, in words.
         seen: String,
     },
-    /// A scene that gave no times.
+    /// A scene ended without giving times.
     #[error(
         "the scene {what} ended {how} before its frames were drawn; `manyview doctor` says what OpenGL there is"
     )]
     SceneEnded {
         /// Scene and configuration.
         what: String,
-        /// With which status.
+        /// Its exit status or signal, in words.
         how: String,
     },
-    /// A scene that takes too long.
+    /// A scene takes too long.
     #[error(
         "the scene {what} did not draw {frames} frames within {seconds} s; ask for fewer views or a smaller --size"
     )]
     SceneSilent {
         /// Scene and configuration.
         what: String,
-        /// As asked for.
+        /// The requested number of frames.
         frames: u32,
         /// The limit.
         seconds: u64,
     },
-    /// A scene that answers something else.
+    /// A scene printed something other than times.
     #[error(
         "the scene {what} answered '{line}' in place of times; build it again with `make demos`"
     )]
     SceneAnswer {
         /// Scene and configuration.
         what: String,
-        /// What it said.
+        /// The printed line.
         line: String,
     },
     /// A signal asked the launcher to stop.

@@ -1,4 +1,4 @@
-//! Where the layer's library is.
+//! Finds the layer's library.
 #![forbid(unsafe_code)]
 
 use super::elf::Elf;
@@ -8,7 +8,7 @@ use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
-/// Finds the library: `MANYVIEW_LIBRARY`, beside the command, or `../lib/manyview` of the command's folder.
+/// Finds the library: the path in `MANYVIEW_LIBRARY`, else beside the command, else in `../lib/manyview` of the command's folder.
 pub fn find() -> Result<PathBuf, LaunchError> {
     if let Some(named) = std::env::var_os(LIBRARY).filter(|value| !value.is_empty()) {
         return check(PathBuf::from(named));
@@ -24,7 +24,7 @@ pub fn find() -> Result<PathBuf, LaunchError> {
     }
 }
 
-/// Finds a helper program of ours by the same rule.
+/// Finds one of our helper programs, beside the command or in `../lib/manyview` of its folder.
 #[must_use]
 pub fn find_helper(name: &str) -> Option<PathBuf> {
     folders()
@@ -33,7 +33,8 @@ pub fn find_helper(name: &str) -> Option<PathBuf> {
         .find(|path| path.is_file())
 }
 
-/// Where the scenes of `manyview bench` are: `scenes` beside the library, or `demos` beside the build that it is of.
+/// The folders of the scenes of `manyview bench`: `scenes` beside an installed library, and `demos` beside the build folder that holds the
+/// library.
 pub fn scene_folders() -> Result<[PathBuf; 2], LaunchError> {
     let library = find()?;
     let beside = library.parent().unwrap_or(Path::new("/"));
@@ -53,7 +54,7 @@ fn folders() -> Vec<PathBuf> {
     vec![beside, installed]
 }
 
-/// A path that `LD_PRELOAD` can hold, of a library that this machine can load.
+/// The whole path of a library, after checking that `LD_PRELOAD` can express it and that this machine can load it.
 fn check(path: PathBuf) -> Result<PathBuf, LaunchError> {
     let bad = |reason: &str| LaunchError::BadLibrary {
         path: path.clone(),

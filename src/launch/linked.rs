@@ -1,4 +1,4 @@
-//! Which OpenGL libraries a program would get, read from its files without starting it.
+//! The OpenGL libraries that a program would load, read from its files without starting it.
 #![forbid(unsafe_code)]
 
 use super::elf::Elf;
@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Names of libraries that the layer stands before, and the OpenGL ES one, which it leaves alone.
+/// Beginnings of the names of OpenGL libraries: those whose functions the layer hooks, and those of OpenGL ES, which it leaves alone.
 const FAMILIES: &[&str] = &[
     "libGL.so",
     "libOpenGL.so",
@@ -16,28 +16,28 @@ const FAMILIES: &[&str] = &[
     "libGLESv1_CM.so",
     "libGLESv2.so",
 ];
-/// What programs ask for by name when they link none of them.
+/// The libraries that programs load by name when they link none.
 const USUAL: &[&str] = &[
     "libGL.so.1",
     "libOpenGL.so.0",
     "libEGL.so.1",
     "libOSMesa.so.8",
 ];
-/// More libraries than this and the search stops; a browser has some three hundred.
+/// The search stops after this many libraries; a browser has some three hundred.
 const MAX_LIBRARIES: usize = 2000;
 
 /// One OpenGL library.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct GlLibrary {
-    /// Its name in the program.
+    /// The name by which the program asks for it.
     pub name: String,
-    /// The file, if there is one.
+    /// The file, if it exists.
     pub path: Option<PathBuf>,
-    /// The program or library that links it; nothing if it would be loaded by name.
+    /// The program or library that links it. None if it would be loaded by name.
     pub linked_by: Option<String>,
 }
 
-/// The OpenGL libraries that `app` links, directly or through others; without `app`, the usual ones by name.
+/// The OpenGL libraries that `app` links, directly or through other libraries. Without `app`, those that programs usually load by name.
 #[must_use]
 pub fn linked_gl(app: Option<&Path>) -> Vec<GlLibrary> {
     let cache = Cache::read();
@@ -97,7 +97,7 @@ fn expand(folder: &str, origin: &Path) -> PathBuf {
     )
 }
 
-/// Where the loader looks: `LD_LIBRARY_PATH` and its cache.
+/// Where the loader searches: the folders of `LD_LIBRARY_PATH`, and its cache.
 struct Cache {
     folders: Vec<PathBuf>,
     files: HashMap<String, PathBuf>,
@@ -125,7 +125,7 @@ impl Cache {
         }
     }
 
-    /// The order of ld.so(8), with `DT_RPATH` taken for `DT_RUNPATH`.
+    /// Finds a library in the order of ld.so(8), but with `DT_RPATH` treated as `DT_RUNPATH`.
     fn find(&self, name: &str, search: &[PathBuf]) -> Option<PathBuf> {
         let folders = self.folders.iter().chain(search);
         let in_folder = folders
@@ -139,7 +139,7 @@ fn native(path: &Path) -> bool {
     matches!(Elf::open(path), Ok(Some(elf)) if elf.is_native())
 }
 
-/// Lines such as `libGL.so.1 (libc6,x86-64) => /lib/x86_64-linux-gnu/libGL.so.1`; the first of our machine wins.
+/// Parses lines such as `libGL.so.1 (libc6,x86-64) => /lib/x86_64-linux-gnu/libGL.so.1`. The first line for this machine counts.
 fn parse(text: &str) -> HashMap<String, PathBuf> {
     let machine = match std::env::consts::ARCH {
         "x86_64" => "x86-64",

@@ -1,6 +1,6 @@
-//! Starting a program under the layer: what must hold before, the environment it gets, and its end.
+//! Starts a program under the layer: checks before the start, its environment, and its end.
 //!
-//! Only the command uses this; the preloaded library is built without it.
+//! Only the command uses this module; the preloaded library is built without it.
 #![forbid(unsafe_code)]
 
 mod capture;

@@ -1,4 +1,4 @@
-//! A scene that is drawn once and says something: what it said.
+//! Runs a scene to its end and returns its stdout.
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 const LIMIT: Duration = Duration::from_secs(60);
 const POLL: Duration = Duration::from_millis(2);
 
-/// Runs a scene without the layer; `what` is what messages call it.
+/// Runs a scene without the layer; `what` is its name in messages.
 ///
 /// # Errors
 /// If it does not start, does not end, or ends with another status than 0.
@@ -57,7 +57,7 @@ fn run(
         .stdout(Stdio::piped());
     let system = |doing| move |source| LaunchError::System { doing, source };
     let mut child = command.spawn().map_err(system("starting a scene"))?;
-    // In a thread of its own: a scene may say more than a pipe holds.
+    // A thread of its own reads, because a scene may print more than a pipe holds.
     let said = child.stdout.take().map(|mut stdout| {
         std::thread::spawn(move || {
             let mut text = String::new();

@@ -1,4 +1,4 @@
-//! What must hold before the program starts, so that a mistake is one line and not a picture that never comes.
+//! Checks before the program starts, so that a mistake is one line on stderr and not a picture that never comes.
 #![forbid(unsafe_code)]
 
 use super::elf::Elf;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Finds the program as a shell would, and refuses one that the layer cannot enter.
 pub fn check_app(name: &OsStr) -> Result<PathBuf, LaunchError> {
     let path = find(name)?;
-    // A script is not looked into: the programs it starts inherit the layer.
+    // A script is not checked: the programs that it starts inherit the layer.
     if let Ok(Some(elf)) = Elf::open(&path)
         && let Some(reason) = closed(&path, &elf)
     {
@@ -21,7 +21,7 @@ pub fn check_app(name: &OsStr) -> Result<PathBuf, LaunchError> {
     Ok(path)
 }
 
-/// Why the loader would not preload into this program.
+/// Why the loader would not preload into this program. None if it would.
 fn closed(path: &Path, elf: &Elf) -> Option<&'static str> {
     let mode = std::fs::metadata(path).map_or(0, |about| about.permissions().mode());
     let capabilities = getxattr(path, "security.capability", &mut [0_u8; 64]).is_ok();
@@ -75,7 +75,7 @@ fn executable(path: &Path) -> Result<(), LaunchError> {
         .map_err(|_| no("it is not executable; check its permissions".to_owned()))
 }
 
-/// The folders of the report and of the pictures must be there and writable.
+/// Checks that the folders of report, explanation and pictures exist and are writable.
 pub fn check_files(config: &Config) -> Result<(), LaunchError> {
     if let Some(report) = &config.report {
         writable("the report", report)?;
@@ -91,7 +91,7 @@ pub fn check_files(config: &Config) -> Result<(), LaunchError> {
     Ok(())
 }
 
-/// Checks that a file can be made or replaced in its folder.
+/// Checks that a file can be created or replaced in its folder.
 pub fn writable(purpose: &'static str, path: &Path) -> Result<(), LaunchError> {
     let no = |reason: String| LaunchError::NotWritable {
         purpose,

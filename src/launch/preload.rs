@@ -1,4 +1,4 @@
-//! `LD_PRELOAD` with our library first and once.
+//! The value of `LD_PRELOAD`, with our library first and only once.
 #![forbid(unsafe_code)]
 
 use crate::config::LIBRARY_FILE;
@@ -6,7 +6,7 @@ use std::ffi::{OsStr, OsString};
 use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::path::Path;
 
-/// Puts `library` before what `LD_PRELOAD` holds already; other copies of the layer are left out, the rest is kept.
+/// Puts `library` before the libraries that `LD_PRELOAD` already holds. Other copies of the layer are removed.
 #[must_use]
 pub fn with_library(library: &Path, before: Option<&OsStr>) -> OsString {
     let mut value = library.as_os_str().as_bytes().to_vec();

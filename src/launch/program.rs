@@ -1,4 +1,4 @@
-//! The program under the layer: its environment, its start and its exit status.
+//! A program under the layer: its environment, its start and its exit status.
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
@@ -19,7 +19,7 @@ pub struct Launch {
     arguments: Vec<OsString>,
     library: PathBuf,
     variables: Vec<(String, String)>,
-    /// The options, understood.
+    /// The parsed options.
     pub config: Config,
 }
 
@@ -28,7 +28,7 @@ pub struct Launch {
 pub struct Ended(pub ExitStatus);
 
 impl Ended {
-    /// Its exit status, or 128 + the signal that killed it, as a shell counts.
+    /// Its exit status, or 128 + the number of the signal that killed it, as in a shell.
     #[must_use]
     pub fn code(self) -> u8 {
         let code = self
@@ -39,7 +39,7 @@ impl Ended {
             .unwrap_or(u8::MAX)
     }
 
-    /// In words.
+    /// The end in words.
     #[must_use]
     pub fn describe(self) -> String {
         match (self.0.code(), self.0.signal()) {
@@ -78,7 +78,7 @@ impl Launch {
         })
     }
 
-    /// Runs the program to its end, in our place as far as signals and exit status go.
+    /// Runs the program to its end. Signals to the launcher are forwarded to it.
     pub fn run(&self) -> Result<Ended, LaunchError> {
         let mut signals = signals::catch()?;
         let mut child = self.spawn(self.command())?;
@@ -96,7 +96,7 @@ impl Launch {
             source,
         });
         handle.close();
-        // The thread only forwards; it cannot fail in a way that matters now.
+        // The thread only forwards signals, so its failure does not matter now.
         let _ = forwarder.join();
         status.map(Ended)
     }
@@ -115,7 +115,7 @@ impl Launch {
         command
     }
 
-    /// Starts the command; what the system refuses now is about the program.
+    /// Starts the command. All other causes were checked before, so an error is due to the program.
     pub(super) fn spawn(&self, mut command: Command) -> Result<Child, LaunchError> {
         command.spawn().map_err(|error| {
             let reason = match error.kind() {
@@ -130,8 +130,7 @@ impl Launch {
     }
 }
 
-/// The name by which the layer will know a program: that of its file, links followed.
-/// A program as it is without the layer, with nothing of the caller's own settings.
+/// The command for a program without the layer and without the caller's settings.
 pub(super) fn without_layer(program: &Path, arguments: &[OsString]) -> Command {
     let mut command = Command::new(program);
     command.args(arguments).env_remove("LD_PRELOAD");
@@ -143,19 +142,20 @@ pub(super) fn without_layer(program: &Path, arguments: &[OsString]) -> Command {
     command
 }
 
+/// The name by which the layer will know a program: that of its file, links followed.
 fn program_name(app: &Path) -> Option<String> {
     let path = app.canonicalize().ok()?;
     Some(path.file_name()?.to_string_lossy().into_owned())
 }
 
-/// `LD_PRELOAD` for this environment and this library.
+/// The value of `LD_PRELOAD` with this library and the current environment.
 pub(super) fn preload_value(library: &Path) -> OsString {
     preload::with_library(library, std::env::var_os("LD_PRELOAD").as_deref())
 }
 
 fn forward(pid: Pid, signal: i32) {
     if let Some(signal) = Signal::from_named_raw(signal) {
-        // It may have ended in between.
+        // The program may have ended in between.
         let _ = kill_process(pid, signal);
     }
 }

@@ -1,4 +1,4 @@
-//! Running a program until the layer has proved enough of its frames.
+//! Runs a program until the layer has proved enough of its frames.
 #![forbid(unsafe_code)]
 
 use super::capture::Program;
@@ -17,33 +17,33 @@ const POLL: Duration = Duration::from_millis(20);
 /// One program under one configuration, which asks for a proof.
 #[derive(Debug)]
 pub struct ProveJob<'a> {
-    /// The program, checked.
+    /// The checked program.
     pub launch: &'a Launch,
-    /// Where it draws.
+    /// The screen that it draws on.
     pub screen: &'a Screen,
-    /// Where the layer says how far it is.
+    /// The file in which the layer reports its status.
     pub status: &'a Path,
-    /// It is ended when so many frames are proved, or found not to be provable.
+    /// Number of frames, proved or found not to be provable, after which the program is ended.
     pub frames: u64,
-    /// It is ended after this time.
+    /// Time after which the program is ended.
     pub limit: Duration,
 }
 
 impl ProveJob<'_> {
-    /// Answers what the layer wants the user to know.
+    /// Runs the program and returns the layer's notes for the user.
     pub fn run(&self, stop: &mut Stop) -> Result<Vec<String>, LaunchError> {
         let mut command = self.launch.command();
         self.screen.give(&mut command);
         command
-            // Nothing waits for the monitor (Mesa's name for it, and NVIDIA's).
+            // No swap waits for the monitor (the variables of Mesa and of NVIDIA).
             .env("vblank_mode", "0")
             .env("__GL_SYNC_TO_VBLANK", "0")
-            // Ours is for the table.
+            // Our own stdout is for the table of results.
             .stdout(Stdio::null());
         let mut program = Program::start(self.launch, command)?;
         let limit = Instant::now() + self.limit;
         loop {
-            // Asked before the file is read: what the program wrote before its end counts.
+            // Checked before the file is read, so that a status which the layer wrote just before the end counts.
             let ended = program.ended();
             let status = Status::read(self.status).unwrap_or_default();
             let seen = seen(&status);
@@ -64,7 +64,7 @@ impl ProveJob<'_> {
     }
 }
 
-/// Frames that were proved or cannot be.
+/// Number of frames that were proved or cannot be proved.
 fn seen(status: &Status) -> u64 {
     let proof = status.proof.clone();
     let proof = proof.and_then(|proof| serde_json::from_value::<Summary>(proof).ok());

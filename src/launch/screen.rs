@@ -1,4 +1,4 @@
-//! The screen that programs draw on.
+//! The X screen that programs draw on.
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
@@ -8,11 +8,11 @@ use std::process::Command;
 /// A screen for programs that we start.
 #[derive(Debug)]
 pub enum Screen {
-    /// The one that `DISPLAY` names.
+    /// The screen that `DISPLAY` names.
     Callers,
-    /// One of our own; ends when it is dropped.
+    /// An Xvfb of our own, which ends when it is dropped.
     Own(Xvfb),
-    /// None: the program draws off screen.
+    /// No screen: the program draws off screen.
     None,
 }
 
@@ -26,7 +26,7 @@ impl Screen {
         }
     }
 
-    /// Lets a program draw on it.
+    /// Sets the environment of a program so that it draws on this screen.
     pub fn give(&self, command: &mut Command) {
         match self {
             Self::Callers => {}

@@ -1,4 +1,4 @@
-//! The signals that ask us to stop, and whether they are ours to pass on.
+//! The signals that ask the launcher to stop, and whether it has to pass them on.
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
@@ -8,9 +8,9 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::fs::File;
 
-/// Catches interrupt, terminate and hang-up from here on, except those that are ignored already (`nohup`).
+/// Catches SIGINT, SIGTERM and SIGHUP from here on, except those that are already ignored (`nohup`).
 ///
-/// A caught signal is back at its default in the programs we start, an ignored one stays ignored.
+/// In the programs that we start, a caught signal has its default action again, and an ignored one stays ignored.
 pub(super) fn catch() -> Result<Signals, LaunchError> {
     let ignored = ignored_mask();
     let wanted = [SIGINT, SIGTERM, SIGHUP]
@@ -22,7 +22,7 @@ pub(super) fn catch() -> Result<Signals, LaunchError> {
     })
 }
 
-/// True if the terminal has sent `signal` to the program as well, since it shares our process group.
+/// True if the terminal has sent `signal` to the program as well, which shares our process group.
 pub(super) fn from_keyboard(signal: i32) -> bool {
     let foreground = || tcgetpgrp(File::open("/dev/tty").ok()?).ok();
     signal == SIGINT && foreground() == Some(getpgrp())

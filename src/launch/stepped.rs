@@ -1,4 +1,4 @@
-//! A scene that draws frames on request, bare or under the layer; several of them can take turns.
+//! Scenes that draw frames on request, bare or under the layer, so that several can take turns.
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
@@ -16,20 +16,20 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-/// For one answer. A frame of 4 million triangles in 16 views by a CPU takes a minute.
+/// Time limit for one answer. On a CPU, a frame of 4 million triangles in 16 views takes a minute.
 const ANSWER_LIMIT: Duration = Duration::from_secs(600);
 const POLL: Duration = Duration::from_millis(100);
 const END_LIMIT: Duration = Duration::from_secs(2);
 
-/// How glibc's allocator is set for the bare program and under the layer alike, in bytes: what is freed at the end of a frame stays for the
+/// Settings of glibc's allocator, in bytes, for the bare program and under the layer alike: memory that is freed at the end of a frame stays for the
 /// next one. Measured on llvmpipe 22.3 with 800,000 triangles: the driver keeps a frame's triangles in blocks of 64 KiB and frees them once they are
-/// drawn; whether glibc then gives the end of the heap back to the system, 25 ms of a frame, depends on what lies behind them.
+/// drawn. Whether glibc then returns the end of the heap to the system, which takes 25 ms of a frame, depends on other blocks behind them.
 const ALLOCATOR: [(&str, &str); 2] = [
     ("MALLOC_MMAP_THRESHOLD_", "33554432"),
     ("MALLOC_TRIM_THRESHOLD_", "134217728"),
 ];
 
-/// The same settings for every scene, so that their times compare. What the user has set stays.
+/// Gives every scene the same settings, so that their times can be compared. Settings of the user stay.
 fn keep_freed_memory(command: &mut Command) {
     let own = ALLOCATOR.iter().map(|(name, _)| *name);
     let chosen = own
@@ -40,12 +40,12 @@ fn keep_freed_memory(command: &mut Command) {
     }
 }
 
-/// Whether the user wants us to stop.
+/// Tells whether the user has asked the launcher to stop.
 #[derive(Debug)]
 pub struct Stop(Signals);
 
 impl Stop {
-    /// Watches from here on.
+    /// Catches the signals from here on.
     pub fn watch() -> Result<Self, LaunchError> {
         signals::catch().map(Self)
     }
@@ -58,7 +58,7 @@ impl Stop {
     }
 }
 
-/// A running scene. It ends when it is dropped, or when we end: its stdin is closed then.
+/// A running scene. It ends when it is dropped, or when this process ends, because its stdin is then closed.
 #[derive(Debug)]
 pub struct Stepped {
     child: Child,
@@ -66,12 +66,12 @@ pub struct Stepped {
     requests: Option<ChildStdin>,
     answers: Receiver<String>,
     what: String,
-    /// What draws.
+    /// The driver that draws, as the scene reported it.
     pub hello: Hello,
 }
 
 impl Stepped {
-    /// Starts a scene without the layer; `what` is what messages call it.
+    /// Starts a scene without the layer; `what` is its name in messages.
     pub fn bare(
         program: &Path,
         arguments: &[OsString],
@@ -93,7 +93,7 @@ impl Stepped {
         Self::start(launch.command(), screen, what, stop)
     }
 
-    /// Starts a scene under the layer that keeps what `--strategy auto` finds in a folder of ours.
+    /// Starts a scene under the layer, with `cache` as the folder in which `--strategy auto` keeps its result.
     pub fn trying(
         launch: &Launch,
         screen: &Screen,
@@ -115,16 +115,16 @@ impl Stepped {
         screen.give(&mut command);
         keep_freed_memory(&mut command);
         command
-            // Bare is without the layer, and under the layer is not bare.
+            // The caller's variable must not turn the layer off in a scene that is measured under it.
             .env_remove(DISABLE)
-            // Frames are timed, not shown: nothing waits for the monitor (Mesa's name for it, and NVIDIA's).
+            // Frames are timed, not shown, so no swap waits for the monitor (the variables of Mesa and of NVIDIA).
             .env("vblank_mode", "0")
             .env("__GL_SYNC_TO_VBLANK", "0")
-            // Mesa tells every program that the first of them is set.
+            // Mesa prints a message in every program that has `vblank_mode` set.
             .env("MESA_DEBUG", "silent")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            // Ctrl-C is for us; we end the scene.
+            // Ctrl-C reaches only the launcher, which ends the scene.
             .process_group(0);
         let mut child = command.spawn().map_err(|source| LaunchError::System {
             doing: "starting a scene",
@@ -134,7 +134,7 @@ impl Stepped {
         if let Some(stdout) = child.stdout.take() {
             std::thread::spawn(move || {
                 let mut lines = BufReader::new(stdout).lines().map_while(Result::ok);
-                // Nobody listens once the scene is dropped.
+                // The receiver is gone once the scene is dropped.
                 lines.try_for_each(|line| sender.send(line))
             });
         }
@@ -153,9 +153,9 @@ impl Stepped {
         }
     }
 
-    /// Draws frames and answers their times.
+    /// Draws frames and returns their times.
     pub fn step(&mut self, frames: u32, stop: &mut Stop) -> Result<Times, LaunchError> {
-        // A scene that has ended is found out by its silence.
+        // A scene that has ended is detected when its answer is read.
         if let Some(requests) = &mut self.requests {
             let _ = writeln!(requests, "{frames}").and_then(|()| requests.flush());
         }
@@ -196,7 +196,7 @@ impl Stepped {
         }
     }
 
-    /// The end of its stdin is the end of a scene; one that is deaf is killed.
+    /// Closes the scene's stdin, which ends it. A scene that does not react is killed.
     fn end(&mut self) {
         self.requests = None;
         let limit = Instant::now() + END_LIMIT;

@@ -1,4 +1,4 @@
-//! An X server of our own for programs that want a window where there is no screen; it ends with us.
+//! An X server of our own, for programs that need a window where there is no screen.
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
@@ -13,12 +13,12 @@ const SCREEN: &str = "1920x1200x24";
 const START_LIMIT: Duration = Duration::from_secs(30);
 const END_LIMIT: Duration = Duration::from_secs(2);
 
-/// A running Xvfb. Dropping it ends exactly this one.
+/// A running Xvfb. Dropping it ends exactly this process.
 #[derive(Debug)]
 pub struct Xvfb {
     child: Child,
     display: String,
-    /// Kept open: the server writes its display number here.
+    /// The pipe to which the server writes its display number. It stays open.
     _number: BufReader<ChildStdout>,
 }
 
@@ -26,7 +26,7 @@ impl Xvfb {
     /// Starts a server on the first free display and waits until it accepts programs.
     pub fn start() -> Result<Self, LaunchError> {
         let mut child = Command::new("Xvfb")
-            // The server picks the number itself and writes it to descriptor 1, our pipe: no guessing, no race.
+            // The server itself chooses a free number and writes it to descriptor 1, which is our pipe. So there is no race for a number.
             .args([
                 "-displayfd",
                 "1",
@@ -40,7 +40,7 @@ impl Xvfb {
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
-            // Ctrl-C is for us; we end the server after the program.
+            // Ctrl-C reaches only the launcher, which ends the server after the program.
             .process_group(0)
             .spawn()
             .map_err(|error| LaunchError::NoDisplay {
@@ -73,21 +73,21 @@ impl Drop for Xvfb {
     }
 }
 
-/// Reads the first line of the server; a server that hangs before it is given up after [`START_LIMIT`].
+/// Reads the display number that the server prints. None if it prints none within [`START_LIMIT`].
 fn wait_for_number(child: &mut Child) -> Option<(u32, BufReader<ChildStdout>)> {
     let mut pipe = BufReader::new(child.stdout.take()?);
     let (sender, receiver) = mpsc::channel();
     std::thread::spawn(move || {
         let mut line = String::new();
         let read = pipe.read_line(&mut line);
-        // Nobody listens any more after the limit; then the pipe may as well close.
+        // After the limit the receiver is gone, and the pipe may close.
         let _ = sender.send(read.map(|_| (line, pipe)));
     });
     let (line, pipe) = receiver.recv_timeout(START_LIMIT).ok()?.ok()?;
     Some((line.trim().parse().ok()?, pipe))
 }
 
-/// Asks first, so that the server removes its lock and socket.
+/// Ends the server, with SIGTERM first so that it removes its lock and socket.
 fn end(child: &mut Child) {
     let limit = Instant::now() + END_LIMIT;
     if let Ok(None) = child.try_wait() {

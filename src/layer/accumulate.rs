@@ -61,7 +61,7 @@ impl Layer {
         let operation = Operation::of(op, value, mask.map(|m| m != 0))
             .filter(|_| self.state.window.accumulates() && self.reads_from_zero());
         let Some(operation) = operation else {
-            // The driver says what is wrong.
+            // The driver raises the error.
             return self.with_true_zero(gl, c::DRAW_FRAMEBUFFER, call);
         };
         let f = &self.state.framebuffers;
@@ -76,7 +76,7 @@ impl Layer {
         }
     }
 
-    /// Whether what is accumulated now goes to the accumulation buffer of framebuffer 0.
+    /// Whether glAccum and glClear now reach the accumulation buffer of framebuffer 0.
     fn accumulates(&self, gl: &Gl) -> bool {
         self.state.window.accumulates()
             && self.state.draws_to_window()
@@ -139,14 +139,14 @@ impl Layer {
         }
     }
 
-    /// All layers as a whole.
+    /// The regions of all layers of the atlas, each as a whole.
     fn rows(&self) -> Vec<Region> {
         let t = &self.targets.atlas.tiles;
         let rect = [0, 0, t.texture_width() as i32, t.height as i32];
         (0..t.rows).map(|row| Region { row, rect }).collect()
     }
 
-    /// What the scissor leaves of all tiles.
+    /// The regions that the scissor test leaves of the tiles.
     fn regions(&self) -> Vec<Region> {
         if !self.state.rectangles.scissor_test {
             return self.rows();

@@ -1,4 +1,4 @@
-//! `--strategy auto`: drives a [`Trial`] with the frames of the program, and keeps what it finds for the next start.
+//! `--strategy auto`: drives a [`Trial`] with the frames of the program, and keeps the outcome for the next start.
 
 use super::Layer;
 use crate::config::{Config, Strategy};
@@ -8,23 +8,23 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// The trial of a context, and when its last frame was done.
+/// The trial of a context, and the time at which its last frame was done.
 #[derive(Debug)]
 pub(super) struct Auto {
     trial: Trial,
     last: Option<Instant>,
-    /// What the outcome depends on.
+    /// The key of the outcome: the driver, the program and the number of views, which it depends on.
     key: String,
-    /// Where outcomes are kept.
+    /// The file of outcomes; none where there is no place for it.
     file: Option<PathBuf>,
 }
 
-/// Outcomes kept; the file is begun anew where there are more.
+/// Number of outcomes at which the file is begun anew.
 const KEPT: usize = 1000;
 
 impl Auto {
-    /// None where the user has chosen. What is captured has to be the same in each run, so it is replayed, and so is what is
-    /// explained.
+    /// None where the user has chosen a strategy, or there is one view. Frames that are captured or explained have to be the same in each
+    /// run, so such a run uses replay alone.
     pub(super) fn new(
         gl: &Gl,
         config: &Config,
@@ -48,7 +48,7 @@ impl Auto {
         let repeatable = config.capture.is_some() || config.explain.is_some();
         let candidates = match known {
             _ if repeatable => vec![Strategy::Replay],
-            // One strategy is proved, and no other drawn.
+            // A proof is of one strategy, so no other is tried.
             _ if config.prove.is_some() => vec![known.unwrap_or(Strategy::Replay)],
             _ => all.to_vec(),
         };
@@ -66,7 +66,7 @@ impl Auto {
 }
 
 impl Layer {
-    /// What the user has chosen, or `auto` has come to.
+    /// The strategy that the user has chosen, or that `auto` uses now.
     pub(super) fn chosen(&self) -> Strategy {
         self.session
             .auto
@@ -74,9 +74,9 @@ impl Layer {
             .map_or(self.session.config.strategy, Auto::strategy)
     }
 
-    /// A frame is in the true framebuffer 0: its time counts, and the next one may be drawn otherwise.
+    /// After a frame was drawn into the true framebuffer 0: counts its time, and may choose another strategy for the next one.
     pub(super) fn time_frame(&mut self, gl: &Gl) {
-        // What lies beside the views does not move with them: nothing else is tried as long as there is such a thing.
+        // The accumulation buffer and the front buffer do not move with the views: while there is one, no other strategy is tried.
         if self.targets.accumulated.buffer.is_some() || self.targets.atlas.has_front() {
             return;
         }
@@ -91,7 +91,7 @@ impl Layer {
         let Some(last) = auto.last.replace(now) else {
             return;
         };
-        // It is drawn mono by all of them.
+        // All strategies draw a mono frame alike.
         if mono {
             return;
         }
@@ -111,7 +111,7 @@ impl Layer {
     }
 }
 
-/// The file of outcomes, as the program was started; none where there is no place for it.
+/// Path of the file of outcomes, in the cache folder of the environment; none where that is not set to an absolute path.
 fn file() -> Option<PathBuf> {
     let folder = |name: &str| {
         std::env::var_os(name)
@@ -124,14 +124,14 @@ fn file() -> Option<PathBuf> {
         .then(|| cache.join("manyview").join("strategies.json"))
 }
 
-/// Strategies by key; nothing where it cannot be read.
+/// Strategies by key; empty where the file cannot be read.
 fn read(file: Option<&Path>) -> BTreeMap<String, String> {
     let text = file.and_then(|file| std::fs::read_to_string(file).ok());
     text.and_then(|text| serde_json::from_str(&text).ok())
         .unwrap_or_default()
 }
 
-/// For the next start. What cannot be written is tried again then.
+/// Adds an outcome to the file, for the next start. If it cannot be written, the next start tries again.
 fn keep(file: Option<&Path>, key: &str, found: Strategy) {
     let Some(file) = file else { return };
     let mut all = read(Some(file));

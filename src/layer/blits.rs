@@ -7,8 +7,9 @@ use crate::state::{Command, Run, Touch};
 use crate::view::ViewIndex;
 
 impl Layer {
-    /// glBlitFramebuffer: into every view's tile where it draws to framebuffer 0, or into each view's framebuffer; from the same view's
-    /// where it has one. `blit` takes the x offsets of source and destination in pixels; `scaled`: their sizes differ.
+    /// glBlitFramebuffer: writes to every view's tile where framebuffer 0 is bound for drawing, or else to each view's framebuffer. It reads
+    /// from the same view's image where the source has one. `blit` takes the x offsets of source and destination in pixels; `scaled`: their
+    /// sizes differ.
     pub fn blit(&mut self, gl: &Gl, scaled: bool, blit: &mut dyn FnMut(i32, i32)) {
         if self.compiles() {
             self.compile(gl, Command::Of(Run::Blit), Touch::NONE);
@@ -41,7 +42,7 @@ impl Layer {
         self.blit_views(gl, scaled, blit);
     }
 
-    /// Into a framebuffer that each view has its own of.
+    /// Blits into a framebuffer of the program's of which each view has its own.
     fn blit_aside(&mut self, gl: &Gl, blit: &mut dyn FnMut(i32, i32)) {
         self.state.refresh(gl);
         let (draw, read) = (self.state.framebuffers.draw, self.state.framebuffers.read);
@@ -96,8 +97,8 @@ impl Layer {
         self.rebind(gl);
     }
 
-    /// Where pixels lie between others, the nearest is a matter of rounding, and that is the window's only in a framebuffer of its
-    /// size.
+    /// Blits one view through a framebuffer of the window's size. Where a scaled blit takes the nearest pixel, the choice is a matter of
+    /// rounding, which is as in the window only in a framebuffer of that size.
     fn scaled_blit(
         &mut self,
         gl: &Gl,

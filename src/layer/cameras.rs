@@ -1,17 +1,17 @@
-//! What is known of the program's camera, and where the cameras of the views stand.
+//! The program's camera, as far as it is known, and the cameras of the views.
 
 use super::comfort::Comfort;
 use crate::config::{Config, Live, Projection};
 use crate::plan::{Classifier, Shear};
 
-/// What places the cameras of the views, and what tells the program's camera from other matrices.
+/// The classifier of draws, the measurement of depths that places the cameras of the views, and the raster position.
 #[derive(Debug)]
 pub(super) struct Cameras {
     pub(super) classifier: Classifier,
     pub(super) comfort: Comfort,
-    /// The shift under which the raster position was set; none where it is one of the window.
+    /// The shift of the projection under which the raster position was set; none where the position does not move with the view.
     pub(super) raster: Option<Shear>,
-    /// The projection under which the raster position was set; none where glWindowPos did it.
+    /// The kind of projection under which the raster position was set; [`Projection::None`] where glWindowPos did it.
     pub(super) raster_placed: Projection,
 }
 

@@ -12,7 +12,7 @@ use crate::view::ViewIndex;
 use std::path::{Path, PathBuf};
 
 impl Layer {
-    /// Writes the frame where the user has asked for it before, or asks for it now.
+    /// Writes the frame where an option or a request to the running program asks for it.
     pub(super) fn capture(&mut self, gl: &Gl, neutral: &Neutral, source: &Source) {
         let frame = self.diagnostics.report.frames() + 1;
         if let Some(wanted) = &self.session.config.capture
@@ -28,7 +28,7 @@ impl Layer {
         self.take_picture(gl, neutral, source, frame);
     }
 
-    /// Writes what is wanted of the frame and answers the file's name. Changes the framebuffers that are bound.
+    /// Writes what is wanted of the frame and returns the file's path. Changes the framebuffers that are bound.
     pub(super) fn write(
         &mut self,
         gl: &Gl,
@@ -95,7 +95,7 @@ impl Layer {
         written.map(|()| path)
     }
 
-    /// Layouts are written at the full size of their tiles, whatever the window's size.
+    /// Writes views in a layout, at the full size of their tiles, whatever the window's size.
     fn arranged(
         &self,
         gl: &Gl,

@@ -1,4 +1,4 @@
-//! Cameras by what is in the depth buffer, and what disparities there are: which depths are looked at, and when.
+//! Cameras that follow the depth buffer, and the disparities of the frames: which depths are read, and when.
 
 use super::{Layer, keep_bindings};
 use crate::config::{Camera, Config};
@@ -9,23 +9,23 @@ use crate::plan::depths::{DepthMapping, Distances};
 use crate::plan::{DepthMappings, comfort, parallax};
 use crate::report::Disparity;
 
-/// What is known of the frame's depths.
+/// State of the measurement of depths.
 #[derive(Debug)]
 pub(super) struct Comfort {
-    /// Depths are looked at: the cameras go by them, or the report tells of them.
+    /// Depths are read, because the cameras follow them or the report has disparities.
     on: bool,
     cameras: comfort::Comfort,
-    /// Found, and in force from the next frame on.
+    /// Separation and convergence that were found, in force from the next frame on.
     next: Option<(f64, f64)>,
     pub(super) mappings: DepthMappings,
-    /// Pictures of this frame, and those of the one before that were not read yet.
+    /// Depth pictures of this frame; `sent` has those of the previous one that were not read yet.
     taken: Vec<Taken>,
     sent: Vec<Taken>,
-    /// Those were taken for other cameras, an unknown time ago.
+    /// The pictures in `sent` are of other cameras or of another atlas, and must not be used.
     stale: bool,
 }
 
-/// What belongs to one picture of depths.
+/// What has to be known to use one depth picture.
 #[derive(Clone, Debug)]
 struct Taken {
     frame: u64,
@@ -52,12 +52,12 @@ impl Comfort {
         comfort
     }
 
-    /// Whether depths are looked at.
+    /// Whether depths are read.
     pub(super) fn looks(&self) -> bool {
         self.on
     }
 
-    /// Other cameras are asked for.
+    /// The user asks for other cameras.
     pub(super) fn change(&mut self, config: &Config, camera: Camera) {
         let measured = match camera {
             Camera::Measured(kept) => {
@@ -71,15 +71,15 @@ impl Comfort {
         self.on = config.views > 1 && (measured || config.report.is_some());
     }
 
-    /// The next frame is drawn to another atlas: what was taken of this one is not looked at.
+    /// The next frame is drawn to another atlas: the depth pictures of this one are not used.
     pub(super) fn leave_pictures(&mut self) {
         self.stale = !self.sent.is_empty();
     }
 }
 
 impl Layer {
-    /// Looks at the depths of the frame before, if they are there already: with a driver that is a frame behind they are not, and
-    /// wait until the end of this frame.
+    /// Reads the depths of the previous frame, if they have arrived. With a driver that is a frame behind they have not, and are read at the
+    /// end of this frame.
     pub(super) fn begin_frame(&mut self, gl: &Gl) {
         if self.cameras.comfort.sent.is_empty() || !self.targets.atlas.depths_are_there(gl) {
             return;
@@ -100,12 +100,12 @@ impl Layer {
         }
     }
 
-    /// Within a frame, before what is about to be drawn or cleared.
+    /// Takes a depth picture within a frame, before a draw or clear.
     pub(super) fn save_depths(&mut self, gl: &Gl) {
         self.in_neutral(gl, |layer, _| layer.take_depths(gl));
     }
 
-    /// The state is as [`Neutral`] has it.
+    /// Takes a depth picture of the scene, if there is anything to take. The state is neutral.
     fn take_depths(&mut self, gl: &Gl) {
         self.known.depths.pending = false;
         if self.state.window.bits[4] == 0 || self.cameras.comfort.mappings.is_empty() {
@@ -135,8 +135,8 @@ impl Layer {
         }
     }
 
-    /// At the end of a frame: looks at the depths of the one before, and takes this one's. The state is as [`Neutral`] has it;
-    /// changes the framebuffer bindings.
+    /// At the end of a frame: reads the depths of the previous one, and takes those of this one. The state is neutral; changes the
+    /// framebuffer bindings.
     pub(super) fn track_depths(&mut self, gl: &Gl) {
         if !self.cameras.comfort.on {
             return;
@@ -151,7 +151,7 @@ impl Layer {
         self.targets.atlas.send_depths(gl);
         let measured = matches!(self.session.live.camera, Camera::Measured(_));
         if measured && self.cameras.comfort.next.is_none() {
-            // Nothing has depth yet: better to wait once than to show another flat frame.
+            // No cameras were found yet: it is better to wait once for the depths than to show another flat frame.
             self.read_depths(gl);
         }
         if measured
@@ -174,7 +174,7 @@ impl Layer {
             return;
         }
         let pictures = self.targets.atlas.read_depths(gl);
-        // The atlas is another one since the window has another size.
+        // After a change of the window's size the atlas is another one, with other pictures.
         let stale = std::mem::take(&mut self.cameras.comfort.stale);
         if stale || pictures.len() != sent.len() {
             return;
@@ -196,7 +196,7 @@ impl Layer {
         self.known.rig.shear(p).map(|s| (s.separation(1.0), s.conv))
     }
 
-    /// What the display can show between neighbouring views.
+    /// The disparity that the display can show between neighbouring views.
     fn budget(&self) -> Budget {
         let (width, views) = (self.size().0, self.session.config.views);
         match self.output().is_stereo() {
@@ -210,7 +210,7 @@ impl Layer {
         f64::from(self.size().0) / 2.0
     }
 
-    /// The cameras for a frame of which this was seen, with the projection of its scene.
+    /// Finds the cameras for the distances that were seen in a frame; `p` is the projection of its scene.
     fn find_cameras(&mut self, p: &[f32; 16], seen: &comfort::Seen) {
         if let Camera::Measured(_) = self.session.live.camera {
             let (budget, lens) = (self.budget(), parallax::lens(p));
@@ -228,7 +228,7 @@ impl Layer {
         }
     }
 
-    /// Finds the cameras for a frame with these distances, and tells the report of its disparities.
+    /// Finds the cameras for a frame with these distances (1/w), and adds its disparities to the report.
     fn judge(
         &mut self,
         taken: &Taken,

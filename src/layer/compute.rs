@@ -1,12 +1,12 @@
-//! Compute shaders that read what the views differ in: each view gets images of its own to be written to.
+//! Compute shaders that read images which differ between the views: each view gets images of its own to be written to.
 
 use super::{Layer, keep_bindings};
 use crate::atlas::Tiles;
 use crate::gl::{Gl, ImageUnit, Object};
 
 impl Layer {
-    /// glDispatchCompute: once, or for each view with its textures and images. What is written to buffers is written each time: where there
-    /// is nothing but buffers to write to, they get what the program's own view makes of it.
+    /// glDispatchCompute: dispatches once, or for each view with its textures and images. Buffers are written by every dispatch. A shader
+    /// that writes to no image is dispatched once, with the textures and images of the program's own view.
     pub fn compute(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         if !self.has_copies() {
             return call();

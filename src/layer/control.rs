@@ -1,4 +1,4 @@
-//! What the running program is asked and told: the values in force, and pictures of the next frame.
+//! Requests to the running program: values in force, and pictures of the next frame.
 
 use super::Layer;
 use crate::config::{Camera, Capture, CaptureWhat, Live, OptionId, Output};
@@ -10,7 +10,7 @@ use crate::state::Neutral;
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 
-/// A picture that is asked for.
+/// State of a picture that is asked for.
 #[derive(Debug)]
 pub(super) enum Picture {
     None,
@@ -19,12 +19,12 @@ pub(super) enum Picture {
     Done(Result<Answer, ControlError>),
 }
 
-/// What has become of a picture.
+/// Outcome of a picture that was asked for.
 #[derive(Debug)]
 pub enum Pictured {
-    /// It is written, or it cannot be.
+    /// It was written, or the error says why not.
     Done(Result<Answer, ControlError>),
-    /// The frame was not shown as a picture: it is to be asked of the next one.
+    /// The frame was not shown, or lacked views: the picture has to be asked of the next one.
     Later(Capture),
 }
 
@@ -34,7 +34,7 @@ impl Layer {
         self.session.live
     }
 
-    /// Other values from the next draw on; to be called between frames, so that none is drawn with both.
+    /// Puts other values in force from the next draw on. It has to be called between frames, so that no frame is drawn with both.
     pub fn adopt(&mut self, live: Live) {
         if live.camera != self.session.live.camera {
             self.cameras
@@ -55,7 +55,7 @@ impl Layer {
         self.cameras.classifier.change_hud_depth(live.hud_depth);
     }
 
-    /// What the window shows.
+    /// The output in force; the own view alone while all cameras stand where the program's own does.
     pub(super) fn output(&self) -> Output {
         if self.session.live.flat {
             Output::View(self.targets.atlas.tiles.own().0)
@@ -64,8 +64,8 @@ impl Layer {
         }
     }
 
-    /// Does what is asked, or changes nothing. A picture is not taken here: `Ok(Err(..))` is the one to be given to
-    /// [`Layer::picture`] before the next frame is shown.
+    /// Carries out a request, or changes nothing and fails. A picture is not taken here: `Ok(Err(..))` has to be given to [`Layer::picture`]
+    /// before the next frame is shown.
     pub fn control(&mut self, order: Order) -> Result<Result<Answer, Capture>, ControlError> {
         match order {
             Order::Set(changes) => {
@@ -102,7 +102,7 @@ impl Layer {
         }
     }
 
-    /// Does what a key asks, as [`Layer::control`]. `picture` names the file of a frame.
+    /// Carries out the requests of a key, as [`Layer::control`] does. `picture` gives the path for the number of a frame.
     pub fn press(
         &mut self,
         key: Key,
@@ -155,7 +155,7 @@ impl Layer {
         values
     }
 
-    /// Only values of the cameras and of a lens sheet are not always there.
+    /// The error for a value that is not in force: only values of the cameras and of a lens sheet may be missing.
     fn not_in_force(&self, name: String) -> ControlError {
         ControlError::NotInForce {
             reason: match self.session.live.camera {
@@ -181,12 +181,12 @@ impl Layer {
         self.diagnostics.picture = Picture::Wanted(wanted);
     }
 
-    /// Whether a picture of the next frame is asked for already.
+    /// Whether a picture was asked for whose outcome was not taken yet.
     pub fn awaits_picture(&self) -> bool {
         !matches!(self.diagnostics.picture, Picture::None)
     }
 
-    /// What has become of the picture that was asked for, once.
+    /// Takes the outcome of the picture that was asked for, if one was.
     pub fn pictured(&mut self) -> Option<Pictured> {
         match std::mem::replace(&mut self.diagnostics.picture, Picture::None) {
             Picture::None => None,

@@ -1,5 +1,5 @@
-//! Textures copied from the frame, or from a framebuffer that each view has its own of: each view has its own copy, and is drawn with
-//! it (see [`crate::offscreen`]).
+//! Textures that the program copies from the frame, or from a framebuffer of which each view has its own: each view has its own copy, and is
+//! drawn with it (see [`crate::offscreen`]).
 //!
 //! Motion blur, water, heat: the program copies what it has drawn into a texture and draws that over the scene again.
 
@@ -8,7 +8,7 @@ use crate::gl::{Gl, Object, consts as c};
 use crate::view::ViewIndex;
 
 impl Layer {
-    /// glCopyTexImage* and glCopyTexSubImage*: from each view into its own texture. Columns in pixels.
+    /// glCopyTexImage* and glCopyTexSubImage*: copies from each view into its own texture. `x` and `width` are the columns in pixels.
     pub fn copy_texture(
         &mut self,
         gl: &Gl,
@@ -76,7 +76,7 @@ impl Layer {
         }
     }
 
-    /// After glGenerateMipmap: the other views' textures, too.
+    /// After glGenerateMipmap: makes the mipmaps of the other views' textures, too.
     pub fn mipmaps(&mut self, gl: &Gl, target: u32, call: &mut dyn FnMut()) {
         let Some(texture) = self.targets.offscreen.bound_at(gl, target) else {
             return;
@@ -115,14 +115,14 @@ impl Layer {
         }
     }
 
-    /// The program's own textures are about to be read or written in another way than by drawing.
+    /// Writes the own view's images back to the program's textures, before those are read or written in another way than by drawing.
     pub fn write_back_textures(&mut self, gl: &Gl) {
         self.state.keep_errors(gl);
         self.targets.offscreen.write_back(gl);
         self.drain_own_errors(gl);
     }
 
-    /// The renderbuffer that is bound gets another store.
+    /// The renderbuffer that is bound gets another storage.
     pub fn storage_changed(&mut self, gl: &Gl) {
         let name = gl.get_integer(c::RENDERBUFFER_BINDING) as u32;
         self.written(gl, Object::Renderbuffer(name));
@@ -140,22 +140,22 @@ impl Layer {
         self.targets.offscreen.forget(gl, all);
     }
 
-    /// A parameter of some texture is another.
+    /// A parameter of some texture has changed.
     pub fn look_changed(&mut self) {
         self.targets.offscreen.look_changed();
     }
 
-    /// What is attached to some framebuffer is another, or what is drawn to of it.
+    /// The attachments or the draw buffers of some framebuffer have changed.
     pub fn attachments_changed(&mut self) {
         self.targets.offscreen.attachments_changed();
     }
 
-    /// Whether other contexts see its objects.
+    /// Whether other contexts share the objects of this one.
     pub fn is_shared(&self) -> bool {
         self.session.group.has_others()
     }
 
-    /// Whether the views differ in anything but the window.
+    /// Whether any image beside the window differs between the views.
     pub fn has_copies(&self) -> bool {
         !self.targets.offscreen.is_empty()
     }

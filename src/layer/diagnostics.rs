@@ -1,20 +1,20 @@
-//! What is told of the frames: the report, one frame explained, the proof against replay, pictures on request.
+//! Diagnostics of the frames: the report, one frame explained, the proof against replay, pictures on request.
 
 use super::{control, explain, prove};
 use crate::gl::Count;
 use crate::plan::Reason;
 use crate::report::{Counts, Report};
 
-/// Those who look on, and change nothing of what is drawn.
+/// Observers of the frames, which change nothing of what is drawn.
 #[derive(Debug)]
 pub(super) struct Diagnostics {
     /// Counts for `--report`.
     pub(super) report: Report,
     pub(super) explained: Option<explain::Explained>,
     pub(super) proving: prove::Proving,
-    /// The picture that somebody has asked for.
+    /// The picture that a request to the running program asks for.
     pub(super) picture: control::Picture,
-    /// Of this frame.
+    /// Fallbacks of this frame, by reason.
     pub(super) fallbacks: Counts<Reason>,
     /// GL names that the layer has made and deleted.
     pub(super) made: Count,

@@ -1,5 +1,4 @@
-//! What GL_COMPILE_AND_EXECUTE draws: by the driver while it compiles, in the program's own view; by the compiled run in the
-//! others.
+//! Draws of GL_COMPILE_AND_EXECUTE: the driver draws the program's own view while it compiles; the compiled run then draws the others.
 
 use super::Layer;
 use super::draw::{Decided, Request};
@@ -17,9 +16,9 @@ pub(super) struct Own {
     shear: Option<Shear>,
     /// Whether it is drawn in the other views as well.
     everywhere: bool,
-    /// What the other views start from.
+    /// The current values that the other views start from.
     before: Current,
-    /// The framebuffer of the program's, where each view has its own.
+    /// The program's framebuffer, where each view has its own.
     target: Option<Target>,
 }
 

@@ -1,7 +1,7 @@
 //! One frame explained: a picture in which each draw's class is a colour, and a list of the draws with the reasons.
 //!
-//! The program's own view is read before and after each draw of that frame, and what has changed is the draw's. That is slow, but
-//! it is one frame, it changes no state of the program's, and it is true of every kind of draw and strategy.
+//! The program's own view is read before and after each draw of that frame, and the pixels that have changed belong to the draw. That is
+//! slow, but it is one frame, it changes no state of the program's, and it works for every kind of draw and every strategy.
 
 use super::Layer;
 use crate::config::{Capture, Class, DepthRange, Explain, Word};
@@ -16,10 +16,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// The picture stops, and the list goes on, after this time.
+/// After this time pixels are no longer attributed to draws; the list goes on.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Classes in the order of the legend, and their colours; told apart by the colour-blind as well (after Okabe and Ito, 2008).
+/// Classes in the order of the legend, with colours that the colour-blind can tell apart (after Okabe and Ito, 2008).
 const COLOURS: [(Class, [u8; 3]); 4] = [
     (Class::Flat, [230, 159, 0]),
     (Class::Sky, [86, 180, 233]),
@@ -27,14 +27,14 @@ const COLOURS: [(Class, [u8; 3]); 4] = [
     (Class::OffScreen, [204, 121, 167]),
 ];
 
-/// What is known of the frame so far.
+/// The explanation of the frame so far.
 #[derive(Debug)]
 pub(super) struct Explained {
     /// The program's own view after the last draw.
     view: RgbImage,
     /// For each pixel the class of the draw that changed it last.
     owner: Vec<Option<Class>>,
-    /// The draw that has been made since `view`: its class, nothing for a clear.
+    /// The draw that was made since `view` was read: its class, nothing for a clear.
     last: Option<Option<Class>>,
     draws: Vec<(Traits, Classed)>,
     began: Instant,
@@ -42,14 +42,14 @@ pub(super) struct Explained {
 }
 
 impl Layer {
-    /// The frame that is being drawn is the one to explain.
+    /// The request for an explanation, if it is of the frame that is being drawn.
     fn explains(&self) -> Option<&'static Explain> {
         let explain = self.session.config.explain.as_ref()?;
         (self.diagnostics.report.frames() + 1 == explain.frame && self.state.list.is_none())
             .then_some(explain)
     }
 
-    /// Before a draw: finds what the one before it has changed.
+    /// Before a draw: finds the pixels that the draw before it has changed.
     pub(super) fn explain_last(&mut self, gl: &Gl) {
         if self.explains().is_none() {
             return;
@@ -77,7 +77,7 @@ impl Layer {
         self.diagnostics.explained = Some(explained);
     }
 
-    /// A draw is about to be made.
+    /// Adds a draw that is about to be made to the list.
     pub(super) fn explain_this(&mut self, facts: &Traits, classed: &Classed) {
         if self.explains().is_none() {
             return;
@@ -93,7 +93,7 @@ impl Layer {
         }
     }
 
-    /// The shaders of the programs that the frame was drawn with, in a folder beside the list.
+    /// Writes the shaders of the programs that the frame was drawn with to a folder beside the list.
     fn write_shaders(&mut self, explain: &Explain, explained: &Explained) {
         let sums = explained.draws.iter().map(|(facts, _)| facts.shader);
         let sums: BTreeSet<u64> = sums.filter(|&sum| sum != 0).collect();
@@ -116,7 +116,7 @@ impl Layer {
         }
     }
 
-    /// At the end of the frame: writes both files.
+    /// At the end of the frame: writes the picture, the list and the shaders.
     pub(super) fn finish_explanation(&mut self, gl: &Gl) {
         let Some(explain) = self.explains() else {
             return;
@@ -146,7 +146,7 @@ impl Layer {
     }
 }
 
-/// The shaders of a program as the layer makes them for a view, and as they were; named by stage.
+/// The sources of a program's shaders, as the program has them and as the layer rewrites them for a view, with the endings of their files.
 fn texts(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
     let options = Options {
         amplifier: Amplifier::Replay,
@@ -173,7 +173,7 @@ fn texts(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
     all
 }
 
-/// Writes beside the file and renames, so that nobody sees half of it.
+/// Writes to a file beside `path` and renames it, so that nobody reads half of it.
 fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<(), String>) -> Result<(), String> {
     let growing = Capture::partial(path);
     write(&growing)
@@ -182,7 +182,7 @@ fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<(), String>) -> Resu
 }
 
 impl Explained {
-    /// What differs from the view before is the last draw's.
+    /// Gives the pixels that differ from the previous view to the class of the last draw.
     fn attribute(&mut self, class: Option<Class>, now: RgbImage) {
         if now.dimensions() != self.view.dimensions() {
             self.owner = vec![None; now.width() as usize * now.height() as usize];
@@ -214,7 +214,7 @@ impl Explained {
         picture
     }
 
-    /// One line a draw.
+    /// The list, with one line for each draw.
     fn list(&self, frame: u64) -> String {
         let mut counts = String::new();
         for (class, _) in COLOURS {
@@ -285,7 +285,7 @@ fn target(target: Target) -> String {
     }
 }
 
-/// What a draw does with the depth buffer, and with which part of it, in words.
+/// How a draw uses the depth buffer, and which part of the depth range, in words.
 fn depth(facts: &Traits) -> String {
     let word = facts.depth_state.word();
     match facts.range {
@@ -348,7 +348,7 @@ const LETTERS: [(char, [u8; 5]); 12] = [
     ('y', [5, 5, 2, 2, 2]),
 ];
 
-/// A swatch and a word for each class, from `top` on; what does not fit is left out.
+/// Draws a swatch and a word for each class, from row `top` on; what does not fit is left out.
 fn legend(picture: &mut RgbImage, top: u32) {
     let mut x = 4;
     for (class, colour) in COLOURS {
@@ -370,7 +370,7 @@ fn legend(picture: &mut RgbImage, top: u32) {
     }
 }
 
-/// A rectangle (x, y, width, height), cut to the picture.
+/// Fills a rectangle (x, y, width, height), cut to the picture.
 fn fill(picture: &mut RgbImage, [x, y, w, h]: [u32; 4], colour: [u8; 3]) {
     for y in y..(y + h).min(picture.height()) {
         for x in x..(x + w).min(picture.width()) {
@@ -395,7 +395,7 @@ mod tests {
             began: Instant::now(),
             complete: true,
         };
-        // Of the depth alone.
+        // A clear of the depth alone changes no pixel.
         explained.attribute(None, view(5));
         assert_eq!(explained.owner, [Some(Class::Scene); 2]);
         explained.attribute(None, view(0));

@@ -23,10 +23,9 @@ pub(super) struct Frame {
 }
 
 impl Layer {
-    /// Shows the frame in the true framebuffer 0. The caller swaps or flushes after it; nothing of the program's state
-    /// has changed.
+    /// Shows the frame in the true framebuffer 0. The caller swaps (`swap`) or flushes after it. The program's state is as before.
     pub fn show(&mut self, gl: &Gl, swap: bool) {
-        // Our drawing would be a hit of the program's selection, or be fed back to it.
+        // Our drawing would be compiled into the program's list, be a hit of its selection, or be fed back to it.
         if self.state.list.is_some()
             || self.state.begin != crate::state::Begin::Outside
             || self.state.primitives.render_mode != c::RENDER
@@ -53,7 +52,7 @@ impl Layer {
         self.known.frame = Default::default();
     }
 
-    /// Makes the picture of what was drawn to the back buffer, or to the front one, and leaves the atlas to the next frame.
+    /// Makes the picture of what was drawn to the back buffer, or to the front one, and readies the atlas for the next frame.
     fn show_picture(&mut self, gl: &Gl, swap: bool, neutral: &Neutral) {
         // A flush shows what is drawn to the front buffer; where that is the only image, so does a swap.
         let front =
@@ -102,7 +101,7 @@ impl Layer {
         self.track_depths(gl);
     }
 
-    /// What pictures are made of.
+    /// The source of pictures: the atlas, with one of its images.
     fn source<'a>(&self, image: u32, depth: Option<&'a Depth>) -> Source<'a> {
         Source {
             tiles: self.targets.atlas.tiles,
@@ -177,7 +176,7 @@ impl Layer {
         Depth::new((width, height), values, reversed)
     }
 
-    /// The framebuffers that the program has bound, after others were.
+    /// Binds the framebuffers that the program has bound, after others were.
     pub(super) fn rebind(&mut self, gl: &Gl) {
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
@@ -190,7 +189,7 @@ impl Layer {
         self.bind_draw(gl, true, true);
     }
 
-    /// The program's own view as it is now, row 0 on top; nothing of the program's state has changed.
+    /// The program's own view as it is now, row 0 on top. The program's state is as before.
     pub(super) fn own_view(&mut self, gl: &Gl) -> RgbImage {
         self.in_neutral(gl, |layer, neutral| {
             layer.reading(gl, BACK, |layer| {
@@ -202,7 +201,8 @@ impl Layer {
         })
     }
 
-    /// Where the window's picture lies on the screen; a window system that does not tell leaves it in the corner.
+    /// Place of the window's picture on the screen, in pixels. Where the window system does not report it, the picture is taken to be the
+    /// whole screen.
     pub(super) fn placement(&self) -> Placement {
         let (width, height) = self.size();
         let on_screen = self.session.on_screen.unwrap_or(OnScreen {
@@ -227,7 +227,7 @@ impl Layer {
             self.diagnostics
                 .report
                 .drew(ms, drawn.unwrap_or(self.session.config.views));
-            // A menu, say, tells of nothing.
+            // A frame without synthesis, such as a menu, does not tell what drawn views cost.
             if drawn.is_some() || number == self.session.config.views {
                 self.synthesis.adapt(ms);
             }

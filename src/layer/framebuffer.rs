@@ -1,4 +1,4 @@
-//! The program's framebuffer 0: bound, drawn to, read from and asked about.
+//! The program's framebuffer 0: how it is bound, drawn to, read from and queried.
 
 use super::draw::Request;
 use super::{Layer, as_they_are, keep_bindings};
@@ -8,17 +8,18 @@ use crate::plan::Kind;
 use crate::state::{BACK, Command, Run, Segment, Touch};
 use crate::view::ViewIndex;
 
-/// What glPushAttrib saved of framebuffer 0.
+/// The buffers of framebuffer 0 that one glPushAttrib has saved.
 #[derive(Debug)]
 pub(super) struct Pushed {
-    /// GL_ATTRIB_STACK_DEPTH with it.
+    /// GL_ATTRIB_STACK_DEPTH after the glPushAttrib.
     depth: i32,
     draw_buffers: Option<Vec<u32>>,
     read_buffer: Option<u32>,
 }
 
 impl Layer {
-    /// glPushAttrib: the driver saves the buffers of the atlas, the layer the program's words for them.
+    /// glPushAttrib: the driver saves the draw and read buffers of the atlas, and the layer saves the names that the program has given for
+    /// them.
     pub fn push_attrib(&mut self, gl: &Gl, mask: u32, push: &mut dyn FnMut()) {
         if self.compiles() {
             self.compile(gl, Command::PushAttrib(mask), Touch::NONE);
@@ -36,7 +37,7 @@ impl Layer {
 
     fn pushed_attribs(&mut self, depth: i32, mask: u32) {
         let f = &self.state.framebuffers;
-        // Lists push and pop without our seeing it: what is above has gone.
+        // Display lists push and pop without our seeing it, so levels from this depth on are no longer on the stack.
         self.targets.pushed.retain(|p| p.depth < depth);
         self.targets.pushed.push(Pushed {
             depth,
@@ -60,7 +61,7 @@ impl Layer {
         self.popped_attribs(gl, depth);
     }
 
-    /// After a run of a list that has popped and pushed; `depth` is that of the stack before it.
+    /// After a run of a list that has popped and pushed attributes; `depth` is the depth of the stack before the run.
     pub(super) fn left_attribs(&mut self, gl: &Gl, depth: i32, run: &Segment) {
         let floor = (depth - run.pops as i32).max(0);
         for depth in (floor + 1..=depth).rev() {
@@ -109,7 +110,7 @@ impl Layer {
         if draw {
             self.targets.atlas.forget_row();
             self.state.framebuffers.draw = name;
-            // It may have a depth buffer where the other has none.
+            // One of the two framebuffers may have a depth buffer, and the other none.
             self.state.touch(Touch::DEPTH);
         }
         if read {
@@ -134,7 +135,7 @@ impl Layer {
         self.bind_draw(gl, draw, read);
     }
 
-    /// Binds the atlas where the program has framebuffer 0.
+    /// Binds the atlas where the program has framebuffer 0 bound.
     pub(super) fn bind_draw(&mut self, gl: &Gl, draw: bool, read: bool) {
         let f = &self.state.framebuffers;
         if draw && f.draw == 0 {
@@ -146,7 +147,7 @@ impl Layer {
         }
     }
 
-    /// Runs a call with the true framebuffer 0 bound where the program has 0 at `target`.
+    /// Runs a call with the true framebuffer 0 bound where the program has framebuffer 0 bound at `target`.
     pub fn with_true_zero(&mut self, gl: &Gl, target: u32, call: &mut dyn FnMut()) {
         let f = &self.state.framebuffers;
         let draw = [c::FRAMEBUFFER, c::DRAW_FRAMEBUFFER].contains(&target) && f.draw == 0;
@@ -161,8 +162,8 @@ impl Layer {
         self.bind_draw(gl, draw, read);
     }
 
-    /// glDrawBuffer, or glDrawBuffers (`several`), for framebuffer 0; `None` when a name is one that framebuffer 0 refuses: the
-    /// caller then asks the driver, with the true framebuffer 0 bound, for its error.
+    /// glDrawBuffer, or glDrawBuffers (`several`), for framebuffer 0. `None` where framebuffer 0 refuses a name: the caller then makes the
+    /// call with the true framebuffer 0 bound, and the driver raises its error.
     pub fn draw_buffers(&mut self, gl: &Gl, buffers: &[u32], several: bool) -> Option<()> {
         // Names of more than one buffer, which glDrawBuffers does not take.
         let many = [c::FRONT, c::LEFT, c::RIGHT, c::FRONT_AND_BACK];
@@ -184,8 +185,8 @@ impl Layer {
         Some(())
     }
 
-    /// glDrawBuffer(s) with a name that the layer does not know: the driver answers for it. OSMesa calls its only
-    /// buffer by the names of a back buffer too.
+    /// glDrawBuffer or glDrawBuffers with a name that the layer does not know: the driver decides. OSMesa takes the names of a back buffer
+    /// for its only buffer too.
     pub fn other_draw_buffers(
         &mut self,
         gl: &Gl,
@@ -209,7 +210,7 @@ impl Layer {
         }
     }
 
-    /// glReadBuffer for framebuffer 0; as [`Layer::draw_buffers`].
+    /// glReadBuffer for framebuffer 0; `None` as for [`Layer::draw_buffers`].
     pub fn read_buffer(&mut self, gl: &Gl, buffer: u32) -> Option<()> {
         let f = &mut self.state.framebuffers;
         f.images(buffer).filter(|_| buffer != c::FRONT_AND_BACK)?;
@@ -218,8 +219,7 @@ impl Layer {
         Some(())
     }
 
-    /// Runs something of ours that reads an image of the atlas, whatever the program has chosen to read from. Changes the read
-    /// framebuffer.
+    /// Runs `read`, which reads `image` of the atlas, whatever read buffer the program has chosen. Changes the read framebuffer.
     pub(super) fn reading<R>(
         &mut self,
         gl: &Gl,
@@ -242,7 +242,7 @@ impl Layer {
         }
     }
 
-    /// Draw and read buffers are kept in each framebuffer object of the atlas.
+    /// Sets the program's draw and read buffers of framebuffer 0 in each framebuffer object of the atlas.
     pub(super) fn apply_buffers(&mut self, gl: &Gl) {
         if self.state.framebuffers.uses_front()
             && !self.targets.atlas.has_front()
@@ -256,7 +256,7 @@ impl Layer {
         }
         let f = &self.state.framebuffers;
         if f.uses_front() && !self.targets.atlas.tiles.grid.is_full() {
-            // Which comes back here for the new one.
+            // This calls `apply_buffers` again, for the new atlas.
             return self.hold_everything(gl, "uses the front buffer");
         }
         let f = &self.state.framebuffers;
@@ -274,7 +274,7 @@ impl Layer {
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, bound_read);
     }
 
-    /// Runs with other framebuffers bound, for commands that name theirs.
+    /// Runs `f` with other framebuffers bound, for commands that take theirs by name.
     pub fn with_bound<R>(
         &mut self,
         gl: &Gl,
@@ -296,17 +296,18 @@ impl Layer {
         r
     }
 
-    /// Whether a framebuffer binding is the program's 0.
+    /// Whether framebuffer 0 is bound for drawing.
     pub fn draws_to_zero(&self) -> bool {
         self.state.framebuffers.draw == 0
     }
 
-    /// Whether reads come from framebuffer 0.
+    /// Whether framebuffer 0 is bound for reading.
     pub fn reads_from_zero(&self) -> bool {
         self.state.framebuffers.read == 0
     }
 
-    /// What glGet answers for a name that tells of framebuffer 0, if it is one.
+    /// The answer of glGet for state that the layer stands in for: framebuffer bindings, framebuffer 0, the list that is compiled, formats of
+    /// program binaries. None for all other names.
     pub fn answer(&self, name: u32) -> Option<i64> {
         let f = &self.state.framebuffers;
         let zero = f.draw == 0;
@@ -315,7 +316,7 @@ impl Layer {
         match (name, &self.state.list) {
             (c::LIST_INDEX, Some(list)) => return Some(list.list.into()),
             (c::LIST_MODE, Some(list)) => return Some(list.mode.into()),
-            // From a binary nothing can be made for a view: programs then come with their texts.
+            // No variant can be made from a program binary. Without a format for binaries programs come with their sources.
             (c::NUM_PROGRAM_BINARY_FORMATS, _) if self.refuses_binaries() => return Some(0),
             _ => {}
         }
@@ -339,7 +340,7 @@ impl Layer {
         }
     }
 
-    /// A read from framebuffer 0 (glReadPixels, glCopyTex*): from the program's own view, resolved if multisampled. Columns in pixels.
+    /// A read (glReadPixels, glCopyTex*): from the program's own view, resolved if multisampled. `x` and `width` are its columns in pixels.
     pub fn read(&mut self, gl: &Gl, x: i32, width: i32, call: &mut dyn FnMut()) {
         if self.compiles() {
             self.compile(gl, Command::Of(Run::Read), Touch::NONE);
@@ -357,7 +358,7 @@ impl Layer {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
             return;
         }
-        // What lies to the right of the window must not be another view.
+        // A read beyond the right edge of the window must not reach another view.
         let beside =
             self.targets.atlas.tiles.columns > 1 && x.saturating_add(width) > self.tile_size()[0];
         let other = self.targets.atlas.multisampled() || !self.targets.atlas.tiles.grid.is_full();
@@ -376,7 +377,7 @@ impl Layer {
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.targets.atlas.framebuffer());
     }
 
-    /// A read that no list compiles (glReadPixels).
+    /// A read that is never compiled into a list (glReadPixels).
     pub fn read_now(&mut self, gl: &Gl, x: i32, width: i32, call: &mut dyn FnMut()) {
         self.catch_up(gl);
         let mut done = false;
@@ -389,7 +390,7 @@ impl Layer {
         }
     }
 
-    /// Binds a copy of a view's tile for reading. Changes the draw framebuffer; the state is refreshed.
+    /// Binds a copy of a view's tile for reading. Changes the draw framebuffer. The state must have been refreshed.
     pub(super) fn take_single(&mut self, gl: &Gl, view: ViewIndex) {
         self.make_singles(gl, false);
         let read = match self.state.framebuffers.read_image() {
@@ -419,7 +420,7 @@ impl Layer {
         answer
     }
 
-    /// glCopyPixels: each view from its own tile. Columns in pixels; `call` is the program's own.
+    /// glCopyPixels: copies each view from its own tile. `x` and `width` are its columns in pixels; `call` is the program's own.
     pub fn copy_pixels(&mut self, gl: &Gl, x: i32, width: i32, call: &mut dyn FnMut()) {
         if self.compiles() {
             self.compile(gl, Command::Of(Run::Copy), Touch::NONE);
@@ -441,7 +442,7 @@ impl Layer {
 
     fn copy_views(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         let own = self.targets.atlas.tiles.own();
-        // As in `draw::replay`: before a glPushAttrib of ours.
+        // As in `draw::replay`: Mesa 22.3 would lose current values at our glPushAttrib.
         gl.get_floats::<4>(c::CURRENT_COLOR);
         self.queries.pause(gl);
         for view in self.targets.atlas.tiles.order() {
@@ -463,7 +464,8 @@ impl Layer {
         self.bind_draw(gl, true, true);
     }
 
-    /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.
+    /// Runs a call with viewport and scissor set for a view's tile, where tiles lie beside each other or have other samples than the window's
+    /// pixels. `x` is the left edge of the tile in pixels.
     pub(super) fn scissored(&self, gl: &Gl, view: ViewIndex, x: i32, call: &mut dyn FnMut()) {
         if self.targets.atlas.tiles.columns == 1 && self.targets.atlas.tiles.grid.is_full() {
             return call();

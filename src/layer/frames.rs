@@ -6,7 +6,7 @@ use crate::present::capture;
 use crate::report::Report;
 use crate::state::Neutral;
 
-/// What is kept of a context with one view.
+/// Counts and captures of a context with one view.
 #[derive(Debug)]
 pub struct Frames {
     config: &'static Config,
@@ -26,7 +26,7 @@ impl Frames {
         }
     }
 
-    /// The drawable's size in pixels.
+    /// The drawable has another size, in pixels.
     pub fn resize(&mut self, width: u32, height: u32) {
         (self.width, self.height) = (width, height);
     }

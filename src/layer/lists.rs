@@ -40,12 +40,13 @@ impl Layer {
         self.state.list.is_some()
     }
 
-    /// Whether what is compiled is to be executed as well.
+    /// Whether what is compiled is executed as well (GL_COMPILE_AND_EXECUTE).
     pub fn executes(&self) -> bool {
         self.state.list.as_ref().is_some_and(Compiling::executes)
     }
 
-    /// A command that is about to be compiled, and what it touches when the list is called.
+    /// Notes a command that is about to be compiled, and the state groups that it touches when the list is called. Begins another run where
+    /// the command needs one.
     pub fn compile(&mut self, gl: &Gl, command: Command, touch: Touch) {
         let Some(list) = &self.state.list else {
             return;
@@ -81,7 +82,7 @@ impl Layer {
         self.state.list = Some(list);
     }
 
-    /// A run has been closed: executes what of it the driver has not.
+    /// After a run was closed: executes what the driver has not executed of it.
     fn ended_run(&mut self, gl: &Gl, list: &Compiling) {
         let Some(run) = list.last() else { return };
         match list.start {
@@ -98,8 +99,8 @@ impl Layer {
         }
     }
 
-    /// Before a command that is not compiled: what GL_COMPILE_AND_EXECUTE has compiled is executed. Between glBegin and glEnd
-    /// nothing can be.
+    /// Before a command that is not compiled: executes what GL_COMPILE_AND_EXECUTE has compiled so far. Between glBegin and glEnd nothing can
+    /// be executed.
     pub fn catch_up(&mut self, gl: &Gl) {
         let pending = |l: &Compiling| l.start != Start::Now && l.executes() && !l.between;
         if self.state.list.as_ref().is_some_and(pending) {
@@ -107,7 +108,8 @@ impl Layer {
         }
     }
 
-    /// Does something of ours that must not be compiled, also while the program compiles a list.
+    /// Does work of ours that must not be compiled, even while the program compiles a list. Between glBegin and glEnd in a list the work is
+    /// left out.
     pub(super) fn outside_list(&mut self, gl: &Gl, work: impl FnOnce(&mut Self)) {
         match &self.state.list {
             None => work(self),
@@ -122,16 +124,17 @@ impl Layer {
         }
     }
 
-    /// The names of a glCallLists that was compiled, without the list base; or what else the run needs to know.
+    /// Notes what a run has to know of the command that was just compiled: the names of glCallLists, without the list base, or arguments (see
+    /// [`Segment::names`]).
     pub fn compiled_names(&mut self, names: &[u32]) {
         if let Some(list) = &mut self.state.list {
             list.note_names(names);
         }
     }
 
-    /// glEndList, after the driver's own: the program's list becomes one that calls its runs.
+    /// After the driver's glEndList: the program's list becomes one that calls its runs.
     pub fn end_list(&mut self, gl: &Gl) {
-        // The driver refuses between glBegin and glEnd.
+        // The driver refuses glEndList between glBegin and glEnd.
         if gl.get_integer(c::LIST_INDEX) != 0 {
             return;
         }
@@ -142,7 +145,7 @@ impl Layer {
             self.enable_srgb(gl);
         }
         list.finish();
-        // Before the list has its name: it may call what had it before.
+        // Before the new list takes its name: the run may call the list that had that name before.
         self.ended_run(gl, &list);
         let body = list.body();
         gl.new_list(list.list, c::COMPILE);
@@ -164,7 +167,7 @@ impl Layer {
     pub fn generated_lists(&mut self, gl: &Gl, first: u32, count: u32) -> u32 {
         let free = self.session.group.lists().free(count);
         let mut names = first;
-        // Without the lock: the run that ends may ask for a name.
+        // The lock is not held here, because the run that ends may ask for a name.
         if let Some(free) = free.filter(|&free| free != first) {
             self.outside_list(gl, |_| {
                 gl.delete_lists(first, count);
@@ -211,7 +214,7 @@ impl Layer {
             self.state.touch(touch);
             return;
         }
-        // Letters: one run a list, all of a kind. Sent as they are.
+        // Text: each list is a letter, and all are one run of the same kind. One call sends them all, as they are.
         let one = segments().next().map(|s| s.run);
         if let Some(run @ (Run::Draw | Run::Raster)) = one
             && balanced
@@ -273,10 +276,10 @@ impl Layer {
         }
     }
 
-    /// A run that is a command of its own, which the layer makes in the program's place.
+    /// Executes a run that is a single command, which the layer makes in the program's place.
     fn command_segment(&mut self, gl: &Gl, segment: &Segment) {
         match segment.run {
-            // A wrong name: the driver answers for it.
+            // The driver raises the error for a wrong name.
             Run::DrawBuffers if self.draws_to_zero() => {
                 let names = segment.names.clone();
                 if let Some((several, names)) = names.split_first()
@@ -321,7 +324,7 @@ impl Layer {
         }
     }
 
-    /// A run of commands that the driver makes.
+    /// Executes a run of commands that the driver makes.
     fn run_segment(&mut self, gl: &Gl, segment: &Segment) {
         let attribs = (!segment.is_balanced()).then(|| gl.get_integer(c::ATTRIB_STACK_DEPTH));
         let sets = segment.immediate.sets();
@@ -342,7 +345,7 @@ impl Layer {
         }
     }
 
-    /// A run that is called within a primitive.
+    /// Executes a run that is called between glBegin and glEnd.
     fn inside(&mut self, gl: &Gl, segment: &Segment) {
         if self.state.begin == Begin::Direct {
             gl.call_list(segment.name);
@@ -394,7 +397,7 @@ impl Layer {
         }
     }
 
-    /// A list of which only the driver knows what is in it.
+    /// Calls a list whose contents only the driver knows.
     fn unknown_list(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         let request = Request {
             demand: Demand::Everything("calls display lists that were compiled elsewhere"),
@@ -409,7 +412,7 @@ impl Layer {
         self.state.touched = Touch::ALL;
     }
 
-    /// A draw of something compiled, which is sent as it is; `surfaces`: there is nothing else in it.
+    /// Draws with compiled commands, which are sent as they are. `surfaces`: they are surfaces and their current values alone.
     fn draw_list(
         &mut self,
         gl: &Gl,
@@ -420,7 +423,7 @@ impl Layer {
         call: &mut dyn FnMut(),
     ) {
         let Decided { mut plan, images } = self.decide(gl, request);
-        // What else changes the state is not in the generated shaders, and lines have no place in the reference image.
+        // Generated shaders do not follow other changes of state within a list, and lines cannot be drawn to the reference image.
         plan.reference = plan.reference.filter(|_| surfaces);
         self.execute(
             gl,
@@ -436,7 +439,7 @@ impl Layer {
         );
     }
 
-    /// Executes one run, or several of a kind.
+    /// Executes one run, or several of the same kind.
     fn run(&mut self, gl: &Gl, run: Run, touch: Touch, content: Content, call: &mut dyn FnMut()) {
         match run {
             Run::Open
@@ -460,7 +463,7 @@ impl Layer {
                 call,
             ),
             Run::Raster => self.draw(gl, Kind::Pixels, call),
-            // Which columns is in the driver's list only.
+            // Only the driver's list knows which columns are read.
             Run::Read => self.read(gl, 0, i32::MAX, call),
             Run::Copy => self.copy_pixels(gl, 0, i32::MAX, call),
         }
@@ -473,7 +476,7 @@ impl Layer {
     }
 
     fn draw_run(&mut self, gl: &Gl, touch: Touch, content: Content, call: &mut dyn FnMut()) {
-        // The list changes the current matrix, and that is the projection.
+        // The list changes the current matrix, which is the projection.
         let projection = touch.has(Touch::MATRIX) && self.state.matrices.mode == c::PROJECTION;
         let rects = touch.has(Touch::RECTS);
         let request = Request {
@@ -504,21 +507,22 @@ impl Layer {
     }
 }
 
-/// What is in runs that draw.
+/// Contents of runs that draw.
 #[derive(Clone, Copy, Debug)]
 struct Content {
     /// The current values that they start from and change.
     current: Effect,
-    /// Nothing but primitives.
+    /// They are primitives and current values, and nothing else.
     primitives: bool,
-    /// Lines and points among them.
+    /// There may be lines or points among them.
     thin: bool,
-    /// Changes of the material among them.
+    /// They may change the material.
     material: bool,
 }
 
-/// Before the driver's call of a list that sets current values. One of them, whichever, has to have been set by a call since the last
-/// such list: else Mesa 22.3 sets those from before the list's vertices once more, at the next change of state.
+/// Sets the current colour to itself. This has to be called before the driver calls a list that sets current values. Some current value,
+/// whichever, must have been set by a call since the last such list. Otherwise, at the next change of state, Mesa 22.3 once more sets the
+/// values from before the list's vertices.
 pub(super) fn touch_current_values(gl: &Gl, sets: Effect) {
     if sets != Effect::NONE {
         let [r, g, b, a] = gl.get_floats(c::CURRENT_COLOR);
@@ -526,7 +530,7 @@ pub(super) fn touch_current_values(gl: &Gl, sets: Effect) {
     }
 }
 
-/// Whether a glBlitFramebuffer with these arguments changes the size, or turns the picture round.
+/// Whether a glBlitFramebuffer with these arguments, in the order of the command, scales or mirrors the picture.
 pub fn is_scaled(arguments: &[i32; 10]) -> bool {
     let [x0, y0, x1, y1, to_x0, to_y0, to_x1, to_y1, ..] = *arguments;
     let size = |a: i32, b: i32| b.wrapping_sub(a);

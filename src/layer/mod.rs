@@ -1,4 +1,4 @@
-//! One context under the layer: puts the stages together. The hooks call nothing else.
+//! One context under the layer, [`Layer`]: it puts the stages together. The hooks call nothing else.
 #![forbid(unsafe_code)]
 
 mod accumulate;
@@ -79,20 +79,20 @@ pub enum LayerError {
         "OpenGL ES {0}.{1} has no array textures; OpenGL ES 3.0 is the least manyview can draw several views with"
     )]
     Es(u32, u32),
-    /// OpenGL ES has nothing else to draw pictures with.
+    /// On OpenGL ES the passes of the output cannot be used, and there is no other way to draw the picture.
     #[error("the passes that make the picture cannot be used: {0}")]
     Passes(String),
-    /// The atlas.
+    /// The atlas cannot be made.
     #[error(transparent)]
     Atlas(#[from] AtlasError),
 }
 
-/// One context and its drawable. More than 25 methods: one for each kind of command that a hook tells of, and the steps that need several
-/// of the owners below, in a file for each subject.
+/// One context and its drawable. More than 25 methods: one for each kind of command that a hook reports, and the steps that need several of
+/// the owners below. Each subject has a file of its own.
 #[derive(Debug)]
 pub struct Layer {
     session: Session,
-    /// What the program believes.
+    /// The state of the context as the program believes it to be.
     state: State,
     targets: Targets,
     variants: Variants,
@@ -105,17 +105,18 @@ pub struct Layer {
     diagnostics: Diagnostics,
 }
 
-/// Where a window lies.
+/// Position of a window on its screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OnScreen {
     /// Width and height of the screen, in pixels.
     pub screen: (u32, u32),
-    /// Left and top edge of the window's picture on it.
+    /// Left and top edge of the window's picture on it, in pixels from its top left corner.
     pub at: (i32, i32),
 }
 
 impl Layer {
-    /// Takes over a context that was just made current for the first time, with framebuffer 0 bound.
+    /// Takes over a context that was just made current for the first time, with framebuffer 0 bound. `width` and `height` are those of its
+    /// drawable, in pixels. Fails on a context that cannot be shown in several views.
     pub fn new(
         gl: &Gl,
         config: &'static Config,
@@ -126,7 +127,7 @@ impl Layer {
         let support = Support::ask(gl)?;
         let layer = Self::made(gl, config, (width, height), group, support);
         if layer.is_err() {
-            // What was tried is no business of the program's.
+            // The program must not see the errors of the attempt.
             (0..16)
                 .take_while(|_| gl.get_error() != c::NO_ERROR)
                 .count();
@@ -179,7 +180,7 @@ impl Layer {
         Ok(layer)
     }
 
-    /// The window has another size (or the context another drawable): makes a new atlas for it.
+    /// The window has another size, in pixels, or the context has another drawable: makes a new atlas for it.
     pub fn resize(&mut self, gl: &Gl, width: u32, height: u32) -> Result<(), LayerError> {
         let (width, height) = (width.max(1), height.max(1));
         if (self.state.window.width, self.state.window.height) == (width, height) {
@@ -211,7 +212,7 @@ impl Layer {
         Ok(())
     }
 
-    /// Whether the picture depends on where the window lies; then [`Layer::moved`] wants to know before each frame is shown.
+    /// Whether the picture depends on where the window lies. If so, [`Layer::moved`] has to be called before each frame is shown.
     pub fn follows_window(&self) -> bool {
         matches!(
             self.output(),
@@ -219,12 +220,12 @@ impl Layer {
         )
     }
 
-    /// The window lies here; none where the window system does not tell.
+    /// Sets the position of the window; none where the window system does not report it.
     pub fn moved(&mut self, on_screen: Option<OnScreen>) {
         self.session.on_screen = on_screen;
     }
 
-    /// The one that the program draws to, and that of a proof where there is one.
+    /// The atlas that the program draws to, and the second one of a proof, if there is one.
     fn atlases(&self) -> impl Iterator<Item = &Atlas> {
         std::iter::once(&self.targets.atlas).chain(self.diagnostics.proving.atlas())
     }
@@ -263,9 +264,9 @@ impl Layer {
         }
     }
 
-    /// The program uses a texture name that it never asked for and that is ours: our textures move to other names.
+    /// The program uses a texture name that it has not generated and that is ours: our textures move to other names.
     pub fn yield_names(&mut self, gl: &Gl) {
-        // Core profiles have no names but those that were asked for.
+        // Core profiles accept only names that glGenTextures has returned.
         if self.targets.names.hidden() || !(self.state.has.compatibility || gl.is_es()) {
             return;
         }
@@ -293,8 +294,8 @@ impl Layer {
         }
     }
 
-    /// The program enables GL_FRAMEBUFFER_SRGB. Until then the atlas is not sRGB: drivers decode what is copied out of an sRGB
-    /// texture, and what is copied out of such a window they do not.
+    /// The program enables GL_FRAMEBUFFER_SRGB. Until then the atlas is not sRGB, because drivers decode what is copied out of an sRGB
+    /// texture, but not what is copied out of an sRGB window.
     pub fn enable_srgb(&mut self, gl: &Gl) {
         if let Some(list) = &mut self.state.list {
             list.enables_srgb = true;
@@ -313,7 +314,8 @@ impl Layer {
         }
     }
 
-    /// Puts a new atlas with the same contents in the place of the old one.
+    /// Replaces the atlas by a new one with the same contents, on the grid that is needed now. False where the driver makes none; the old one
+    /// then stays.
     fn remake(&mut self, gl: &Gl) -> bool {
         self.state.refresh(gl);
         self.leave_mono(gl);
@@ -357,8 +359,8 @@ impl Layer {
         true
     }
 
-    /// Takes note of the names that the layer has made and deleted on this thread, all of them in this context: to be called
-    /// before another one is made current.
+    /// Counts the GL names that the layer has made and deleted on this thread since the last call. It has to be called before another context
+    /// is made current, so that all of them are this context's.
     pub fn count_names(&mut self) {
         self.diagnostics.made.catch_up();
         self.diagnostics
@@ -366,7 +368,7 @@ impl Layer {
             .names(self.diagnostics.made, self.session.group.lists().held());
     }
 
-    /// Tells the user a sentence, in the report.
+    /// Adds a sentence for the user to the report.
     pub fn note(&mut self, sentence: String) {
         self.diagnostics.report.note(sentence);
     }
@@ -388,7 +390,7 @@ impl Layer {
         }
     }
 
-    /// Errors that our own set-up raised are ours, not the program's.
+    /// Takes the errors of the layer's own calls out of the driver's queue, and counts them in the report.
     fn drain_own_errors(&mut self, gl: &Gl) {
         for _ in 0..16 {
             if gl.get_error() == c::NO_ERROR {
@@ -399,14 +401,14 @@ impl Layer {
     }
 }
 
-/// Where the views lie. The strategies that draw all views at once take layers wherever the driver can choose one in a shader,
-/// also when views beside each other are asked for: one draw then serves all views without clip distances, and every view lies at
-/// the origin. Beside each other is faster on llvmpipe 22.3 where there are many triangles (`manyview bench --strategy
-/// instanced,instanced-distances`), and beyond the gate: up to 0.11 % of neverputt's pixels by up to 6 steps, against 0.002 % by 1
-/// (`manyview run --prove 20`).
+/// The arrangement of the views in the atlas. The strategies that draw all views at once use layers wherever a shader can choose one, even
+/// where views beside each other are asked for: one draw then serves all views without clip distances, and every view lies at the origin.
+/// Views beside each other are faster on llvmpipe 22.3 where there are many triangles (`manyview bench --strategy
+/// instanced,instanced-distances`), but fail the gate: up to 0.11 % of neverputt's pixels differ by up to 6 steps, against 0.002 % by 1 step
+/// with layers (`manyview run --prove 20`).
 fn layout(config: &Config, support: &Support, strategy: Strategy) -> AtlasLayout {
     match strategy {
-        // Asked for by name, to compare.
+        // The user has asked for clip distances by name, to compare.
         _ if config.clip.is_some() => AtlasLayout::SideBySide,
         // A geometry shader can always choose a layer.
         Strategy::Geometry => AtlasLayout::Layers,
@@ -438,7 +440,7 @@ fn make_atlas(
     })?)
 }
 
-/// Runs something that copies bits as they are: no scissor, no conversion.
+/// Runs a copy without scissor test and sRGB conversion, so that bits stay as they are.
 fn as_they_are<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
     let (cut, srgb) = (gl.is_enabled(c::SCISSOR_TEST), gl.is_srgb_enabled());
     gl.disable(c::SCISSOR_TEST);
@@ -453,7 +455,7 @@ fn as_they_are<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
     copied
 }
 
-/// Runs with no unpack buffer, and puts the bindings of textures and framebuffers back that making an atlas changes.
+/// Runs `make` with no pixel unpack buffer bound, and then restores the bindings of textures and framebuffers that making an atlas changes.
 fn keep_bindings<R>(gl: &Gl, make: impl FnOnce() -> R) -> R {
     let saved = Names::TARGETS.map(|(target, binding)| (target, gl.get_integer(binding) as u32));
     let unpack = gl.get_integer(c::PIXEL_UNPACK_BUFFER_BINDING) as u32;

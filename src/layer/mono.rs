@@ -1,5 +1,5 @@
-//! Frames that are the same in all views, such as menus and programs without depth: only the program's own view is drawn, and it is
-//! what the panel shows. The others get what it has as soon as something is drawn that depends on the view.
+//! Mono frames: they are the same in all views, such as menus and programs without depth. Only the program's own view is drawn, and the panel
+//! shows it. The other views get a copy of it as soon as something is drawn that depends on the view.
 
 use super::{Layer, as_they_are};
 use crate::config::{CaptureWhat, Filter, Optimisation, Output};
@@ -13,7 +13,7 @@ impl Layer {
         self.known.mono.active
     }
 
-    /// Something that depends on the view is copied to the window next.
+    /// The next command copies something that depends on the view to the window.
     pub(super) fn differ(&mut self, gl: &Gl) {
         self.leave_mono(gl);
         let stencil = self.known.mono.same & c::STENCIL_BUFFER_BIT != 0;
@@ -22,13 +22,13 @@ impl Layer {
             .differ(stencil && gl.is_enabled(c::STENCIL_TEST));
     }
 
-    /// The other views get what the program's own one has, and are drawn again.
+    /// Gives the other views their contents, where only some views were drawn so far, and draws all views from now on.
     pub(super) fn leave_mono(&mut self, gl: &Gl) {
         self.synthesise_views(gl);
         self.draw_all_views(gl);
     }
 
-    /// The other views get what the program's own one has.
+    /// Ends a mono frame: copies the program's own view to the others, and draws all views from now on.
     pub(super) fn draw_all_views(&mut self, gl: &Gl) {
         if !std::mem::take(&mut self.known.mono.active) {
             return;
@@ -44,7 +44,7 @@ impl Layer {
         self.queries.resume(gl);
     }
 
-    /// After a frame: whether the next one is drawn in the program's own view only, for as long as nothing depends on the view.
+    /// After a frame: draws the next one in the program's own view only, where that is possible, for as long as nothing depends on the view.
     pub(super) fn enter_mono(&mut self, gl: &Gl) {
         let mono = self.may_enter_mono();
         if mono {
@@ -76,7 +76,7 @@ impl Layer {
             && self.shows_one_view()
     }
 
-    /// Whether the picture of views that are all the same is any of them: each subpixel shows some view, as it is.
+    /// Whether the picture of views that are all the same is the same as any of them: each subpixel shows one view, without a filter.
     fn shows_one_view(&self) -> bool {
         match self.output() {
             Output::Panel if self.session.config.filter != Filter::Nearest => false,

@@ -1,12 +1,12 @@
-//! Where the layer's own passes draw: in neutral state, outside of the program's queries and conditions.
+//! The state guard of the layer's own passes: they draw in neutral state, outside of the program's queries and conditional rendering.
 
 use super::Layer;
 use crate::gl::Gl;
 use crate::state::Neutral;
 
 impl Layer {
-    /// Runs something of the layer's in neutral state. All state of the program's is as before, framebuffer bindings among it; no query of the
-    /// program's counts what is drawn, and no condition leaves it out.
+    /// Runs `work` in neutral state. Afterwards all state of the program's is as before, framebuffer bindings included. No query of the
+    /// program's counts what `work` draws, and no conditional rendering of the program's leaves it out.
     pub(super) fn in_neutral<R>(
         &mut self,
         gl: &Gl,

@@ -1,10 +1,11 @@
-//! `--strategy occlusion`: what is hidden in the program's own view, for the views that are synthesised from it.
+//! `--strategy occlusion`: samples that are hidden in the program's own view, for the views that are synthesised from it.
 //!
-//! Each draw of the scene goes to a reference image as well, by the distorted rays of an occlusion camera, whose map is that of the depths of the
-//! frame before: nothing has to be kept until the depths are known, and a sample's place is right whatever map it was moved by. What the
-//! map costs where things move is that it reaches behind where they were.
+//! Each draw of the scene goes to a reference image as well, by the distorted rays of an occlusion camera. The distortion map is made from
+//! the depths of the previous frame, so that no draw has to wait for the depths of its own frame. The image keeps by how much each sample was
+//! moved, so the place of a sample is right whatever map has moved it. Where things move, the map reaches behind their earlier places, so a
+//! thin strip there stays unknown.
 //!
-//! Draws that cannot be distorted are missing there: what they hide stays unknown, as it is without this strategy.
+//! Draws that cannot be distorted are missing in the reference image: their hidden parts stay unknown, as they are without this strategy.
 
 use super::draw::{Draw, Send};
 use super::programs::{Entered, VariantUse};
@@ -19,22 +20,22 @@ use crate::state::Neutral;
 use crate::synthesis::Passes;
 use image::RgbImage;
 
-/// D, in pixels: the paper's.
+/// How far distorted rays reach behind an occluder at most, in pixels: D of Popescu, Rosen and Aliaga, with the value of the paper.
 pub(super) const REACH: f32 = 30.0;
 
-/// What is known of the reference image.
+/// State of the reference image.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct ReferenceImage {
     /// The driver makes no reference image.
     refused: bool,
-    /// The map is that of the frame before.
+    /// There is a distortion map, of the previous frame.
     mapped: bool,
     /// The scene that is being drawn goes to the reference image.
     pub(super) on: bool,
 }
 
 impl Layer {
-    /// A scene begins, with its depths cleared.
+    /// A scene begins with a clear of its depths: clears the reference image as well, if the scene goes there.
     pub(super) fn begin_reference(&mut self, gl: &Gl) {
         let framebuffer = self.targets.atlas.reference_framebuffer();
         let reference = &mut self.synthesis.reference;
@@ -48,7 +49,7 @@ impl Layer {
         }
     }
 
-    /// Makes a draw in the reference image, if it has one there.
+    /// Repeats a draw in the reference image, if the plan says so.
     pub(super) fn draw_to_reference(&mut self, gl: &Gl, draw: &mut Draw) {
         let Some(next) = draw.plan.reference else {
             return;
@@ -74,7 +75,7 @@ impl Layer {
         }
     }
 
-    /// Such a draw by fixed function, with a generated program.
+    /// Repeats a draw by fixed function there, with a generated program.
     fn draw_surface_to_reference(
         &mut self,
         gl: &Gl,
@@ -108,7 +109,7 @@ impl Layer {
         drawn
     }
 
-    /// Such a draw with the program's own shaders.
+    /// Repeats a draw with the program's own shaders there, with their variant that distorts rays.
     fn draw_variant_to_reference(
         &mut self,
         gl: &Gl,
@@ -127,7 +128,7 @@ impl Layer {
         };
         self.queries.pause(gl);
         let plan = draw.plan;
-        // What the projection matrix places is shifted by that.
+        // Vertices that the projection matrix places are shifted by that matrix.
         let (moved, shifts) = match plan.variant {
             true => (None, (plan.shear, plan.flat)),
             false => (plan.shear, (None, Flat::Still)),
@@ -156,7 +157,7 @@ impl Layer {
         Ok(())
     }
 
-    /// By how much samples are moved is not blended, and written whatever colours the program leaves out.
+    /// Runs `draw` with blending and colour mask off for the second attachment, which holds by how much each sample is moved.
     fn unblended<R>(&mut self, gl: &Gl, draw: impl FnOnce(&mut Self) -> R) -> R {
         let blends = self.state.classification.blends;
         if blends {
@@ -177,7 +178,7 @@ impl Layer {
         done
     }
 
-    /// The reference image, row 0 on top. Changes the read framebuffer.
+    /// The reference image, row 0 on top. Changes the read framebuffer. Fails where this frame has no reference image.
     pub(super) fn reference_image(&self, gl: &Gl, neutral: &Neutral) -> Result<RgbImage, String> {
         let framebuffer = self.targets.atlas.reference_framebuffer();
         let framebuffer = framebuffer.filter(|_| self.synthesis.reference.on).ok_or(
@@ -191,7 +192,7 @@ impl Layer {
         Ok(read_rgb(gl, neutral, 0, 0, width, height))
     }
 
-    /// After the own view has been measured: its map, for the next frame. State as for the passes.
+    /// After the own view has been measured: makes the distortion map for the next frame. The state is neutral.
     pub(super) fn map_distortion(&mut self, gl: &Gl, neutral: &Neutral, disparities: &Disparities) {
         let passes = self.synthesis.passes.as_ref();
         if !passes.is_some_and(Passes::distorts) {

@@ -1,4 +1,4 @@
-//! What a destroyed context leaves in its share group, and who deletes it.
+//! Orphaned GL objects: a destroyed context leaves them in its share group, and another context of the group deletes them.
 
 use super::{Layer, Member};
 use crate::gl::{Gl, Held, Object, consts as c};
@@ -6,7 +6,7 @@ use crate::offscreen::Images;
 use crate::state::Orphans;
 
 impl Layer {
-    /// The context is destroyed: what its share group keeps is left to the others.
+    /// The context is destroyed: leaves the objects that its share group keeps to the other contexts.
     pub fn leave(mut self) {
         let mut lists = self.session.group.lists();
         let mask = Some(self.targets.interleaver.texture()).filter(|&t| t != 0);
@@ -38,13 +38,13 @@ impl Layer {
     }
 }
 
-/// Deletes what destroyed contexts of the share group have orphans.
+/// Deletes the objects that destroyed contexts of the share group have orphaned.
 pub(super) fn delete_orphans(gl: &Gl, group: &Member) {
     let orphans = std::mem::take(&mut group.lists().orphans);
     if !orphans.framebuffers.is_empty() {
         let bound = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;
         for &framebuffer in &orphans.framebuffers {
-            // Where the driver does not share them the name may be the program's by now.
+            // A driver need not share framebuffer objects: the name may be one of the program's by now.
             if is_attached(gl, framebuffer, &orphans, &group.images()) {
                 Held::Framebuffer.count(1);
                 gl.delete_framebuffer(framebuffer);
@@ -52,7 +52,7 @@ pub(super) fn delete_orphans(gl: &Gl, group: &Member) {
         }
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, bound);
     }
-    // Counted with the context that has made them, which is no more.
+    // The objects were counted with the context that made them, which is gone: 1 for each balances the count of its deletion.
     for texture in orphans.textures {
         Held::Texture.count(1);
         gl.delete_texture(texture);

@@ -1,9 +1,9 @@
-//! What the program draws outside the window: once where all views are the same, else once per view, into framebuffers of their own
-//! and with textures of their own (see [`crate::offscreen`]).
+//! Passes of the program outside the window: they are drawn once where all views are the same, or else once per view, into framebuffers of
+//! the view's own and with textures of its own (see [`crate::offscreen`]).
 //!
-//! A framebuffer is the window's, in as many views, as soon as a part of the scene is drawn into it in perspective, and it has the shape of
-//! the window or the camera has. Shadow maps, cube faces, light maps have neither. Whatever samples, copies or blits from one that differs
-//! makes its own target differ.
+//! A framebuffer is taken as a part of the window's picture, with one image per view, as soon as a part of the scene is drawn into it in
+//! perspective, and its viewport or its camera has the aspect ratio of the window. Shadow maps, cube faces and light maps have neither.
+//! Whatever samples, copies or blits from one that differs between the views makes its own target differ.
 
 use super::{Layer, keep_bindings};
 use crate::gl::Gl;
@@ -14,11 +14,12 @@ use crate::plan::decide::Shaders;
 use crate::state::{Touch, uniform_change};
 use std::sync::Arc;
 
-/// Pixels along the longer side of a window up to which nobody looks at it.
+/// Longer side, in pixels, up to which a window is taken as one that nobody looks at.
 const HIDDEN: u32 = 16;
 
 impl Layer {
-    /// Where a draw goes, and A of the camera that it shows to be the window's. The state is refreshed.
+    /// The target of a draw. If it is a pass whose camera may be the window's, also A of that camera (see [`crate::plan::parallax`]). The
+    /// state must have been refreshed.
     pub(super) fn target(&mut self, gl: &Gl, shaders: &Shaders) -> (Target, Option<f64>) {
         let name = self.state.framebuffers.draw;
         if !self.state.makes_pictures() {
@@ -59,7 +60,7 @@ impl Layer {
         };
         let a = f64::from(camera[0]);
         if alone && width == height {
-            // The map of a lamp, unless it sees what the window does.
+            // A square depth map is a shadow map, unless its camera has the window's A.
             let lens = self.known.lens;
             return (
                 lens.is_some_and(|lens| (a - lens).abs() <= 0.01 * lens),
@@ -70,7 +71,7 @@ impl Layer {
         (pass, pass.then_some(a))
     }
 
-    /// Width and height in pixels of the picture that is drawn: of the window, or, where there is none to be seen, of the viewport.
+    /// Width and height, in pixels, of the picture that is drawn: those of the window, or of the viewport where the window is hidden.
     fn picture_size(&self) -> [i64; 2] {
         let window = [self.state.window.width, self.state.window.height].map(i64::from);
         let [_, _, width, height] = self.state.rectangles.viewport.map(i64::from);
@@ -80,7 +81,7 @@ impl Layer {
         }
     }
 
-    /// Whether the context draws for another one: its own window is but a place to be current at, as those of toolkits' widgets.
+    /// Whether the context draws for another one: its own window, such as those of toolkits' widgets, serves only to make it current.
     pub fn is_hidden(&self) -> bool {
         let window = &self.state.window;
         window.width.max(window.height) <= HIDDEN

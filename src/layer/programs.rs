@@ -1,4 +1,4 @@
-//! Programs with shaders of their own: their draws go by a variant that shifts the vertices of each view.
+//! Programs with shaders of their own: they are drawn with a program variant, which shifts the vertices of each view.
 
 use super::Layer;
 use crate::config::Strategy;
@@ -23,9 +23,9 @@ pub(super) struct OwnVariants {
 /// What a variant is wanted for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum VariantUse {
-    /// One view, wherever that is.
+    /// One view, in whatever framebuffer.
     Views,
-    /// One view in its layer, if that can be.
+    /// One view in its layer, if there is a variant that chooses it; else as [`VariantUse::Views`].
     Layers,
     /// All views in their layers.
     Instances,
@@ -44,44 +44,45 @@ pub(super) struct Entered {
 /// The camera of a program.
 #[derive(Clone, Copy, Debug)]
 struct Camera {
-    /// Which of its matrices it is in, and that.
+    /// Index of its matrix among those of the program; `matrix` is the value, column-major.
     at: usize,
     matrix: [f32; 16],
     /// See [`camera::equivalent`].
     projection: [f32; 16],
 }
 
-/// The camera of a program, as far as it was looked for.
+/// State of the search for a program's camera.
 #[derive(Debug)]
 struct CameraSearch {
-    /// The last one that was among its matrices.
+    /// The last camera that was found among its matrices.
     found: Option<Camera>,
-    /// None of them has a perspective now.
+    /// None of its matrices has a perspective now.
     lost: bool,
-    /// The changes of uniforms up to which it was looked for.
+    /// [`uniform_change`] at the last search.
     seen: u64,
 }
 
-/// How the draws of one program go.
+/// Record of one program: its variants, and its uniforms that the layer follows.
 #[derive(Debug)]
 struct ProgramRecord {
-    /// The link that it belongs to.
+    /// The link of the program that the record belongs to.
     link: u64,
-    /// The changes of programs up to which it is the last one.
+    /// [`link_change`] when this was last known to be the program's last link.
     checked: u64,
     how: Result<Drawn, NoVariant>,
-    /// The variants that choose layers, once they have been wanted: for one view, and for all.
+    /// The variants that choose layers, for one view and for all: none until one is wanted, `Some(None)` where there cannot be one.
     layered: [Option<Option<Arc<Variant>>>; 2],
     /// The variant that distorts rays, once it has been wanted.
     distorting: Option<Result<Arc<Variant>, NoVariant>>,
     matrices: Matrices,
     samplers: Samplers,
-    /// Their units, and the changes of uniforms up to which they are known.
+    /// [`uniform_change`] when the samplers were last read, and their texture units with the targets.
     units: (u64, Vec<(u32, u32)>),
-    /// Its matrices that take depths back, where they are, up to a change of uniforms and for an aspect.
+    /// Its matrices that unproject depths, with their locations. Before them: [`uniform_change`] and the aspect ratio that they were found
+    /// for.
     unprojections: (u64, f64, Vec<(i32, [f32; 16])>),
     camera: CameraSearch,
-    /// The changes of uniforms up to which the values of its variants follow, by [`VariantUse`].
+    /// [`uniform_change`] when uniforms were last copied to its variants, by [`VariantUse`].
     followed: [u64; 4],
 }
 
@@ -146,7 +147,7 @@ impl Layer {
         }
     }
 
-    /// Whether programs have to come with their texts: from a binary nothing can be made for a view.
+    /// Whether program binaries are refused, because no variant can be made from one. Programs then come with their sources.
     pub fn refuses_binaries(&self) -> bool {
         self.session.config.views > 1
     }
@@ -176,7 +177,7 @@ impl Layer {
         self.variants.own.doomed.contains(&program)
     }
 
-    /// After glUseProgram.
+    /// After glUseProgram: deletes the programs that have waited for it.
     pub fn delete_doomed(&mut self, gl: &Gl) {
         let used = gl.get_integer(c::CURRENT_PROGRAM) as u32;
         let (kept, gone): (Vec<u32>, Vec<u32>) = self
@@ -210,7 +211,7 @@ impl Layer {
         ask(&mut lists.shaders)
     }
 
-    /// What is known of a program that is in use; whatever it draws, its variant for one view is what tells.
+    /// Facts of a program that is in use. They come from its variant for one view, whichever variant it is drawn with.
     pub(super) fn variant_facts(&mut self, gl: &Gl, program: ProgramName) -> Shaders {
         if !self.is_known(program.0) {
             return Shaders::Unlinked(program);
@@ -251,7 +252,8 @@ impl Layer {
         self.variants.divides = true;
     }
 
-    /// The camera that a program with a variant has, where it has one; none for other programs.
+    /// The projection of the camera of a program with a variant, column-major: `Some(None)` where no camera is found, `None` for a program
+    /// without a variant.
     #[allow(clippy::option_option, reason = "a variant, and a camera")]
     pub(super) fn camera_of(&mut self, gl: &Gl, program: u32) -> Option<Option<[f32; 16]>> {
         let aspect = self.aspect();
@@ -271,7 +273,7 @@ impl Layer {
         };
         let change = uniform_change();
         let changed = std::mem::replace(seen, change) != change;
-        // The one that it was in has mostly only moved.
+        // The camera mostly is in the same matrix as before, and has only moved.
         let mut search = camera.is_none();
         if let (true, Some(found)) = (changed, camera.as_mut())
             && let Some(matrix) = matrices.value(gl, program, found.at)
@@ -283,7 +285,7 @@ impl Layer {
                 None => search = true,
             }
         }
-        // Buffers are read until a camera is found. One that is mapped is not to be read, and raises an error.
+        // Uniform buffers are read until a camera is found. A mapped one cannot be read, and raises an error, which is taken out below.
         let reads = camera.is_none() && matrices.has_blocks();
         if search && (changed || reads) {
             if reads {
@@ -308,7 +310,8 @@ impl Layer {
         Some(camera)
     }
 
-    /// What the scene that is being drawn is projected by, as it is and as a projection alone.
+    /// The matrix that projects the scene that is being drawn, as the program has it and as a pure projection (see [`camera::equivalent`]);
+    /// both are column-major.
     pub(super) fn projections(&self) -> [[f32; 16]; 2] {
         let known = self.variants.own.known.get(&self.state.in_use.program);
         let camera = known.and_then(|known| known.camera.found);
@@ -365,7 +368,7 @@ impl Layer {
         self.shaders(|shaders| shaders.of(program))
     }
 
-    /// What some program was linked from whose texts have this sum.
+    /// The sources with this hash, if a program was linked from them.
     pub(super) fn linked_as(&self, sum: u64) -> Option<Linked> {
         self.shaders(|shaders| shaders.with(sum))
     }

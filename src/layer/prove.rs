@@ -1,9 +1,9 @@
-//! The proof on the running program: every so many frames one is drawn by replay at the size of the window as well, from the same calls
-//! into a second atlas, and both are compared.
+//! The proof on the running program: every so many frames, a frame is drawn twice from the same calls, as always and by replay at the size of
+//! the window into a second atlas. Then both are compared.
 //!
-//! Each draw goes to the second atlas first, with all state put back, then to the first one as always: so what the program sees of its
-//! state and of framebuffer 0 is what it would have seen. Time is not taken in such frames, which are slow, but in some between
-//! them: the same number by the strategy that was chosen and by nothing but replay, in turns.
+//! Each draw goes to the second atlas first, and all state is put back; then it goes to the first one as always. So the program sees the
+//! state and the framebuffer 0 that it would see without a proof. Such frames are slow and are not timed. Some frames between them are timed:
+//! as many by the chosen strategy as by replay alone, in turns.
 
 use super::draw::Images;
 use super::{Layer, explain, frame::tile, keep_bindings, make_atlas};
@@ -20,11 +20,11 @@ use crate::view::ViewIndex;
 use image::RgbImage;
 use std::time::{Duration, Instant};
 
-/// How the frames after a proved one are drawn, to be timed: true is by replay. As many of either, and none always first.
+/// How the frames after a proved one are drawn to be timed; true stands for replay. There are as many of either, and neither is always first.
 const TRIALS: [bool; 4] = [false, true, true, false];
-/// Frames in which the draw is looked for that brought the worst pixel: after each draw a view is read twice.
+/// Number of frames that search for the draw which caused the worst pixel. They are slow: after each draw a view is read from both atlases.
 const SEARCHES: u32 = 3;
-/// For one of them.
+/// Time that one search may take.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 const FRONT: &str = "the program draws to the front buffer or reads from it";
@@ -37,7 +37,7 @@ const CHANGED: &str = "the window's size or format changed in the middle of the 
 const EMPTY: &str = "nothing was drawn";
 const MEMORY: &str = "the driver makes no second atlas";
 
-/// What the frame is that is being drawn.
+/// Role of the frame that is being drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Now {
     #[default]
@@ -48,19 +48,20 @@ enum Now {
     },
 }
 
-/// What is kept from frame to frame, and of the one that is being drawn.
+/// State of the proof: some of it is kept from frame to frame, some belongs to the frame that is being drawn.
 #[derive(Debug, Default)]
 pub(super) struct Proving {
-    /// What replay draws to; while a frame is drawn by replay alone the two atlases change places.
+    /// The second atlas, which replay draws to. While a frame is drawn by replay alone, the two atlases change places.
     atlas: Option<Atlas>,
     now: Now,
     /// Why the frame cannot be compared.
     refused: Option<&'static str>,
     /// The frame's first draw or clear was made.
     begun: bool,
-    /// That was no clear of the whole window. Kept until the next proved frame: so the program is.
+    /// The frame did not begin with a clear of the whole window, so it shows contents of earlier frames. Kept until the next proved frame,
+    /// because a program begins all its frames alike.
     carries: bool,
-    /// Since when the frame is timed.
+    /// Start of a frame that is timed.
     since: Option<Instant>,
     trials: usize,
     search: Option<Search>,
@@ -77,14 +78,14 @@ struct Drawn {
     method: Method,
 }
 
-/// A view of which is known what draw made each pixel differ.
+/// A search for the draws that made pixels of one view differ.
 #[derive(Debug)]
 struct Search {
     view: ViewIndex,
     draws: Vec<Drawn>,
-    /// For each pixel that differs the number of draws when it first did, else 0.
+    /// For each pixel that differs, the number of draws when it began to; else 0.
     since: Vec<usize>,
-    /// A draw has been made since the view was looked at.
+    /// A draw has been made since the view was read.
     pending: bool,
     began: Instant,
 }
@@ -103,7 +104,7 @@ impl Search {
         }
     }
 
-    /// The draw that brought the worst pixel of the whole frame.
+    /// The draw that caused the worst pixel of the view at the end of the frame.
     fn culprit(&self, frame: u64, width: u32, difference: &Difference) -> Option<Culprit> {
         let [x, y] = difference.at();
         let since = *self.since.get(y as usize * width as usize + x as usize)?;
@@ -131,7 +132,7 @@ impl Proving {
         self.now == Now::Proved && self.refused.is_none() && self.atlas.is_some()
     }
 
-    /// The frame is drawn by nothing but replay, in the other atlas.
+    /// Whether the frame is drawn by replay alone, to the second atlas.
     pub(super) fn replays(&self) -> bool {
         self.now == Now::Timed { by_replay: true }
     }
@@ -141,17 +142,17 @@ impl Proving {
         self.search = None;
     }
 
-    /// What was drawn while a display list was compiled is in one atlas only.
+    /// Refuses the comparison, because a draw while a display list is compiled goes to one atlas only.
     pub(super) fn refuse_lists(&mut self) {
         self.refuse(LISTS);
     }
 
-    /// Something is drawn that is no draw of the list.
+    /// Ends the search, because something is drawn that is not among its draws.
     pub(super) fn stop_search(&mut self) {
         self.search = None;
     }
 
-    /// The last draw went by replay after all.
+    /// The last draw was made by replay after all.
     pub(super) fn replayed(&mut self) {
         let search = self.search.as_mut();
         if let Some(last) = search.and_then(|search| search.draws.last_mut()) {
@@ -159,14 +160,14 @@ impl Proving {
         }
     }
 
-    /// The other atlas.
+    /// The second atlas.
     pub(super) fn atlas(&self) -> Option<&Atlas> {
         self.atlas.as_ref()
     }
 }
 
 impl Layer {
-    /// A draw is about to be made.
+    /// Notes a draw that is about to be made.
     pub(super) fn prove_this(&mut self, gl: &Gl, facts: &Traits, plan: &Plan) {
         let first = match self.diagnostics.proving.now {
             Now::Plain => return,
@@ -204,7 +205,7 @@ impl Layer {
         }
     }
 
-    /// Sends a draw, or a clear, to the other atlas by replay, if the frame is proved. All state is as before.
+    /// Sends a draw, or a clear, to the second atlas by replay, if the frame is proved. All state is as before.
     pub(super) fn prove(
         &mut self,
         gl: &Gl,
@@ -232,7 +233,7 @@ impl Layer {
         }
     }
 
-    /// Runs something with the other atlas in the place of the first one, if the frame is proved; queries do not count it.
+    /// Runs `work` with the second atlas in the place of the first one, if the frame is proved; queries do not count it.
     pub(super) fn in_proof(&mut self, gl: &Gl, work: impl FnOnce(&mut Self)) {
         if self.diagnostics.proving.proves() && self.state.framebuffers.uses_front() {
             self.diagnostics.proving.refuse(FRONT);
@@ -257,14 +258,14 @@ impl Layer {
         }
     }
 
-    /// The picture that the window would show of the other atlas; the true framebuffer 0 is bound and is drawn to.
+    /// The picture that the window would show of the second atlas. The true framebuffer 0 is bound and is drawn to.
     pub(super) fn exact_picture(
         &mut self,
         gl: &Gl,
         image: u32,
         neutral: &Neutral,
     ) -> Option<RgbImage> {
-        // Those are made of more than one picture of colours.
+        // These outputs are made of more than one picture of colours.
         let single = !matches!(self.output(), Output::Quad | Output::Rgbd);
         if !single || !self.diagnostics.proving.proves() || !self.frame.drawn {
             return None;
@@ -285,7 +286,7 @@ impl Layer {
         capture::read_rgb(gl, neutral, 0, 0, width, height)
     }
 
-    /// After the picture: compares, or takes the time. `exact` is that of the other atlas, where the two can be compared.
+    /// After the picture was drawn: compares, or takes the time. `exact` is the picture of the second atlas, where the two can be compared.
     pub(super) fn judge_proof(&mut self, gl: &Gl, neutral: &Neutral, exact: Option<RgbImage>) {
         let now = self.diagnostics.proving.now;
         if let (Now::Timed { by_replay }, Some(since)) =
@@ -374,7 +375,7 @@ impl Layer {
             .map(|(view, _)| ViewIndex(view));
     }
 
-    /// What replay has drawn, the difference and what is shown, beside the report.
+    /// Writes the picture by replay, the difference and the picture that is shown to a file beside the report, and returns its path.
     fn draw_failure(&mut self, exact: &RgbImage, shown: &RgbImage) -> Option<String> {
         let file = self
             .session
@@ -402,8 +403,8 @@ impl Layer {
         }
     }
 
-    /// A view by replay, and as it is shown, stretched to the window where it has fewer pixels. State is as [`Neutral`] leaves
-    /// it; changes the framebuffers that are bound.
+    /// A view by replay, and as it is shown, stretched to the window where it has fewer pixels. The state is neutral; changes the
+    /// framebuffers that are bound.
     fn pair(&mut self, gl: &Gl, neutral: &Neutral, view: ViewIndex) -> [RgbImage; 2] {
         let exact = self.diagnostics.proving.atlas.as_ref();
         let exact = exact.map_or_else(RgbImage::default, |atlas| tile(gl, neutral, atlas, view));
@@ -416,7 +417,7 @@ impl Layer {
         [exact, capture::read_rgb(gl, neutral, 0, 0, width, height)]
     }
 
-    /// Before a draw: what has the one before it changed?
+    /// Before a draw: finds the pixels that the draw before it has made differ.
     fn attribute_last_draw(&mut self, gl: &Gl) {
         let Some(mut search) = self.diagnostics.proving.search.take() else {
             return;
@@ -440,8 +441,7 @@ impl Layer {
         self.diagnostics.proving.search = Some(search);
     }
 
-    /// At the end of a frame: decides how the next one is drawn. State is as [`Neutral`] has it; changes the framebuffers that
-    /// are bound.
+    /// At the end of a frame: decides how the next one is drawn. The state is neutral; changes the framebuffers that are bound.
     pub(super) fn next_proof(&mut self, gl: &Gl) {
         let Some(every) = self.session.config.prove else {
             return;
@@ -453,7 +453,7 @@ impl Layer {
         self.diagnostics.proving.refused = None;
         self.diagnostics.proving.begun = false;
         self.diagnostics.proving.search = None;
-        // This one is not counted yet.
+        // The number of the next frame: this one is not counted yet.
         let at = (self.diagnostics.report.frames() + 2) % every;
         if at == 0 {
             self.begin_proof(gl);
@@ -509,7 +509,7 @@ impl Layer {
         }
     }
 
-    /// What the program does not clear, both have.
+    /// Copies the first atlas to the second one, for what the program does not clear.
     fn hand_over(&mut self, gl: &Gl) {
         let Some(mut other) = self.diagnostics.proving.atlas.take() else {
             return;
@@ -528,7 +528,7 @@ impl Layer {
 
     fn begin_trial(&mut self, gl: &Gl) {
         let full = self.targets.atlas.tiles.grid.is_full();
-        // What stands in an atlas, or beside it, would have to be there in the other one as well.
+        // Contents of earlier frames, the front buffer and the accumulation buffer would have to be in the second atlas as well.
         if self.uses_front()
             || self.targets.accumulated.buffer.is_some()
             || self.diagnostics.proving.carries && !full
@@ -548,7 +548,7 @@ impl Layer {
         }
     }
 
-    /// After a frame by replay alone; `whole`: the frame is at its end.
+    /// After a frame by replay alone: returns to the chosen strategy and the first atlas. `whole`: the frame is at its end.
     fn choose_again(&mut self, gl: &Gl, whole: bool) {
         self.diagnostics.proving.now = Now::Plain;
         self.session.strategy = self.chosen();
@@ -565,7 +565,7 @@ impl Layer {
         self.apply_buffers(gl);
     }
 
-    /// The window, or what our textures are called, changes: the other atlas has to be another one. The caller binds framebuffers.
+    /// Deletes the second atlas, because the window or the names of our textures change. The caller binds framebuffers.
     pub(super) fn drop_proof(&mut self, gl: &Gl) {
         if self.diagnostics.proving.replays() {
             self.choose_again(gl, false);

@@ -1,4 +1,4 @@
-//! What is drawn to which buffer of the true framebuffer 0: a stereo window has one for each eye.
+//! The picture that each buffer of the true framebuffer 0 gets: a stereo window has one buffer for each eye.
 
 use super::Layer;
 use crate::config::Output;
@@ -9,8 +9,8 @@ const NO_STEREO: &str = "output is 'quad', but the window has no left and right 
                          choose another output, such as anaglyph or half-sbs";
 
 impl Layer {
-    /// The buffers of an output with what each of them shows; none is the buffer that is drawn to already. `image` is the one of the
-    /// atlas that is shown.
+    /// The buffers of an output, each with the output that is drawn to it; `None` stands for the buffer that is drawn to already. `image` is
+    /// the image of the atlas that is shown, its front or back buffer.
     pub(super) fn pictures(&mut self, output: Output, image: u32) -> Vec<(Option<u32>, Output)> {
         let window = &self.state.window;
         if output != Output::Quad {

@@ -1,8 +1,7 @@
 //! Queries that count what is drawn: only what is drawn in the program's own view is counted.
 //!
-//! A draw in N views would count N times. So the query is ended before the other views are drawn and begun again for the own one.
-//! To begin it again would forget what it has counted; after the first draw a query object of ours counts on, and the program is
-//! answered the sum.
+//! A draw in N views would count N times. So the query is ended before the other views are drawn, and begun again for the own one. A query
+//! that is begun again forgets its count. After the first draw a query object of ours therefore continues it, and the program gets the sum.
 
 use super::Layer;
 use crate::gl::{Gl, consts as c};
@@ -27,12 +26,12 @@ struct Active {
     more: Vec<u32>,
 }
 
-/// What our query objects add to an answer.
+/// The part of a query's result that our query objects hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
     /// To be added to the count.
     Count(u64),
-    /// Something passed, or nothing.
+    /// Whether anything has passed.
     Any(bool),
     /// Whether the rest of the result is available.
     Available(bool),
@@ -51,7 +50,7 @@ impl Queries {
         !self.active.is_empty()
     }
 
-    /// Something is drawn that is no matter of views.
+    /// Something is drawn once instead of per view, so active queries have counted something.
     pub(super) fn drawn(&mut self) {
         self.active.iter_mut().for_each(|a| a.counted = true);
     }
@@ -74,14 +73,14 @@ impl Queries {
         }
     }
 
-    /// Before drawing of ours that must not depend on the program's condition.
+    /// Ends the program's conditional rendering, before drawing of ours that must not depend on it.
     pub(super) fn lift_condition(&self, gl: &Gl) {
         if self.condition.is_some() {
             gl.end_conditional_render();
         }
     }
 
-    /// After it.
+    /// Begins the program's conditional rendering again.
     pub(super) fn put_condition(&self, gl: &Gl) {
         if let Some((query, mode)) = self.condition {
             gl.begin_conditional_render(query, mode);
@@ -113,7 +112,7 @@ impl Layer {
         });
     }
 
-    /// glEndQuery, after the driver's own.
+    /// After the driver's glEndQuery.
     pub fn ended_query(&mut self, target: u32) {
         let q = &mut self.queries;
         if let Some(at) = q.active.iter().position(|a| a.target == target) {
@@ -142,7 +141,7 @@ impl Layer {
         self.state.keep_errors(gl);
         let q = &self.queries;
         if q.active.iter().any(|a| a.query == query) {
-            // Refused, if it is the driver's as well.
+            // The driver refuses the query that is active there.
             return self.asked_query(query);
         }
         let more = q.more.get(&query).map_or(&[][..], |(_, names)| names);
@@ -155,13 +154,13 @@ impl Layer {
         match gl.get_error() {
             c::NO_ERROR if !self.compiles() => self.queries.condition = Some((query, mode)),
             c::NO_ERROR => {}
-            // The driver keeps the first error only.
+            // Only the first error is kept, as by the driver.
             error if self.state.errors.is_empty() => self.state.errors.push_back(error),
             _ => {}
         }
     }
 
-    /// glEndConditionalRender, after the driver's own: there is no condition then, whether there was one or not.
+    /// After the driver's glEndConditionalRender, which leaves no condition, whether there was one or not.
     pub fn ended_condition(&mut self) {
         self.queries.condition = None;
     }
@@ -175,7 +174,7 @@ impl Layer {
     /// What our queries add to the answer about one of the program's, if there are any.
     pub fn query_answer(&self, gl: &Gl, query: u32, name: u32) -> Option<Answer> {
         let (target, more) = self.queries.more.get(&query)?;
-        // Into a buffer object the driver writes by itself.
+        // The driver itself writes results into a query buffer, where nothing can be added.
         if self.session.support.version >= (4, 4) && gl.get_integer(c::QUERY_BUFFER_BINDING) != 0 {
             return None;
         }

@@ -1,18 +1,18 @@
-//! What is kept while the program speaks in several commands: between glBegin and glEnd, and while a list compiles and draws.
+//! State of draws that the program makes in several commands: between glBegin and glEnd, and while a display list is compiled and executed.
 
 use super::executed;
 use crate::gl::{Ends, Recording};
 use crate::state::Immediate;
 
-/// Commands that are held back, or that are halfway through.
+/// Commands that are recorded, or that are executed while they are compiled.
 #[derive(Debug, Default)]
 pub(super) struct Recordings {
     /// The calls since glBegin.
     pub(super) recording: Recording,
-    /// Display lists that hold its glBegin or its glEnd.
+    /// Display lists that hold the glBegin or the glEnd of the recording.
     pub(super) ends: Ends,
-    /// What its calls do to the state.
+    /// How the recorded calls change the current values.
     pub(super) immediate: Immediate,
-    /// The run of a display list that the driver compiles and draws.
+    /// The run of a display list that the driver compiles and executes.
     pub(super) executed: Option<executed::Own>,
 }

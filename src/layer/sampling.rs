@@ -1,5 +1,5 @@
-//! How finely the views are drawn: as few texels as the output shows, and the window's own pixels as soon as the program does what
-//! others cannot hold.
+//! Resolution of the views: as few texels as the output shows, or the window's own pixels as soon as the program does what only those can
+//! hold.
 
 use super::Layer;
 use crate::atlas::{Grid, ViewSet};
@@ -10,7 +10,7 @@ use crate::interleave::Form;
 use crate::plan::decide::{Demand, Detail};
 use crate::view::ViewIndex;
 
-/// The texels of the views. `shader`: the output is made on the GPU, which can look tiles up by lenses.
+/// The grid of the views. `shader`: the output is made on the GPU, which can sample tiles that are aligned with the panel's lenses.
 pub(super) fn grid(
     config: &Config,
     display: &Display,
@@ -52,12 +52,12 @@ impl Layer {
         )
     }
 
-    /// Only the window's own pixels can hold what comes.
+    /// Goes over to the window's own pixels, because only those can hold what comes. `what` continues the note "because the program".
     pub(super) fn hold_everything(&mut self, gl: &Gl, what: &'static str) {
         self.retreat(gl, Demand::Everything(what));
     }
 
-    /// Before a frame is shown: tiles that are not of the kind or the size that the output needs now are made anew from what is there.
+    /// Before a frame is shown: makes the atlas anew, with its contents, where the output now needs tiles of another kind or size.
     pub(super) fn refit(&mut self, gl: &Gl) {
         if self.diagnostics.proving.replays() {
             return;
@@ -71,7 +71,7 @@ impl Layer {
         }
     }
 
-    /// After it: the window may have moved, and the next frame is drawn where its lenses are now.
+    /// After a frame was shown: aligns the tiles of the next one with the panel's lenses, because the window may have moved.
     pub(super) fn realign_tiles(&mut self) {
         if self.diagnostics.proving.replays() {
             return;
@@ -103,7 +103,7 @@ impl Layer {
             .capture
             .as_ref()
             .map(|capture| capture.what);
-        // What is proved is compared view by view.
+        // A proof compares view by view.
         if self.targets.undrawn
             || self.session.config.disabled.has(Optimisation::Unseen)
             || self.session.config.prove.is_some()
@@ -149,7 +149,7 @@ impl Layer {
     fn wanted(&self) -> (Grid, [u32; 2]) {
         let tiles = &self.targets.atlas.tiles;
         match self.session.config.view_scale {
-            // Nothing changes it.
+            // Nothing changes a grid of this scale.
             ViewScale::Fixed(1.0) => (tiles.grid, [tiles.width, tiles.height]),
             _ => self.grid().fit(tiles.window, tiles.views),
         }

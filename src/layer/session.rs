@@ -1,4 +1,5 @@
-//! What holds for as long as a context is under the layer: what the user wants, what the driver can, who shares its objects.
+//! A context's settings and capabilities, and the group that shares its objects: all that holds for as long as the context is under the
+//! layer.
 
 use super::{Member, OnScreen, Support, auto};
 use crate::config::{Config, Live, Strategy};
@@ -12,14 +13,14 @@ use std::sync::Arc;
 pub(super) struct Session {
     pub(super) config: &'static Config,
     pub(super) support: Support,
-    /// In force: what the user asked for, or `auto` has come to.
+    /// The strategy in force: the one that the user has asked for, or that `auto` uses now.
     pub(super) strategy: Strategy,
     pub(super) group: Arc<Member>,
-    /// What the user changes while the program runs.
+    /// The values that the user may change while the program runs.
     pub(super) live: Live,
-    /// Where the window lies; none where the window system does not tell.
+    /// Position of the window; none where the window system does not report it.
     pub(super) on_screen: Option<OnScreen>,
-    /// The display with other numbers of its sheet, once they have been changed.
+    /// The display with other numbers of its lens sheet, once they have been changed.
     pub(super) fitted: Option<Display>,
     pub(super) auto: Option<auto::Auto>,
 }
@@ -54,7 +55,7 @@ impl Session {
         }
     }
 
-    /// Whether amplified draws have the very depths of replayed ones.
+    /// Whether amplified draws have exactly the depths of replayed ones.
     pub(super) fn same_depths(&self) -> bool {
         let distances = self.config.clip.is_some();
         has_depths_of_replay(self.strategy, self.support.layers(), distances)

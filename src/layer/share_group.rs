@@ -12,12 +12,12 @@ struct Group {
     members: AtomicUsize,
 }
 
-/// The place of one context in its share group: from its creation until it is destroyed and its layer is gone.
+/// Membership of one context in its share group: from its creation until it is destroyed and its layer is gone.
 #[derive(Debug)]
 pub struct Member(Arc<Group>);
 
 impl Default for Member {
-    /// Of a context that shares with none yet.
+    /// The membership of a context that shares with none yet.
     fn default() -> Self {
         Member::of(Arc::default())
     }
@@ -29,7 +29,7 @@ impl Member {
         Member(group)
     }
 
-    /// That of a new context that shares with this one.
+    /// The membership of a new context that shares with this one.
     #[must_use]
     pub fn sharing(&self) -> Self {
         Member::of(self.0.clone())
@@ -47,13 +47,13 @@ impl Member {
         lists.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Textures and renderbuffers that the views differ in.
+    /// Textures and renderbuffers that differ between the views.
     pub(super) fn images(&self) -> MutexGuard<'_, Images> {
         let images = self.0.images.lock();
         images.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The same, to be kept.
+    /// The same, as a handle that can be kept.
     pub(super) fn shared_images(&self) -> SharedImages {
         self.0.images.clone()
     }

@@ -1,4 +1,4 @@
-//! What a context lets the layer do, and how `manyview-probe` says so to `manyview doctor`.
+//! Capabilities of a context, and the form in which `manyview-probe` reports them to `manyview doctor`.
 #![forbid(unsafe_code)]
 
 use super::LayerError;
@@ -7,7 +7,7 @@ use crate::gl::{Gl, consts as c};
 use crate::rewrite::VertexLayer;
 use serde::{Deserialize, Serialize};
 
-/// What a context offers.
+/// Capabilities of a context.
 #[derive(Clone, Copy, Debug)]
 pub struct Support {
     /// Major and minor version.
@@ -22,7 +22,7 @@ pub struct Support {
     pub glsl: u32,
     /// GL_MAX_CLIP_DISTANCES; 0 where generated shaders cannot be used.
     pub clip_distances: u32,
-    /// By what a vertex shader chooses the layer that it draws to.
+    /// The extension by which a vertex shader chooses the layer that it draws to, if the context has one.
     pub vertex_layer: Option<VertexLayer>,
     /// Whether viewports can begin and end between pixels (GL_ARB_viewport_array).
     pub viewports: bool,
@@ -82,7 +82,7 @@ impl Support {
         })
     }
 
-    /// Whether an index may end a primitive.
+    /// Whether an index may end a primitive (primitive restart).
     #[must_use]
     pub fn restarts(&self, gl: &Gl) -> bool {
         let on = |since, name| !gl.is_es() && gl.version() >= since && gl.is_enabled(name);
@@ -101,13 +101,13 @@ impl Support {
         self.vertex_layer.is_some()
     }
 
-    /// Whether generated geometry shaders can: GLSL 1.50 has them.
+    /// Whether generated geometry shaders can place views: GLSL 1.50 has geometry shaders.
     #[must_use]
     pub fn geometry(&self) -> bool {
         self.instanced()
     }
 
-    /// Names for `--strategy` that do in this context what they say.
+    /// The names for `--strategy` that this context supports.
     #[must_use]
     pub fn strategies(&self) -> Vec<&'static str> {
         [
@@ -140,7 +140,7 @@ impl Support {
     }
 }
 
-/// What `manyview-probe` prints of one API, as a line of JSON: a context it made, or why it could not.
+/// The line of JSON that `manyview-probe` prints for one API: the context that it made, or why it could not.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Probe {
@@ -154,7 +154,7 @@ pub struct Probe {
     pub hooked: bool,
     /// What the layer can use in this context, by the names of `--strategy`.
     pub strategies: Vec<String>,
-    /// Anything else worth a sentence.
+    /// Other remarks, a sentence each.
     pub notes: Vec<String>,
     /// Why there is no context.
     pub error: Option<String>,
@@ -201,7 +201,7 @@ mod tests {
         };
         assert_eq!(es.strategies(), ["replay"]);
         assert!(es.notes()[0].contains("OpenGL ES"), "{:?}", es.notes());
-        // Programs have shaders of their own in a core profile, whose variants choose layers.
+        // Programs of a core profile have shaders of their own, and the variants of those choose layers.
         let core = Support {
             vertex_layer: Some(VertexLayer::ArbShaderViewportLayerArray),
             ..support(450, false, 0)

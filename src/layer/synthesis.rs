@@ -1,9 +1,9 @@
 //! `--strategy depth-image`: the scene goes to the program's own view alone, and the others are synthesised from it and its depths. `hybrid`: it
 //! goes to some views, and the others are synthesised from those beside them.
 //!
-//! From a clear of the depths on, what is drawn in perspective, opaque, by one projection, is in these views only. Before anything else (the
-//! HUD, glass, another clear, a copy of the frame) the views are synthesised into their tiles, with their depths, and all that follows is drawn in
-//! each of them. Where nothing else follows, the panel's picture is synthesised straight from the views that are drawn.
+//! From a clear of the depths on, opaque draws in perspective by one projection go to these views only. Before anything else (the HUD, glass,
+//! another clear, a copy of the frame) the other views are synthesised into their tiles, with their depths, and all that follows is drawn in
+//! each view. Where nothing else follows, the panel's picture is synthesised straight from the views that are drawn.
 
 mod samples;
 mod surface;
@@ -22,44 +22,44 @@ use crate::view::ViewIndex;
 use crate::volume::Samples;
 use surface::Surfaces;
 
-/// Steps of the depth buffer by which views' depths lie behind what they are computed to be.
+/// Steps of the depth buffer by which the depths of synthesised views lie behind the computed ones.
 const MARGIN: f64 = 4.0;
 
-/// Synthesised views, not drawn.
+/// State of the synthesis of views.
 #[derive(Debug, Default)]
 pub(super) struct Synthesis {
-    /// Made when the strategy is asked for; none where the driver cannot.
+    /// The passes of the synthesis; none where the strategy has none, or the driver cannot run them.
     pub(super) passes: Option<Passes>,
-    /// The views that are drawn of the scene.
+    /// The views that the scene is drawn in; none where it is the own one alone.
     sources: Option<Sources>,
-    /// How many they are.
+    /// How many views a scene is drawn in.
     number: Number,
-    /// As many were drawn in this frame.
+    /// How many views were drawn in this frame, where others were synthesised from them.
     drew: Option<u32>,
     pub(super) reference: ReferenceImage,
     pub(super) surfaces: Surfaces,
-    /// While a panel's picture is made straight from the views that are drawn.
+    /// The disparity pyramid, while the panel's picture is synthesised straight from the views that are drawn.
     pub(super) pyramid: Option<(PyramidTextures, Disparities)>,
-    /// Of this frame's scene, where they are to be written.
+    /// Samples of this frame's scene, where they are to be written.
     samples: Option<Samples>,
 }
 
 /// How many views are drawn.
 #[derive(Debug, Default)]
 enum Number {
-    /// The own one alone, and nothing is known of what it hides.
+    /// The own view alone.
     #[default]
     One,
-    /// Always as many, those that others are made of.
+    /// Always this many, from which the others are synthesised.
     Fixed(u32),
-    /// As the rate has it.
+    /// As many as the wanted frame rate allows.
     Governed(Governor),
 }
 
 impl Number {
     fn of(config: &Config) -> Number {
         match (config.synthesis(), config.true_views) {
-            // More are no sources for others.
+            // Others cannot be synthesised from more, so all views are drawn.
             (Some(DisocclusionSource::Views), TrueViews::Fixed(count)) if count > Sources::MOST => {
                 Number::Fixed(config.views)
             }
@@ -71,7 +71,7 @@ impl Number {
         }
     }
 
-    /// None where it is the own one alone.
+    /// Number of views that are drawn; none where it is the own one alone.
     fn views(&self) -> Option<u32> {
         match self {
             Number::One => None,
@@ -82,7 +82,7 @@ impl Number {
 }
 
 impl Synthesis {
-    /// Where the user has asked for it; and what hinders it.
+    /// Makes the passes where the user has asked for synthesis. The note says what prevents it.
     pub(super) fn new(gl: &Gl, config: &Config, glsl: u32) -> (Synthesis, Option<String>) {
         let passes = config
             .synthesis()
@@ -105,25 +105,25 @@ impl Synthesis {
         self.passes.iter().flat_map(Passes::programs)
     }
 
-    /// A scene begins.
+    /// A scene begins: chooses the views that it is drawn in.
     pub(super) fn begin(&mut self, own: ViewIndex, views: u32) {
         self.surfaces.forget();
         let count = self.number();
         self.sources = count.map(|count| Sources::spread(own, views, count));
     }
 
-    /// They, beside the own one.
+    /// The views that the scene is drawn in, beside the own one, which is always drawn.
     pub(super) fn drawn(&self) -> ViewSet {
         let sources = self.sources.iter();
         sources.flat_map(|sources| sources.iter()).collect()
     }
 
-    /// How many views the frame drew, where others were made of them; none where all were drawn.
+    /// Takes the number of views that the frame drew, where others were synthesised from them; none where all were drawn.
     pub(super) fn take_drawn(&mut self) -> Option<u32> {
         self.drew.take()
     }
 
-    /// How many views a frame draws of those that others are made of; none where it is the own one alone.
+    /// Number of views that a scene is drawn in, as sources of the others; none where it is the own one alone.
     pub(super) fn number(&self) -> Option<u32> {
         self.passes.as_ref().and_then(|_| self.number.views())
     }
@@ -137,7 +137,7 @@ impl Synthesis {
 }
 
 impl Layer {
-    /// Views that are drawn where none is made.
+    /// Number of views that are drawn where none is synthesised.
     fn needed(&self) -> u32 {
         let (wanted, own) = (self.wanted_views(), self.targets.atlas.tiles.own());
         let needed = ViewIndex::all(self.session.config.views)
@@ -157,7 +157,7 @@ impl Layer {
             && self.synthesis.number().is_none_or(|n| n < self.needed())
     }
 
-    /// The views that are shown get what the own one shows, from where they stand; all of them are drawn from now on.
+    /// Ends the scene that only some views have: synthesises the others into their tiles. From now on all of them are drawn.
     pub(super) fn synthesise_views(&mut self, gl: &Gl) {
         let Some(scene) = self.known.scene.take() else {
             return;
@@ -169,7 +169,7 @@ impl Layer {
         });
     }
 
-    /// Changes the framebuffers that are bound.
+    /// Synthesises the views of a scene, or copies the own one where the scene has no disparities. Changes the framebuffers that are bound.
     fn synthesise(&mut self, gl: &Gl, scene: &Scene, neutral: &Neutral) {
         self.reading(gl, BACK, |layer| match scene.mapping {
             Some(mapping) if layer.has_pyramid(gl) => layer.make_of(gl, scene, &mapping, neutral),
@@ -177,7 +177,7 @@ impl Layer {
         });
     }
 
-    /// Changes the framebuffers that are bound.
+    /// Synthesises the views of a scene from those that are drawn. Changes the framebuffers that are bound.
     fn make_of(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping, neutral: &Neutral) {
         let disparities = self.disparities(scene, mapping);
         self.resolve_sources(gl);
@@ -220,7 +220,7 @@ impl Layer {
         gl.disable(c::DEPTH_TEST);
     }
 
-    /// Makes the textures where they are not there.
+    /// Makes the textures of the disparity pyramid where they are not there; false where there can be none.
     fn has_pyramid(&mut self, gl: &Gl) -> bool {
         if self.synthesis.passes.is_none() || self.targets.atlas.pyramid(false).is_some() {
             return self.synthesis.passes.is_some();
@@ -254,7 +254,7 @@ impl Layer {
         self.targets.atlas.resolve(gl, &views, both);
     }
 
-    /// Learns of the views that are drawn, or of their copies, what others need of them; and the map for the next frame.
+    /// Measures the views that are drawn, or their copies, for the synthesis of the others, and makes the distortion map for the next frame.
     fn measure(
         &mut self,
         gl: &Gl,
@@ -311,8 +311,8 @@ impl Layer {
         }
     }
 
-    /// At the end of a frame: what is not made yet is made, or is not needed: the panel's picture comes straight from what is drawn.
-    /// Changes the framebuffers that are bound.
+    /// At the end of a frame: has the panel's picture synthesised straight from the views that are drawn, where that is possible, or else
+    /// synthesises the missing views. Changes the framebuffers that are bound.
     pub(super) fn end_scene(&mut self, gl: &Gl, neutral: &Neutral) {
         let Some(scene) = self.known.scene else {
             return;
@@ -340,7 +340,7 @@ impl Layer {
         }
     }
 
-    /// After it. A scene that no other view has goes on until it is cleared.
+    /// After the picture of [`Layer::end_scene`]. A scene that other views never got goes on until it is cleared.
     pub(super) fn leave_scene(&mut self) {
         let straight = self.synthesis.pyramid.take().is_some();
         self.known.scene = self.known.scene.filter(|_| straight);
@@ -350,7 +350,7 @@ impl Layer {
         self.known.synthesised = false;
     }
 
-    /// The tiles are others.
+    /// Forgets the scene and the reference image, because the tiles are new.
     pub(super) fn forget_scene(&mut self) {
         self.known.scene = None;
         self.synthesis.reference = ReferenceImage::default();

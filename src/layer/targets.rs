@@ -1,4 +1,4 @@
-//! What is drawn to: the atlas of framebuffer 0, the program's own framebuffers in as many views, and the pass that shows them.
+//! Render targets: the atlas of framebuffer 0, the program's own framebuffers with one image per view, and the pass that shows them.
 
 use super::session::Session;
 use super::{LayerError, accumulate, framebuffer, make_atlas, sampling};
@@ -21,16 +21,17 @@ pub(super) struct Targets {
     pub(super) accumulated: accumulate::Accumulated,
     pub(super) interleaver: Interleaver,
     pub(super) detail: Detail,
-    /// No other atlas can be had.
+    /// The driver has made no other atlas, so this one stays.
     pub(super) stuck: bool,
-    /// A picture waits for views that are not shown.
+    /// A picture waits for views that were not drawn.
     pub(super) undrawn: bool,
-    /// What glPushAttrib saved of framebuffer 0.
+    /// The buffers of framebuffer 0 that glPushAttrib has saved.
     pub(super) pushed: Vec<framebuffer::Pushed>,
 }
 
 impl Targets {
-    /// For a window of the state's size; what is missing is told in the report.
+    /// Makes the targets for a window of the state's size. The report says what is missing. Fails where there is no atlas, or on OpenGL ES no
+    /// pass.
     pub(super) fn new(
         gl: &Gl,
         session: &Session,

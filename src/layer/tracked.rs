@@ -1,16 +1,16 @@
-//! State that hooks tell of call by call, because the program sets it often and the driver would have to be asked for it.
+//! State that hooks report call by call, because the program sets it often and the driver would have to be asked for it.
 
 use super::Layer;
 use crate::gl::consts as c;
 use crate::state::{Begin, Touch};
 
-/// Where the driver has to stand so that it answers the program as the program expects.
+/// Whether the program is between glBegin and glEnd, and in which primitive the driver is, so that it answers as the program expects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Primitive {
     /// Outside glBegin and glEnd.
     None,
-    /// The calls are recorded. The driver is in an empty primitive of this mode, which refuses what has no place there: never that of
-    /// the program's, because Mesa 22.3 loses a fan after an empty fan.
+    /// The calls are recorded. The driver is in an empty primitive, so that it refuses commands that are not allowed there. The mode of that
+    /// is never the program's, because Mesa 22.3 loses a fan after an empty fan.
     Recorded {
         /// The mode of the empty primitive.
         empty: u32,
@@ -20,7 +20,7 @@ pub enum Primitive {
 }
 
 impl Layer {
-    /// Where the program stands between glBegin and glEnd.
+    /// Whether the program is between glBegin and glEnd, and where its calls go then.
     pub fn primitive(&self) -> Primitive {
         match self.state.begin {
             Begin::Outside => Primitive::None,
@@ -44,7 +44,8 @@ impl Layer {
         closes
     }
 
-    /// After glMatrixMode that was not compiled. Modes of which the driver may refuse one are asked for when they count.
+    /// After a glMatrixMode that was not compiled. The driver may refuse other modes than these, so it is asked for the mode when that
+    /// matters.
     pub fn matrix_mode(&mut self, mode: u32) {
         match mode {
             c::MODELVIEW | c::PROJECTION | c::TEXTURE => self.state.matrices.mode = mode,
@@ -66,7 +67,7 @@ impl Layer {
         self.state.primitives.transform_feedback = active;
     }
 
-    /// An error of the program's that the layer has taken out of the driver's queue, the oldest first.
+    /// Takes the oldest of the program's errors that the layer has taken out of the driver's queue.
     pub fn take_error(&mut self) -> Option<u32> {
         self.state.errors.pop_front()
     }

@@ -5,17 +5,17 @@ use crate::draw::{Driver, FixedState, Programs};
 use crate::offscreen::Bound;
 use std::sync::Arc;
 
-/// Programs of the layer's, and what is known of the state that they read.
+/// Programs of the layer's, and the state that they read, as far as it is known.
 #[derive(Debug)]
 pub(super) struct Variants {
     /// Generated for fixed function.
     pub(super) programs: Programs,
-    /// What they read of it.
+    /// The fixed-function state that they read; none before it is first needed.
     pub(super) fixed: Option<FixedState>,
     pub(super) driver: Driver,
     /// Rewritten from the program's own.
     pub(super) own: OwnVariants,
-    /// What the last draw sampled, as far as the views differ in it.
+    /// The textures that the last draw sampled and that differ between the views.
     pub(super) sampled: Arc<[Bound]>,
     /// The program, and the changes of uniforms and images, up to which that is known.
     pub(super) sampled_by: Option<(u32, u64, u64)>,

@@ -2,11 +2,11 @@
 //!
 //! The design says: "≤ 0.03 % of pixels differ, ≤ 1 LSB, ≤ 2 px/Mpx over 8 LSB, no coverage difference". Read as:
 //! * at most 0.03 % of all pixels differ at all, rounded down: pictures below 3334 pixels have to be equal;
-//! * differences are of 1 LSB as a rule, which [`Gate::DESIGN`] does not enforce and [`Gate::STRICT`] does: silhouette
-//!   pixels differ by more, and how many of them there are depends on the scene;
+//! * most differences are of 1 LSB. [`Gate::STRICT`] enforces it and [`Gate::DESIGN`] does not: silhouette pixels differ by
+//!   more, and their number depends on the scene;
 //! * at most 2 pixels per 10^6, rounded up to a whole pixel, are outliers: they differ by more than 8 LSB, or are the
 //!   background in one picture and not in the other. A coverage difference is such a silhouette pixel, so both kinds share
-//!   the one allowance, and beyond it there is none.
+//!   one allowance.
 #![forbid(unsafe_code)]
 
 use super::{Comparison, OUTLIER_LSB};
@@ -32,7 +32,7 @@ pub enum GateError {
         found: u64,
         /// Pixels.
         allowed: u64,
-        /// In the picture.
+        /// Pixels of the picture.
         pixels: u64,
         /// LSB.
         worst: u8,
@@ -46,12 +46,12 @@ pub enum GateError {
         found: u64,
         /// Pixels.
         allowed: u64,
-        /// In the picture.
+        /// Pixels of the picture.
         pixels: u64,
         /// LSB.
         worst: u8,
     },
-    /// Too many differ by a lot.
+    /// Too many are outliers.
     #[error(
         "{found} of {pixels} pixels differ by more than {OUTLIER_LSB} LSB or in coverage \
          ({over_eight} and {coverage}, worst {worst} LSB), allowed are {allowed}"
@@ -65,7 +65,7 @@ pub enum GateError {
         coverage: u64,
         /// Pixels.
         allowed: u64,
-        /// In the picture.
+        /// Pixels of the picture.
         pixels: u64,
         /// LSB.
         worst: u8,
@@ -91,7 +91,10 @@ impl Gate {
         outliers_per_million: 0.0,
     };
 
-    /// Passes or says which limit is broken.
+    /// Checks a comparison.
+    ///
+    /// # Errors
+    /// The first limit that is broken.
     pub fn check(&self, comparison: &Comparison) -> Result<(), GateError> {
         let &Comparison {
             pixels,
@@ -104,7 +107,7 @@ impl Gate {
         let &Comparison {
             outliers, worst, ..
         } = comparison;
-        // Tiny slack: 3e-4 of 10,000 is below 3 in floats.
+        // The slack is for rounding: 3e-4 of 10,000 is below 3 in floats.
         let allowed = (self.differing * pixels as f64 + 1e-9).floor() as u64;
         if differing > allowed {
             return Err(GateError::Differing {

@@ -1,4 +1,4 @@
-//! How far two pictures are apart: what a test prints, what the gate allows, what a person looks at.
+//! How much two pictures differ: measures for tests, the gate, and a picture of the differences for people.
 //!
 //! Differences are in LSB, steps of 1 of an 8-bit channel, unless said otherwise.
 #![forbid(unsafe_code)]
@@ -41,7 +41,7 @@ pub enum MetricError {
 /// Two pictures of one size, measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// In each picture.
+    /// Pixels of each picture.
     pub pixels: u64,
     /// Pixels where any channel differs.
     pub differing: u64,
@@ -59,12 +59,15 @@ pub struct Comparison {
     pub outliers: u64,
     /// Peak signal-to-noise ratio over all channels, dB, with 255 as the peak; infinite for equal pictures.
     pub psnr: f64,
-    /// Mean structural similarity of luma, at most 1, which it is for equal pictures.
+    /// Mean structural similarity of luma; at most 1, and 1 for equal pictures.
     pub ssim: f64,
 }
 
 impl Comparison {
     /// Measures two pictures. `background` is the colour of pixels that nothing covered.
+    ///
+    /// # Errors
+    /// If the pictures differ in size or have no pixels.
     pub fn new(
         expected: &RgbImage,
         actual: &RgbImage,
@@ -161,7 +164,7 @@ pub fn pixels_over(expected: &RgbImage, actual: &RgbImage, threshold: u8) -> u64
 /// The picture for a failed test: expected, difference and actual from left to right, with 4 grey columns between.
 ///
 /// Differences are amplified so that 1 LSB can be seen: 64 + 16 · |difference|, at most 255, and 0 where there is none.
-/// Pictures of two sizes lie at the top left; what one lacks is magenta in the difference.
+/// Pictures of different sizes are aligned at the top left; pixels that one of them lacks are magenta in the difference.
 pub fn triptych(expected: &RgbImage, actual: &RgbImage) -> RgbImage {
     const GAP: u32 = 4;
     const GREY: Rgb<u8> = Rgb([128; 3]);

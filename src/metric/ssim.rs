@@ -56,7 +56,7 @@ fn window(a: &RgbImage, b: &RgbImage, left: u32, top: u32) -> f64 {
         }
     }
     let (mean_a, mean_b) = (sum_a / n, sum_b / n);
-    // One divisor for both variances and the covariance: it hardly matters which, but it has to be the same.
+    // Variances and covariance have to have the same divisor; whether it is n or n − 1 hardly matters.
     let (var_a, var_b) = (aa / n - mean_a * mean_a, bb / n - mean_b * mean_b);
     let covariance = ab / n - mean_a * mean_b;
     (2.0 * mean_a * mean_b + C1) * (2.0 * covariance + C2)

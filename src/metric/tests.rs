@@ -86,12 +86,12 @@ fn ssim_of_flat_pictures_is_the_luminance_term() {
 
 #[test]
 fn ssim_of_one_window_by_hand() {
-    // Luma 0 and 200 in turns, against 0 and 100: means 100 and 50, variances 10000 and 2500, covariance 5000.
+    // Luma alternates between 0 and 200, against 0 and 100: means 100 and 50, variances 10000 and 2500, covariance 5000.
     let stripes = |v: u8| RgbImage::from_fn(8, 8, |x, _| Rgb([if x % 2 == 0 { 0 } else { v }; 3]));
     let (c1, c2) = (6.5025, 58.5225);
     let expected = (10_000.0 + c1) * (10_000.0 + c2) / ((12_500.0 + c1) * (12_500.0 + c2));
     assert!((compare(&stripes(200), &stripes(100)).ssim - expected).abs() < 1e-9);
-    // The last columns are looked at although 4 does not divide 21.
+    // The last columns are measured although 4 does not divide 21.
     let mut edge = noise(21, 8);
     edge.put_pixel(20, 7, Rgb([255; 3]));
     assert!(compare(&noise(21, 8), &edge).ssim < 0.999_999);

@@ -1,9 +1,9 @@
-//! What is in an image, copied to another one like it.
+//! Copies the contents of an image to another one of the same format.
 
 use crate::gl::{Attachment, Gl, Level, Object, consts as c};
 
-/// Copies a level of an object to that of another. Textures are of the same target; GL_RENDERBUFFER is that of renderbuffers. Before OpenGL
-/// 4.3 or OpenGL ES 3.2 by way of framebuffers, whose bindings are changed.
+/// Copies a level of an object to the same level of another. Both have the same target; it is GL_RENDERBUFFER for renderbuffers. Before
+/// OpenGL 4.3 or OpenGL ES 3.2 this uses framebuffers, whose bindings are changed.
 pub(super) fn fill(gl: &Gl, target: u32, (from, to): (Object, Object), at: i32, level: &Level) {
     let [w, h, depth] = level.size;
     let layers = if target == c::TEXTURE_CUBE_MAP {

@@ -1,26 +1,26 @@
-//! A texture or renderbuffer of the program's, and those like it for the views.
+//! A split texture or renderbuffer: the program's object and the images of the views.
 //!
-//! What is drawn to has its views in the layers of one array, so that all of them can be drawn to without another framebuffer being bound,
-//! and is sampled through a texture for each layer (glTextureView). The program's own object then gets what its view has where something
-//! else than drawing reads it. Where that is not to be had there is an object like the program's for each other view.
+//! An object that is drawn to has its views in the layers of one array, so that one framebuffer serves them all. It is sampled through a
+//! texture for each layer (glTextureView). The program's own object gets the image of its view where something other than a draw reads it.
+//! Where such an array cannot be had, each other view has an object like the program's.
 
 use super::fill::fill;
 use crate::atlas::{Names, Tiles};
 use crate::gl::{Gl, Level, Object, consts as c, is_multisampled};
 use crate::view::ViewIndex;
 
-/// One image per view.
+/// A split object: one image per view.
 #[derive(Debug)]
 pub(super) struct Image {
-    /// The target of the textures; GL_RENDERBUFFER.
+    /// The target of the textures, or GL_RENDERBUFFER.
     pub(super) target: u32,
     /// By view; without an array the program's own object is that of its own view.
     pub(super) views: Vec<u32>,
     /// The array of which the views are layers.
     pub(super) array: Option<Array>,
-    /// The program's own object lacks what was drawn since.
+    /// The program's own object is out of date.
     pub(super) stale: bool,
-    /// Up to which change of parameters each texture has those of the program's.
+    /// By view: the number of the last change of texture parameters that was copied from the program's texture.
     looks: Vec<u64>,
 }
 
@@ -33,18 +33,18 @@ pub(super) struct Array {
     levels: Vec<Level>,
 }
 
-/// What of the context decides how images are made.
+/// The features of a context that decide how images are made.
 #[derive(Clone, Debug)]
 pub(super) struct ImageSupport {
-    /// What a texture looks like beside its image.
+    /// The texture parameters that affect sampling.
     parameters: Vec<u32>,
-    /// Layers of an array can be textures of their own.
+    /// A layer of an array can be a texture of its own (glTextureView).
     pub(super) arrays: bool,
     /// Textures have border colours.
     borders: bool,
 }
 
-/// Texture targets with the names of their bindings.
+/// Texture targets, each with the name of its binding.
 pub(super) const TARGETS: [(u32, u32); 9] = [
     (c::TEXTURE_2D, c::TEXTURE_BINDING_2D),
     (c::TEXTURE_RECTANGLE, c::TEXTURE_BINDING_RECTANGLE),
@@ -60,7 +60,7 @@ pub(super) const TARGETS: [(u32, u32); 9] = [
     (c::TEXTURE_CUBE_MAP_ARRAY, c::TEXTURE_BINDING_CUBE_MAP_ARRAY),
 ];
 
-/// What a texture looks like beside its image, in every context.
+/// The texture parameters that affect sampling and exist in every context.
 const PARAMETERS: [u32; 11] = [
     c::TEXTURE_MIN_FILTER,
     c::TEXTURE_MAG_FILTER,
@@ -74,14 +74,14 @@ const PARAMETERS: [u32; 11] = [
     c::TEXTURE_COMPARE_MODE,
     c::TEXTURE_COMPARE_FUNC,
 ];
-/// With OpenGL 3.3.
+/// Further parameters of OpenGL 3.3 and OpenGL ES 3.0.
 const SWIZZLES: [u32; 4] = [
     c::TEXTURE_SWIZZLE_R,
     c::TEXTURE_SWIZZLE_G,
     c::TEXTURE_SWIZZLE_B,
     c::TEXTURE_SWIZZLE_A,
 ];
-/// With fixed function.
+/// Further parameters of contexts with fixed function.
 const OLD: [u32; 2] = [c::GENERATE_MIPMAP, c::DEPTH_TEXTURE_MODE];
 
 /// The name of the binding of a target.
@@ -115,7 +115,8 @@ pub(super) fn with_texture<R>(gl: &Gl, name: u32, work: impl FnOnce(u32) -> R) -
     None
 }
 
-/// Runs with the texture that is bound at a target complete at each level alone: an image is copied between such textures only.
+/// Runs `work` with the minification filter of the bound texture at GL_NEAREST, so that each level is complete by itself: images can be
+/// copied between complete textures only.
 fn complete<R>(gl: &Gl, target: u32, work: impl FnOnce() -> R) -> R {
     if is_multisampled(target) {
         return work();
@@ -145,7 +146,7 @@ impl Image {
         views.into_iter().filter(move |&name| array || name != own)
     }
 
-    /// Gives the program's own object what its view has.
+    /// Copies the image of the own view to the program's object, if that is out of date.
     pub(super) fn write_back(&mut self, gl: &Gl, object: Object, own_layer: u32) {
         let Some(array) = self.array.as_ref().filter(|_| self.stale) else {
             return;
@@ -178,8 +179,8 @@ impl Image {
         self.stale = false;
     }
 
-    /// Binds a view's texture at the active unit, where the program's own is bound or another view's.
-    /// `looks`: changes of parameters so far.
+    /// Binds a view's texture at the active unit, in place of the program's own or another view's.
+    /// `looks`: number of changes of texture parameters so far.
     pub(super) fn bind(
         &mut self,
         gl: &Gl,
@@ -203,7 +204,7 @@ impl Image {
 }
 
 impl ImageSupport {
-    /// Of the current context, with or without fixed function.
+    /// Asks the current context; `compatibility`: it has fixed function.
     pub(super) fn of(gl: &Gl, compatibility: bool) -> ImageSupport {
         let mut parameters = PARAMETERS.to_vec();
         if gl.since((3, 3), Some((3, 0))) {
@@ -223,7 +224,7 @@ impl ImageSupport {
         }
         ImageSupport {
             parameters,
-            // In OpenGL ES no shader chooses a layer, so nothing is gained.
+            // On OpenGL ES the layer draws to one layer at a time, so an array has no use.
             arrays: gl.since((4, 3), None),
             borders: gl.since((1, 0), Some((3, 2))),
         }
@@ -248,7 +249,7 @@ impl ImageSupport {
         }
     }
 
-    /// Textures like the program's, which is bound, with what is in it.
+    /// A texture like the program's for each other view, with its contents. The program's texture is bound.
     pub(super) fn texture(
         &self,
         gl: &Gl,
@@ -283,7 +284,8 @@ impl ImageSupport {
         Some(Image::new(target, views, None))
     }
 
-    /// Layers like the program's texture, which is bound at GL_TEXTURE_2D or its multisampled kin, with what is in it.
+    /// An array with a layer for each view, with the contents of the program's texture, which is bound at GL_TEXTURE_2D or
+    /// GL_TEXTURE_2D_MULTISAMPLE.
     pub(super) fn texture_layers(
         &self,
         gl: &Gl,
@@ -300,7 +302,7 @@ impl ImageSupport {
             let filter = gl.get_tex_parameter(target, c::TEXTURE_MIN_FILTER) as u32;
             let all = (1..16).map_while(|at| gl.tex_level(target, at));
             levels.extend(all);
-            // Those that are still to be made.
+            // Mipmap levels that the program has not made yet.
             if levels.len() == 1
                 && (c::NEAREST_MIPMAP_NEAREST..=c::LINEAR_MIPMAP_LINEAR).contains(&filter)
             {

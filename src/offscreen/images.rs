@@ -1,4 +1,4 @@
-//! The images of a share group's contexts: textures and renderbuffers are the same in all of them, framebuffers are not.
+//! The split images of a share group. Its contexts share textures and renderbuffers, but not framebuffers.
 
 use super::image::{Image, ImageSupport};
 use crate::atlas::{Names, Tiles};
@@ -6,7 +6,7 @@ use crate::gl::{Gl, Object};
 use crate::view::ViewIndex;
 use std::collections::{HashMap, HashSet};
 
-/// What of a share group's objects has an image per view.
+/// The split objects of a share group.
 #[derive(Debug, Default)]
 pub struct Images {
     all: HashMap<Object, Image>,
@@ -14,7 +14,7 @@ pub struct Images {
     ours: HashSet<u32>,
     /// Changes of attachments, of buffers that are drawn to, and of images.
     pub(super) changes: u64,
-    /// Changes of textures' parameters.
+    /// Number of changes of texture parameters.
     pub(super) looks: u64,
 }
 
@@ -35,7 +35,7 @@ impl Images {
         self.all.iter()
     }
 
-    /// Whether a texture or renderbuffer is one of ours.
+    /// Whether a texture or renderbuffer belongs to the layer.
     pub fn owns(&self, object: Object) -> bool {
         match object {
             Object::Texture(name) => self.ours.contains(&name),
@@ -48,8 +48,8 @@ impl Images {
         }
     }
 
-    /// Gives the texture that is bound at a target an image per view, with what is in it. The caller keeps errors, and bindings as
-    /// for [`crate::atlas::Atlas::new`]. False where that is not done: all views see the same.
+    /// Splits the texture that is bound at a target, and copies its contents to every view. The caller preserves errors, and bindings as
+    /// for [`crate::atlas::Atlas::new`]. False where it cannot be split: all views then see the same texture.
     pub(super) fn split_texture(
         &mut self,
         gl: &Gl,
@@ -81,14 +81,14 @@ impl Images {
         self.changes += 1;
     }
 
-    /// What the program's own objects lack of their view.
+    /// Copies the image of the own view back to every program's object that is out of date.
     pub(super) fn write_back(&mut self, gl: &Gl, own_layer: u32) {
         for (object, image) in &mut self.all {
             image.write_back(gl, *object, own_layer);
         }
     }
 
-    /// Something else than the program's own object is drawn or copied to.
+    /// Takes note that a split object is written, so that the program's own object is out of date.
     pub(super) fn written(&mut self, object: Object) {
         if let Some(image) = self.all.get_mut(&object) {
             image.stale = true;
@@ -103,7 +103,7 @@ impl Images {
         }
     }
 
-    /// The images of objects are no longer what the program believes, or the objects are gone.
+    /// Drops the images of objects that the program has redefined or deleted.
     pub(super) fn forget(&mut self, gl: &Gl, objects: impl IntoIterator<Item = Object>) {
         for object in objects {
             let Some(image) = self.all.remove(&object) else {
@@ -125,7 +125,7 @@ impl Images {
         }
     }
 
-    /// All of them.
+    /// Drops all images.
     pub(super) fn clear(&mut self, gl: &Gl) {
         let all: Vec<Object> = self.all.keys().copied().collect();
         self.forget(gl, all);

@@ -1,10 +1,10 @@
-//! What the program draws outside the window, or copies from the frame: one image per view where the views differ in it.
+//! Images that the program draws outside the window, or copies from the frame: they are split into one per view where the views differ.
 //!
-//! The images of the views stand beside the program's own texture or renderbuffer, or, where they cannot be layers of an array, it is
-//! that of its own view. What the program reads back is its own view either way: its object gets that before (see
-//! [`Offscreen::write_back`]). A framebuffer with such an image has one framebuffer per view as well, and one with all of them as layers; a
-//! draw that samples such a texture has the texture of its view bound. Nothing is there until something drawn depends on the view:
-//! shadow maps, light maps and whatever else is the same in all views stays one image, drawn once.
+//! The images of the views are layers of an array beside the program's own texture or renderbuffer. Where no such array can be had, each
+//! other view has an object of its own, and the program's object is the image of the own view. The program always reads back its own view:
+//! its object gets that before ([`Offscreen::write_back`]). A framebuffer with a split image has one framebuffer per view as well, and one
+//! with all views as layers. A draw that samples a split texture has the texture of its view bound. Nothing is split until a draw depends
+//! on the view: shadow maps, light maps and other images that are the same in all views stay one image, drawn once.
 #![forbid(unsafe_code)]
 
 mod fill;
@@ -23,10 +23,10 @@ use crate::view::ViewIndex;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Images that several contexts see.
+/// The images of a share group, which several contexts see.
 pub type SharedImages = Arc<Mutex<Images>>;
 
-/// The images and framebuffers of one context. More than 25 methods: it answers for textures, for framebuffers and for what is bound.
+/// The split images and framebuffers of one context. More than 25 methods: it manages textures, framebuffers and bindings.
 #[derive(Debug)]
 pub struct Offscreen {
     images: SharedImages,
@@ -34,16 +34,16 @@ pub struct Offscreen {
     /// Framebuffers so far.
     count: u32,
     support: image::ImageSupport,
-    /// Those of a framebuffer, one in a layer.
+    /// The places of the views in a framebuffer: one view in each layer.
     tiles: Tiles,
-    /// Texture units of the context that are looked at.
+    /// Texture units of the context that are searched for split textures.
     units: u32,
 }
 
-/// Pixels from tile to tile where there is but one: wider than any framebuffer.
+/// Pixels from tile to tile where a layer has only one: wider than any framebuffer.
 pub const STRIDE: u32 = 1 << 20;
 
-/// A texture with an image per view that is bound.
+/// A split texture that is bound: its unit (GL_TEXTURE0 + n), target and name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bound {
     unit: u32,
@@ -52,7 +52,7 @@ pub struct Bound {
 }
 
 impl Offscreen {
-    /// For a number of views, in a context with or without fixed function; `images` are those of its share group.
+    /// For a number of views, in a context with or without fixed function (`compatibility`); `images` are those of its share group.
     pub fn new(gl: &Gl, views: u32, compatibility: bool, images: SharedImages) -> Offscreen {
         let units = gl.get_integer(c::MAX_COMBINED_TEXTURE_IMAGE_UNITS);
         Offscreen {
@@ -79,7 +79,7 @@ impl Offscreen {
         locked(&self.images)
     }
 
-    /// Whether all views have the same images.
+    /// Whether no image is split.
     pub fn is_empty(&self) -> bool {
         self.images().is_empty()
     }
@@ -99,22 +99,22 @@ impl Offscreen {
         self.targets.values().flat_map(Target::others)
     }
 
-    /// How often images or attachments have changed.
+    /// Number of changes of images and attachments so far.
     pub fn changes(&self) -> u64 {
         self.images().changes
     }
 
-    /// A parameter of some texture is another.
+    /// Takes note that a parameter of some texture has changed.
     pub fn look_changed(&mut self) {
         self.images().looks += 1;
     }
 
-    /// What is attached to some framebuffer is another, or what is drawn to of it.
+    /// Takes note that attachments or draw buffers of some framebuffer have changed.
     pub fn attachments_changed(&mut self) {
         self.images().changes += 1;
     }
 
-    /// Whether an object has an image per view.
+    /// Whether an object is split.
     pub fn has(&self, object: Object) -> bool {
         self.images().has(object)
     }
@@ -132,8 +132,8 @@ impl Offscreen {
         self.has(Object::Texture(texture)).then_some(texture)
     }
 
-    /// Gives the texture that is bound at a target an image per view, with what is in it. The caller keeps errors, and bindings as
-    /// for [`crate::atlas::Atlas::new`]. False where that is not done: all views see the same.
+    /// Splits the texture that is bound at a target, and copies its contents to every view. The caller preserves errors, and bindings as
+    /// for [`crate::atlas::Atlas::new`]. False where it cannot be split: all views then see the same texture.
     pub fn split_texture(
         &mut self,
         gl: &Gl,
@@ -151,13 +151,13 @@ impl Offscreen {
         image::with_texture(gl, texture, split).unwrap_or(false)
     }
 
-    /// What the program's own objects lack of their view.
+    /// Copies the image of the own view back to every program's object that is out of date.
     pub fn write_back(&mut self, gl: &Gl) {
         let layer = self.tiles.slot(self.tiles.own());
         self.images().write_back(gl, layer);
     }
 
-    /// Something is drawn or copied to a framebuffer that each view has its own of.
+    /// Takes note that a split framebuffer is drawn or copied to.
     pub fn drawn_to(&mut self, target: &Target) {
         let mut images = self.images();
         for attachment in &target.attachments {
@@ -173,7 +173,7 @@ impl Offscreen {
     /// All objects of a framebuffer get an image per view. As [`Offscreen::split_texture`].
     pub fn split(&mut self, gl: &Gl, names: &mut Names, framebuffer: u32) -> bool {
         let attachments = self.target(gl, framebuffer).attachments.clone();
-        // A name that glGenTextures has not made is none that a layer can have.
+        // A layer of an array needs a name from glGenTextures, which high names are not.
         let mut support = self.support.clone();
         support.arrays &= !names.hidden();
         let (shared, tiles) = (self.images.clone(), self.tiles);
@@ -265,12 +265,12 @@ impl Offscreen {
         Some(target)
     }
 
-    /// After [`Offscreen::take`].
+    /// Puts back the framebuffers of [`Offscreen::take`].
     pub fn put(&mut self, target: Target) {
         self.targets.insert(target.own(), target);
     }
 
-    /// All bound textures with an image per view; where the draw's own units are not known.
+    /// All split textures that are bound at any unit, for draws whose units are not known.
     pub fn bound(&self, gl: &Gl) -> Vec<Bound> {
         let targets = image::TARGETS.map(|(target, _)| target).into_iter();
         let targets: Vec<u32> = {
@@ -282,7 +282,7 @@ impl Offscreen {
         self.bound_among(gl, units)
     }
 
-    /// Those at units (counted from 0) and targets.
+    /// The split textures that are bound at some units (counted from 0) and targets.
     pub fn bound_among(&self, gl: &Gl, units: impl Iterator<Item = (u32, u32)>) -> Vec<Bound> {
         let mut bound = Vec::new();
         let images = self.images();
@@ -313,7 +313,7 @@ impl Offscreen {
         bound
     }
 
-    /// Binds a view's textures.
+    /// Binds the textures of a view.
     pub fn bind(&self, gl: &Gl, bound: &[Bound], view: ViewIndex) {
         if bound.is_empty() {
             return;
@@ -327,7 +327,7 @@ impl Offscreen {
         gl.active_texture(active);
     }
 
-    /// Binds the program's own again.
+    /// Binds the program's own textures again.
     pub fn unbind(&self, gl: &Gl, bound: &[Bound]) {
         if bound.is_empty() {
             return;
@@ -340,7 +340,7 @@ impl Offscreen {
         gl.active_texture(active);
     }
 
-    /// The images of objects are no longer what the program believes, or the objects are gone.
+    /// Drops the images of objects that the program has redefined or deleted.
     pub fn forget(&mut self, gl: &Gl, objects: impl IntoIterator<Item = Object>) {
         self.images().forget(gl, objects);
     }
@@ -352,7 +352,7 @@ impl Offscreen {
         }
     }
 
-    /// All images.
+    /// Writes back and drops all images and framebuffers.
     pub fn clear(&mut self, gl: &Gl) {
         self.write_back(gl);
         self.images().clear(gl);
@@ -362,7 +362,7 @@ impl Offscreen {
     }
 }
 
-/// A panic has been the end of the layer, not of what it knows.
+/// Locks the images, also after a panic: that turns the layer off, but the images stay valid.
 fn locked(images: &SharedImages) -> MutexGuard<'_, Images> {
     images.lock().unwrap_or_else(PoisonError::into_inner)
 }

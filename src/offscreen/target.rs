@@ -1,4 +1,4 @@
-//! A framebuffer of the program's, and those of the other views.
+//! A framebuffer of the program's, and the framebuffers that it is split into.
 
 use super::image::Image;
 use super::images::Images;
@@ -16,7 +16,7 @@ pub struct Target {
     views: Vec<u32>,
     /// Up to which change the rest is known.
     seen: u64,
-    /// What is attached.
+    /// The attachments of the program's framebuffer.
     pub attachments: Vec<Attachment>,
     draw_buffers: Vec<u32>,
     read_buffer: u32,
@@ -26,7 +26,7 @@ pub struct Target {
     /// One with all views as layers, and whether that is what is drawn to now.
     layered: Option<u32>,
     in_layers: bool,
-    /// The driver makes none for the other views.
+    /// It cannot be split.
     pub(super) refused: bool,
 }
 
@@ -36,7 +36,7 @@ impl Target {
             own,
             number: None,
             views: Vec::new(),
-            // It has not been looked at.
+            // Nothing has been read yet.
             seen: u64::MAX,
             attachments: Vec::new(),
             draw_buffers: Vec::new(),
@@ -65,7 +65,7 @@ impl Target {
         self.layered
     }
 
-    /// Views are told apart by their layers from now on, or by their framebuffers.
+    /// Chooses how a view is selected from now on: by its layer (`layers`), or by its framebuffer.
     pub fn take_layers(&mut self, layers: bool) {
         self.in_layers = layers && self.layered.is_some();
     }
@@ -80,23 +80,24 @@ impl Target {
         !self.views.is_empty()
     }
 
-    /// Whether something that is attached has an image per view.
+    /// Whether a split object is attached.
     pub(super) fn is_split(&self) -> bool {
         self.objects.iter().any(Option::is_some)
     }
 
-    /// Nothing but depth or stencil is attached.
+    /// Whether only depth or stencil is attached.
     pub fn is_depth_only(&self) -> bool {
         let points = [c::DEPTH_ATTACHMENT, c::STENCIL_ATTACHMENT];
         self.attachments.iter().all(|a| points.contains(&a.point))
     }
 
-    /// Faces of a cube, which look all around.
+    /// Whether a face of a cube map is attached: such passes look in all directions.
     pub fn is_cube(&self) -> bool {
         self.attachments.iter().any(|a| a.face != 0)
     }
 
-    /// Reads it again where something has changed since; changes nothing of the program's state. What no longer fits is dropped.
+    /// Reads the attachments and buffers again after a change, and drops the views' framebuffers if they no longer match. Leaves the program's
+    /// state as it is.
     pub(super) fn reattach(&mut self, gl: &Gl, images: &Images) {
         if std::mem::replace(&mut self.seen, images.changes) == images.changes {
             return;
@@ -145,8 +146,8 @@ impl Target {
         self.layered = None;
     }
 
-    /// Makes the framebuffers of the views, where they are not there; all objects have images. Changes the framebuffer
-    /// bindings.
+    /// Makes the framebuffers of the views, where they do not exist yet; all attached objects have to be split. False where the driver refuses.
+    /// Changes the framebuffer bindings.
     pub(super) fn make(&mut self, gl: &Gl, images: &Images) -> bool {
         if !self.views.is_empty() {
             return true;
@@ -177,7 +178,7 @@ impl Target {
                     return;
                 };
                 let (object, target, layer) = match (&image.array, image.target) {
-                    // Not by the texture of that layer: Mesa 22.3 blits from the first one then.
+                    // The layer of the array is attached, not its texture view: Mesa 22.3 would blit from the first layer then.
                     (Some(array), _) => {
                         let layer = self.tiles.slot(view) as i32;
                         (Object::Texture(array.name), c::TEXTURE_2D_ARRAY, layer)
@@ -210,12 +211,12 @@ impl Target {
         complete
     }
 
-    /// The views that are drawn from now on.
+    /// Sets the views that are drawn from now on.
     pub(super) fn show(&mut self, shown: ViewSet) {
         self.tiles.shown = shown;
     }
 
-    /// Only while its context is current.
+    /// Deletes the framebuffers of the views; only while its context is current.
     pub(super) fn delete(mut self, gl: &Gl) {
         self.drop_views(gl);
     }
@@ -234,7 +235,7 @@ impl Surface for Target {
     }
 
     fn bind_row(&mut self, gl: &Gl, row: u32) {
-        // One view in each.
+        // Each layer has one view.
         self.enter(gl, self.tiles.view_in(row));
     }
 }

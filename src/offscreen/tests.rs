@@ -65,7 +65,7 @@ impl Stage {
     }
 }
 
-/// A context that has layers as textures of their own, and two that have not.
+/// A context in which layers of an array can be textures of their own, and two in which they cannot.
 const CONTEXTS: [fn() -> Fake; 3] = [
     Fake::new,
     || Fake::new().version(3, 2),
@@ -113,7 +113,7 @@ fn each_view_gets_a_framebuffer_and_all_names_are_given_back() {
             .expect("made");
         let arrays = target.layered().is_some();
         assert_eq!(arrays, version.starts_with("4.5"), "{version}");
-        // Disabled layers the own view's is the program's own.
+        // Without arrays, the framebuffer of the own view is the program's.
         assert_eq!(views[1] == framebuffer, !arrays);
         stage.offscreen.put(target);
         views.sort_unstable();
@@ -328,7 +328,7 @@ fn an_image_is_copied_by_framebuffers_where_there_is_no_other_way() {
         assert_eq!(drawn.len(), copies, "0x{target:04X}");
         assert!(drawn.iter().all(|d| !d.state.is_enabled(c::SCISSOR_TEST)));
         assert_eq!(fake.alive(KINDS), held);
-        // The framebuffers are the caller's to bind again.
+        // The caller binds its framebuffers again.
         fake.assert_restored(&before);
     }
 }

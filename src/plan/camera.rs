@@ -3,12 +3,12 @@
 use super::Shear;
 use glam::{DMat4, DVec4};
 
-/// A pure projection with the focal length and the distances of `m` (column-major), which may be the projection, that times the camera, or
-/// times the place of a model as well: what clip-space w is per unit of the matrix's own space does not matter, since w is the depth.
+/// A pure projection (column-major) with the focal lengths and the near and far distances of `m`. `m` is a projection, or a projection
+/// times a view or model-view matrix. The scale of the matrix's own space does not matter, since distances are measured as clip-space w.
 /// None where `m` has no perspective, or no near distance.
 ///
-/// A is what row 0 has at a right angle to row 3, per unit of row 3, and so for the other axis with row 1; near and far are w where z is −w and w, seen along the direction
-/// in which w grows. Infinite and reversed depths are the same with their ends swapped.
+/// A is the part of row 0 at a right angle to row 3, per unit of row 3; row 1 gives the same for the other axis. Near and far are the w at
+/// which z is −w and w, along the direction in which w grows. Reversed depths swap the two; infinite ones have no far distance.
 pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
     let row = |r: usize| {
         let at = |column: usize| m.get(4 * column + r).copied().map_or(0.0, f64::from);
@@ -29,7 +29,7 @@ pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
         let slope = along - sign * scale;
         let t = (sign * row3.w - row2.w) / slope;
         let w = scale * t + row3.w;
-        // Beyond what single precision tells from infinity.
+        // Single precision cannot tell such a w from infinity.
         if slope.abs() <= 1e-6 * scale || w.abs() > 1e9 {
             f64::INFINITY
         } else {
@@ -60,8 +60,9 @@ pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
     Some(p)
 }
 
-/// The camera among a program's matrices, as [`equivalent`] has it, and which one it is in. Programs have those of lamps, too: one with the
-/// `aspect` of the window (width over height) goes first, then a projection alone, then the first one with a perspective.
+/// The camera among a program's matrices: the index of its matrix, and the projection that [`equivalent`] makes of it. Some of the
+/// matrices may belong to light sources. So a matrix with the `aspect` of the window (width over height) goes first, then a projection
+/// alone, then the first matrix with a perspective.
 pub fn among(matrices: &[[f32; 16]], aspect: f64) -> Option<(usize, [f32; 16])> {
     let all = matrices.iter().enumerate();
     let cameras = all.filter_map(|(at, m)| {
@@ -74,20 +75,21 @@ pub fn among(matrices: &[[f32; 16]], aspect: f64) -> Option<(usize, [f32; 16])> 
         .map(|(_, found)| found)
 }
 
-/// Whether a camera that [`equivalent`] has found has the aspect of a picture, width over height, within a hundredth.
+/// Whether a camera from [`equivalent`] has the aspect of a picture, width over height, within one percent.
 pub fn fits(camera: &[f32; 16], aspect: f64) -> bool {
     let own = f64::from(camera[5]) / f64::from(camera[0]);
     (own - aspect).abs() <= 0.01 * aspect
 }
 
-/// Whether a matrix is the inverse of a camera with this aspect: what programs compute positions from depths by.
+/// Whether a matrix is the inverse of a camera with this aspect. Programs compute positions from depths with such a matrix.
 pub fn unprojects(m: &[f32; 16], aspect: f64) -> bool {
     let fits = |m: &[f32; 16]| equivalent(m).is_some_and(|camera| fits(&camera, aspect));
     let inverse = matrix(m).inverse();
     inverse.is_finite() && !fits(m) && fits(&inverse.as_mat4().to_cols_array())
 }
 
-/// Such an inverse for the camera of the view at a place (see [`super::Rig::position`]): row 0 of the camera gets what the one equation gives it.
+/// The same inverse for the camera of a view: `m` is inverted, row 0 gets the shift of the one equation, and the result is inverted
+/// again. `place` is the view's position (see [`super::Rig::position`]).
 pub fn unprojection(m: &[f32; 16], shear: &Shear, place: f64) -> [f32; 16] {
     let separation = shear.separation(place);
     let mut rows = matrix(m).inverse().transpose();
@@ -99,7 +101,7 @@ fn matrix(m: &[f32; 16]) -> DMat4 {
     glam::Mat4::from_cols_array(m).as_dmat4()
 }
 
-/// Whether a matrix looks like a projection alone: nothing but that has −1 or 1 for the whole of row 3.
+/// Whether a matrix looks like a projection alone: its row 3 is (0, 0, ±1, 0).
 fn is_projection(m: &[f32; 16]) -> bool {
     m[3] == 0.0 && m[7] == 0.0 && m[15] == 0.0 && m[11].abs() == 1.0
 }
@@ -148,7 +150,7 @@ mod tests {
         check(p * camera, 1.4, 0.25, 80.0);
         let place = turned(7.0, 2.0, Vec3::new(4.0, 5.0, 6.0));
         check(p * camera * place, 1.4, 0.25, 80.0);
-        // All rows times the same: the same picture, and w is as many times the depth.
+        // All rows are scaled alike: the picture is the same, and w is scaled with them.
         check(p * 3.0, 1.4, 0.75, 240.0);
     }
 
@@ -176,7 +178,7 @@ mod tests {
         assert_eq!(a(&[flat, mixed, alone]), Some((2, 1.4)));
         assert_eq!(a(&[flat, mixed]), Some((1, 9.0)));
         assert_eq!(a(&[flat]), None);
-        // What has the shape of the window goes before all others.
+        // A matrix with the window's aspect goes before all others.
         let mut wide = alone;
         wide[0] /= 1.6;
         let a = |matrices: &[[f32; 16]]| among(matrices, 1.6).map(|(at, _)| at);

@@ -1,4 +1,4 @@
-//! What a draw is, and why: from the state, and from the rules of a profile. Calls no GL.
+//! The class of a draw, and the reason for it: from the state and the rules of a profile. Calls no GL.
 //!
 //! The rules without a profile are few and careful: a scene taken for a sky or a display loses its depth, which is worse than a
 //! sky that keeps a little.
@@ -7,12 +7,12 @@ use super::Kind;
 use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport, Word};
 use crate::state::{State, Touch};
 
-/// What there is to know about a draw. More than 12 fields: one for each condition of a rule.
+/// The properties of a draw that decide its class. More than 12 fields: one for each condition of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Traits {
-    /// What the program draws with.
+    /// The kind of the program's command.
     pub kind: Kind,
-    /// Where it goes.
+    /// Where the draw goes.
     pub target: Target,
     /// Its number in the frame, counted from 1; clears are not counted.
     pub draw: u32,
@@ -24,7 +24,7 @@ pub struct Traits {
     pub projection: Projection,
     /// How much of the window the viewport covers.
     pub viewport: Viewport,
-    /// The projection moves nothing sideways or along the axis: what turns about the eye is at its origin.
+    /// The projection contains no translation and no skew along w, so the eye is at the origin of its space.
     pub centred: bool,
     /// Depth test and mask, where [`Classifier::needs`] asks for them.
     pub depth_state: DepthState,
@@ -34,9 +34,9 @@ pub struct Traits {
     pub texture: u32,
     /// The program of shaders that is in use, counted as they are linked, 0 for none; where asked for.
     pub program: u32,
-    /// The sum of its texts; where asked for.
+    /// The hash of its sources; where asked for.
     pub shader: u64,
-    /// The modelview matrix turns about the eye, moves nothing, and is not the identity; where asked for.
+    /// The modelview matrix rotates about the eye, translates nothing, and is not the identity; where asked for.
     pub turns: bool,
     /// Nothing in perspective has written depth since the frame began or was last cleared.
     pub first: bool,
@@ -47,15 +47,15 @@ pub struct Traits {
 pub enum Target {
     /// The window.
     Window,
-    /// A framebuffer of the program's that shows what the window shall, or a part of it; counted as they are drawn to.
+    /// A framebuffer of the program's whose picture, or a part of it, ends up in the window; with its number, in the order of first use.
     Pass(u32),
-    /// Another framebuffer of the program's.
+    /// Another framebuffer of the program's, with its number.
     Framebuffer(u32),
     /// No picture: a list that is compiled, selection, feedback.
     Nothing,
 }
 
-/// Why a draw is what it is.
+/// Why a draw has its class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
     /// A rule of the profile, counted from 1.
@@ -66,19 +66,19 @@ pub enum Why {
     NoPicture,
     /// It fills the picture with one value.
     Whole,
-    /// It stands at the raster position.
+    /// It is drawn at the raster position.
     Raster,
-    /// No depth to shift by.
+    /// An orthographic projection has no depth to shift by.
     Orthographic,
     /// No projection at all.
     NoProjection,
-    /// Turned about the eye, without depth, before the scene.
+    /// It is rotated about the eye, writes no depth and comes before the scene.
     Around,
-    /// At the far end of the depth range: behind everything.
+    /// It lies at the far end of the depth range: behind everything.
     Behind,
     /// In perspective, and nothing speaks against it.
     Perspective,
-    /// Its own shaders tell where w is no constant.
+    /// Its own shaders place it: in perspective where w varies.
     Shaders,
 }
 
@@ -102,30 +102,30 @@ impl core::fmt::Display for Why {
     }
 }
 
-/// A draw, classed.
+/// A draw with its class.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Classed {
-    /// What it is.
+    /// Its class.
     pub class: Class,
-    /// Where a flat draw stands: 0 on the panel, 1 infinitely far.
+    /// Depth of a flat draw: 0 on the panel, 1 infinitely far.
     pub depth: f64,
-    /// Where a draw of the scene has zero parallax, if not where the rest of it has: eye-space units.
+    /// Distance of zero parallax of a draw of the scene, if it differs from that of the rest: eye-space units.
     pub focal: Option<f64>,
     /// Why.
     pub why: Why,
 }
 
-/// The rules for one program.
+/// Classifies the draws of one program.
 #[derive(Clone, Debug)]
 pub struct Classifier {
-    /// Those for this program, with their numbers in the file.
+    /// The rules for this program, with their numbers in the file.
     rules: Vec<(usize, Rule)>,
     hud_depth: f64,
     explains: bool,
 }
 
 impl Classifier {
-    /// For a program. `explains`: all facts are wanted, whether a rule asks for them or not.
+    /// For a program, by the name of its executable. `explains`: all traits are wanted, whether a rule asks for them or not.
     pub fn new(
         profile: &Profile,
         hud_depth: Option<f64>,
@@ -150,7 +150,7 @@ impl Classifier {
         }
     }
 
-    /// Another depth for flat draws that no rule places.
+    /// Sets another depth for flat draws that no rule places.
     pub fn change_hud_depth(&mut self, depth: f64) {
         self.hud_depth = depth;
     }
@@ -179,18 +179,18 @@ impl Classifier {
         needs
     }
 
-    /// Whether the program of shaders may decide.
+    /// Whether the class may depend on the program object in use.
     pub fn needs_shader(&self) -> bool {
         let asks = |(_, rule): &(usize, Rule)| !rule.shader.is_empty() || !rule.program.is_empty();
         self.explains || self.rules.iter().any(asks)
     }
 
-    /// Whether the modelview matrix may decide, once the depth state is known.
+    /// Whether the class may depend on the modelview matrix, once the depth state is known.
     pub fn needs_modelview(&self, projection: Projection, first: bool, depth: DepthState) -> bool {
         projection == Projection::Perspective && first && depth != DepthState::On
     }
 
-    /// What a draw is.
+    /// The class of a draw.
     pub fn class(&self, facts: &Traits) -> Classed {
         let classed = |class, why| Classed {
             class,
@@ -201,7 +201,7 @@ impl Classifier {
         let rule = || self.rules.iter().find(|(_, rule)| matches(rule, facts));
         match facts.target {
             Target::Window | Target::Pass(_) => {}
-            // Only by rules for what goes there.
+            // Only rules that name a pass apply here.
             Target::Framebuffer(_) if rule().is_some_and(|(_, rule)| !rule.pass.is_empty()) => {}
             Target::Framebuffer(name) => {
                 return classed(Class::OffScreen, Why::Framebuffer(name));
@@ -233,9 +233,9 @@ impl Classifier {
                 depth: self.hud_depth,
                 ..classed(Class::Flat, Why::Orthographic)
             },
-            // Vertices in clip space are for quads over the whole window, which would show their edges.
+            // Vertices in clip space are mostly those of quads over the whole window; a shift would show their edges.
             Projection::None => classed(Class::Flat, Why::NoProjection),
-            // Nothing else is drawn so: what is not behind everything has to have depths.
+            // Only a sky is drawn like this: anything that is not behind everything needs depths.
             Projection::Perspective if facts.range == DepthRange::Far => {
                 classed(Class::Sky, Why::Behind)
             }
@@ -245,8 +245,8 @@ impl Classifier {
     }
 }
 
-/// A sky is turned with the camera but stays around it; it writes no depth, so it comes before what does. The identity is no sky:
-/// programs that move vertices themselves draw everything with it.
+/// A sky rotates with the camera but stays centred on it. It writes no depth, so it is drawn before anything that does. Under the identity
+/// nothing is a sky: programs that transform vertices themselves draw everything with it.
 fn is_sky(facts: &Traits) -> bool {
     facts.first && facts.centred && facts.turns && facts.depth_state != DepthState::On
 }
@@ -270,7 +270,7 @@ fn matches(rule: &Rule, facts: &Traits) -> bool {
 }
 
 impl Traits {
-    /// From the state, of which [`Classifier::needs`] has been read; what is not in it is left at its least.
+    /// From the state. The groups that [`Classifier::needs`] names have to be read already; other traits keep neutral values.
     pub fn of(kind: Kind, state: &State) -> Traits {
         let p = &state.matrices.projection;
         Traits {
@@ -296,7 +296,7 @@ impl Traits {
         }
     }
 
-    /// The framebuffer that is drawn to, 0 for the window; none where no picture is.
+    /// The number of the framebuffer that is drawn to, 0 for the window; none where no picture is drawn.
     pub fn pass(&self) -> Option<u32> {
         match self.target {
             Target::Window => Some(0),
@@ -305,7 +305,7 @@ impl Traits {
         }
     }
 
-    /// The line of a profile that would give this draw another class.
+    /// The line of a profile that would give this draw another class; none where no picture is drawn.
     pub fn rule(&self, classed: &Classed) -> Option<String> {
         let pass = self.pass()?;
         let mut keys = Vec::new();
@@ -323,7 +323,7 @@ impl Traits {
             keys.push(format!("texture = {}", self.texture));
         }
         if keys.is_empty() || (self.shader == 0 && pass != 0 && keys.len() == 1) {
-            // Nothing else tells it from its neighbours.
+            // No other key tells it from its neighbours.
             keys.push(format!("draw = {}", self.draw));
         }
         keys.push(format!("projection = \"{}\"", self.projection.word()));
@@ -339,7 +339,7 @@ impl Traits {
             (Class::OffScreen, _) => Class::Scene,
             (Class::Sky, _) => Class::Scene,
             (_, Projection::Perspective) if self.kind != Kind::Pixels => Class::Scene,
-            // It has no depths of its own; it can only stand elsewhere.
+            // It has no depths of its own, so it can only be placed at another depth.
             _ => Class::Flat,
         };
         keys.push(format!("class = \"{}\"", other.word()));
@@ -350,7 +350,7 @@ impl Traits {
     }
 }
 
-/// Whether a matrix (column-major) turns or scales about the origin and is not the identity.
+/// Whether a matrix (column-major) rotates or scales about the origin and is not the identity.
 fn turns(m: &[f32; 16]) -> bool {
     [m[12], m[13], m[14], m[3], m[7], m[11]] == [0.0; 6]
         && m[15] != 0.0

@@ -1,58 +1,59 @@
-//! Cameras that keep the disparity between neighbouring views within what a display can show, whatever the scene.
+//! Cameras that keep the disparity between neighbouring views within the display's budget, whatever the scene.
 //!
 //! A point at distance w has the disparity sep·(1 − conv/w) between neighbouring views, in normalised device coordinates (Luo et
-//! al., section III, written as in [`super::parallax`]). Two points and their disparities give both numbers. The farthest one gets most of
-//! the budget and the nearest one a part of it: behind the panel nothing can pass the separation itself, and what comes
-//! near suddenly comes before it.
+//! al., section III, written as in [`super::parallax`]). Two points and their disparities determine sep and conv. The farthest point gets
+//! most of the budget and the nearest one a smaller part: behind the panel no disparity exceeds sep itself, but an object that
+//! suddenly comes near has its disparity before the panel.
 //!
-//! Cameras that follow every frame's depths would make the scene breathe. They move only when the scene has changed by
-//! an eighth, then slowly outwards and faster inwards, and at once only where a disparity would come near the end of the budget: the
-//! convergence first, which leaves the depth of the scene as it is.
+//! Cameras that follow the depths of every frame would make the scene breathe. So they move only when the scene has changed by
+//! an eighth, slowly towards more depth and faster towards less. They move at once only where a disparity would come near the end of the
+//! budget, the convergence first, because it leaves the depth of the scene as it is.
 
 use crate::config::Kept;
 
-/// Parts of the budget that are aimed at, behind the panel and before it. In 516 frames of gltron the nearest point came 35 % nearer
-/// from one frame to the next; with 0.8 on both sides eleven frames left the budget, with these none did.
+/// Parts of the budget that the cameras aim at, behind the panel and before it. In 516 frames of gltron the nearest point came up to 35 %
+/// nearer from one frame to the next. With 0.8 on both sides eleven frames left the budget; with these none did.
 const BEHIND: f64 = 0.75;
 const BEFORE: f64 = 0.25;
-/// Parts of it that the last measured depths never leave.
+/// Parts of the budget that the last measured depths never exceed.
 const LIMIT_BEHIND: f64 = 0.9;
 const LIMIT_BEFORE: f64 = 0.5;
-/// The separation at most, in budgets: what is infinitely far has so much. A scene of little depth gets more than one, until
+/// The largest separation, in budgets: the disparity of an infinitely far point. A scene of little depth gets more than one budget until
 /// something appears behind it.
 const MOST: f64 = 4.0;
-/// Change of separation or convergence, as a logarithm, from which the cameras move, and at which they stop.
+/// Differences of separation or convergence, as logarithms: above the first the cameras begin to move, below the second they stop.
 const SLACK: f64 = 0.12;
 const ARRIVED: f64 = 0.01;
-/// Part of the way, as a logarithm, that the separation goes in one frame: to less depth, to more; and the convergence.
+/// Part of the remaining logarithmic way that is covered in one frame: by the separation to less depth, by the separation to more, and by
+/// the convergence.
 const INWARDS: f64 = 0.15;
 const OUTWARDS: f64 = 0.02;
 const ALONG: f64 = 0.03;
 
-/// What the cameras are to keep to.
+/// Limits that the cameras keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Disparity between neighbouring views, before or behind the panel, in normalised device coordinates.
+    /// Largest disparity between neighbouring views, before or behind the panel, in normalised device coordinates.
     pub budget: f64,
-    /// Separation at which the scene is as deep as it is wide and high; more is not given to a flat one.
+    /// Separation at which the scene is as deep as it is wide and high; a shallow scene gets no more.
     pub orthoscopic: f64,
     /// A (see [`super::parallax`]) per unit of row 3, and the length of row 3.
     pub lens: (f64, f64),
 }
 
-/// What is seen of a frame.
+/// Depths that are visible in a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seen {
-    /// Farthest and nearest 1/w of the scene.
+    /// 1/w of the farthest and of the nearest point of the scene.
     pub scene: Option<[f64; 2]>,
-    /// Least and largest conv/w of what has a zero parallax of its own.
+    /// Least and largest conv/w of the draws that have a zero parallax of their own.
     pub others: Option<[f64; 2]>,
-    /// A sky is seen. It is not drawn farther than [`Comfort::farthest`], so it can wait for the cameras.
+    /// A sky is visible. It is not drawn farther than [`Comfort::farthest`], so it is within the budget before the cameras have moved.
     pub sky: bool,
 }
 
 impl Seen {
-    /// A scene that leaves no depths, by the w of the near and the far plane of its projection: something
+    /// For a scene whose depths cannot be read, from the w of the near and the far plane of its projection: something
     /// may be infinitely far, and zero parallax lies at their geometric mean.
     pub fn by_planes([near, far]: [f64; 2]) -> Self {
         Seen {
@@ -61,7 +62,7 @@ impl Seen {
         }
     }
 
-    /// The largest disparities that a separation of 1 gives, behind the panel and before it.
+    /// The largest disparities at a separation of 1, behind the panel and before it.
     fn reach(&self, convergence: f64) -> [f64; 2] {
         let scene = self.scene.map(|s| s.map(|inverse| convergence * inverse));
         let ratios = scene.into_iter().chain(self.others).flatten();
@@ -74,7 +75,7 @@ impl Seen {
 /// The cameras of [`crate::config::Camera::Measured`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comfort {
-    /// What the user wants as it is.
+    /// The number that the user has fixed.
     kept: Option<Kept>,
     /// Separation and convergence in force.
     cameras: Option<(f64, f64)>,
@@ -82,7 +83,7 @@ pub struct Comfort {
 }
 
 impl Comfort {
-    /// Nothing is known of the scene yet.
+    /// Before the first frame; `kept` is the number that the user has fixed.
     pub fn new(kept: Option<Kept>) -> Self {
         Comfort {
             kept,
@@ -91,7 +92,7 @@ impl Comfort {
         }
     }
 
-    /// Separation and convergence after a frame of which this was seen; none as long as no scene was.
+    /// Separation and convergence after a frame in which `seen` was visible; none before the first scene.
     pub fn track(&mut self, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
         let Some(goal) = self.goal(seen, limits) else {
             return self.cameras;
@@ -101,7 +102,7 @@ impl Comfort {
             let apart = |from: f64, to: f64| (to / from).ln();
             let (ds, dc) = (apart(s, separation), apart(c, convergence));
             let most = ds.abs().max(dc.abs());
-            // From or to nothing there is no way.
+            // A separation of 0 has no logarithm: the cameras jump.
             if !most.is_finite() {
                 self.cameras = Some(goal);
                 return self.cameras;
@@ -137,7 +138,7 @@ impl Comfort {
         self.cameras
     }
 
-    /// Where a sky stands under these cameras: a part of the separation, 1 infinitely far.
+    /// Depth of a sky under these cameras, as a part of the separation; 1 is infinitely far.
     pub fn farthest(&self, (separation, _): (f64, f64), budget: f64) -> f64 {
         match self.kept {
             Some(Kept::Separation(_) | Kept::EyeSpacing(_)) => 1.0,
@@ -145,7 +146,7 @@ impl Comfort {
         }
     }
 
-    /// The separation, where the user has chosen it or the distance of the cameras.
+    /// The separation, where the user has fixed it or the spacing of the cameras.
     fn kept_separation(&self, convergence: f64, limits: &Limits) -> Option<f64> {
         let (a, scale) = limits.lens;
         match self.kept {

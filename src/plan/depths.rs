@@ -1,35 +1,35 @@
-//! What is in a depth buffer: from window depths back to distances, as 1/w of clip space.
+//! From the depths of a depth buffer back to distances, as 1/w of clip space.
 //!
-//! A disparity is sep·(1 − conv/w) (see [`super::parallax`]), so it goes with 1/w, and so does the depth of a perspective
-//! projection: the one is a straight line over the other, whatever the direction of the depth and wherever its far plane.
+//! A disparity is sep·(1 − conv/w) (see [`super::parallax`]), which is linear in 1/w. The depth of a perspective projection is linear in
+//! 1/w as well. So disparity is linear in depth, in whichever direction depths grow and wherever the far plane lies.
 
 use crate::config::Viewport;
 
-/// One sample in so many, at the far and at the near end, does not count.
+/// One sample in so many is ignored at the far end, and as many at the near end.
 pub const SPECKS: usize = 200;
 
-/// How many mappings of drawing depth are told apart in one picture.
+/// How many depth mappings are told apart in one picture.
 const MOST: usize = 8;
 
-/// How one projection and depth range turn 1/w into depths: `1/w = slope·depth + offset`.
+/// The line from window depths to 1/w, for one projection and one depth range: `1/w = slope·depth + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
-    /// glDepthRange.
+    /// glDepthRange, the smaller value first.
     range: [f64; 2],
     slope: f64,
     offset: f64,
 }
 
 impl Ramp {
-    /// For a projection (column-major) and a depth range; `zero_to_one`: glClipControl says that normalised depth begins at 0.
-    /// `None` where depth does not go with 1/w: without perspective, or with an oblique near plane.
+    /// For a projection (column-major) and a depth range; `zero_to_one`: normalised depths begin at 0 (glClipControl).
+    /// `None` where depth is not linear in 1/w: without perspective, or with an oblique near plane.
     pub fn of(p: &[f32; 16], range: [f32; 2], zero_to_one: bool) -> Option<Ramp> {
         let row = |r: usize| {
             let [x, y, z] = [p[r], p[r + 4], p[r + 8]].map(f64::from);
             (glam::DVec3::new(x, y, z), f64::from(p[r + 12]))
         };
         let ((z, z_constant), (w, w_constant)) = (row(2), row(3));
-        // z_ndc = a + b/w, where z's row is a times w's and a constant.
+        // z_ndc = a + b/w, where row 2 is a times row 3 plus a constant.
         let a = z.dot(w) / w.length_squared();
         let b = z_constant - a * w_constant;
         let [near, far] = range.map(f64::from);
@@ -44,17 +44,17 @@ impl Ramp {
         (found && !oblique).then_some(ramp)
     }
 
-    /// Slope and offset of 1/w over the depth.
+    /// Slope and offset of 1/w over the window depth.
     pub fn line(&self) -> [f64; 2] {
         [self.slope, self.offset]
     }
 
-    /// Whether what is nearer has larger depths.
+    /// Whether nearer points have larger depths.
     pub fn nearer_is_larger(&self) -> bool {
         self.slope > 0.0
     }
 
-    /// Whether both turn depths into the same distances.
+    /// Whether both turn depths into the same distances, but for rounding.
     pub fn is_like(&self, other: &Ramp) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-5 * b.abs();
         self.range == other.range
@@ -62,8 +62,9 @@ impl Ramp {
             && near(self.offset, other.offset)
     }
 
-    /// The depth up to which all is drawn by `part`, the same projection in a part of the depth range that begins at its nearest depth: what stands
-    /// before everything, such as a weapon in the hand. This one has nearly nothing there. None where it is something else.
+    /// The depth that separates `part` from this ramp. `part` is the same projection in a narrower depth range that begins at the nearest
+    /// depth, for objects before everything else, such as a weapon in the hand; `self` has almost nothing there. None where `part` is not
+    /// such a part.
     pub fn beyond(&self, part: &Ramp) -> Option<f64> {
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-6;
         let [from, to] = match self.nearer_is_larger() {
@@ -74,7 +75,7 @@ impl Ramp {
             true => self.range[1],
             false => self.range[0],
         };
-        // Twice as far as the near plane.
+        // `part` ends at least at half of the nearest 1/w, which is twice the distance of the near plane.
         let most = self.inverse(to) >= 0.5 * self.inverse(nearest);
         let same = near(part.inverse(from), self.inverse(nearest));
         (near(from, nearest) && same && most).then_some(to)
@@ -84,45 +85,45 @@ impl Ramp {
         (self.range[0]..=self.range[1]).contains(&depth)
     }
 
-    /// 1/w at a depth; nothing is farther than infinitely far.
+    /// 1/w at a window depth; 0, infinitely far, at the least.
     fn inverse(&self, depth: f64) -> f64 {
         (self.slope * depth + self.offset).max(0.0)
     }
 }
 
-/// What a scene has been drawn with.
+/// A projection and depth range that a scene is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthMapping {
     ramp: Ramp,
     /// Its projection.
     pub projection: [f32; 16],
-    /// The zero parallax of its own that a profile gives it, in eye-space units.
+    /// The distance of zero parallax that a profile gives to its draws, in eye-space units.
     pub focal: Option<f64>,
     draws: u32,
 }
 
 impl DepthMapping {
-    /// Draws that were made this way.
+    /// How many draws used it.
     pub fn draws(&self) -> u32 {
         self.draws
     }
 }
 
-/// What a picture's scene has been drawn with so far.
+/// The depth mappings of a picture so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DepthMappings {
     mappings: Vec<DepthMapping>,
-    /// A sky has been drawn: what has no depth is infinitely far.
+    /// A sky has been drawn: pixels without a depth are infinitely far.
     pub sky: bool,
 }
 
 impl DepthMappings {
-    /// A draw of the scene, in a viewport that is no picture in the picture.
+    /// Counts a draw of the scene, unless its viewport is a picture in the picture.
     pub fn drawn(&mut self, ramp: Ramp, p: &[f32; 16], focal: Option<f64>, viewport: Viewport) {
         if viewport == Viewport::Inset {
             return;
         }
-        // A camera that is multiplied into the projection leaves roundings.
+        // A camera that is multiplied into the projection leaves rounding errors.
         let same = |w: &&mut DepthMapping| w.ramp.is_like(&ramp) && w.focal == focal;
         if let Some(way) = self.mappings.iter_mut().rev().find(same) {
             way.draws = way.draws.saturating_add(1);
@@ -136,7 +137,7 @@ impl DepthMappings {
         }
     }
 
-    /// The depths are cleared; a sky stays.
+    /// The depths are cleared; a sky stays visible.
     pub fn clear(&mut self) {
         self.mappings.clear();
     }
@@ -146,7 +147,7 @@ impl DepthMappings {
         self.mappings.is_empty()
     }
 
-    /// What most of the scene has been drawn with.
+    /// The mapping of most draws of the scene, among those without a zero parallax of their own.
     pub fn most(&self) -> Option<&DepthMapping> {
         self.mappings
             .iter()
@@ -154,7 +155,8 @@ impl DepthMappings {
             .max_by_key(|w| w.draws)
     }
 
-    /// What a depth was drawn with: a weapon in the hand has a narrow range to itself, which the scene's holds too.
+    /// The mapping that a depth was drawn with: of those whose range contains it the narrowest, because a weapon in the hand has a narrow range
+    /// inside the scene's.
     fn mapping(&self, depth: f64) -> Option<&DepthMapping> {
         let width = |w: &DepthMapping| w.ramp.range[1] - w.ramp.range[0];
         let within = self.mappings.iter().filter(|w| w.ramp.holds(depth));
@@ -165,11 +167,11 @@ impl DepthMappings {
         })
     }
 
-    /// The distances in a picture of depths; `clear` is the depth of what nothing was drawn on.
+    /// The distances in a picture of window depths; `clear` is the depth of pixels on which nothing was drawn.
     pub fn distances(&self, depths: &[f32], clear: f32) -> Distances {
         let mut found = Distances::default();
         for &depth in depths {
-            // Depths of 24 bits come back with the error of one step.
+            // Depths of 24 bits come back with an error of one step.
             if (depth - clear).abs() < 1e-7 {
                 found.sky |= self.sky;
             } else if let Some(way) = self.mapping(depth.into()) {
@@ -188,16 +190,16 @@ impl DepthMappings {
 /// Distances of a picture's samples, as 1/w.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Distances {
-    /// From far to near.
+    /// 1/w of the scene, from far to near.
     pub scene: Vec<f64>,
-    /// With zero parallax at a depth of their own, in eye-space units.
+    /// 1/w of samples with a zero parallax of their own, and the distance of that, in eye-space units.
     pub others: Vec<(f64, f64)>,
-    /// A sky is seen.
+    /// A sky is visible.
     pub sky: bool,
 }
 
 impl Distances {
-    /// Takes those of another picture of the same frame in.
+    /// Adds the distances of another picture of the same frame.
     pub fn join(&mut self, other: Distances) {
         self.scene.extend(other.scene);
         self.scene.sort_unstable_by(f64::total_cmp);
@@ -205,8 +207,8 @@ impl Distances {
         self.sky |= other.sky;
     }
 
-    /// Farthest, middle and nearest of the scene, but for one sample in 200 at either end: a spark that flies by moves no
-    /// cameras.
+    /// 1/w of the farthest, the median and the nearest sample of the scene. One sample in 200 is ignored at either end, so that a passing
+    /// spark moves no cameras.
     pub fn scene(&self) -> Option<[f64; 3]> {
         let (count, specks) = (self.scene.len(), self.scene.len() / SPECKS);
         let at = |index: usize| self.scene.get(index).copied();
@@ -227,7 +229,7 @@ mod tests {
         (a - b).abs() < 1e-4 * b.abs().max(1e-3)
     }
 
-    /// A perspective projection, of cameras that look along −z (`w` = −1) or z, with normalised depths of its near and far planes.
+    /// A perspective projection of a camera that looks along −z (`w` = −1) or z, with the normalised depths of its near and far plane.
     fn perspective(w: f32, [near, far]: [f32; 2], [at_near, at_far]: [f32; 2]) -> Mat4 {
         let b = (at_near - at_far) / (1.0 / near - 1.0 / far);
         let a = at_near - b / near;
@@ -254,7 +256,7 @@ mod tests {
     const GL: [f32; 2] = [-1.0, 1.0];
     const PLANES: [f32; 2] = [0.5, 90.0];
 
-    /// Depth of a point as a window has it.
+    /// Window depth of a point, and its 1/w.
     fn depth(p: Mat4, at: Vec4, range: [f32; 2], zero_to_one: bool) -> (f32, f64) {
         let clip = p * at;
         let ndc = clip.z / clip.w;

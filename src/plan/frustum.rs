@@ -1,27 +1,28 @@
-//! Draws that a view does not see at all: their bounds against the sides of its frustum.
+//! Draws that a view does not see at all: their bounds are tested against the sides of its frustum.
 
-/// The smallest box around positions, in the coordinates that they are given in.
+/// The smallest axis-aligned box around positions, in their own coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     low: [f32; 3],
     high: [f32; 3],
 }
 
-/// Of clip coordinates, relative to their size: what is that near to a side is taken for inside, as the driver rounds otherwise.
+/// Distance from a side in clip space, relative to the size of the coordinates. A point closer than this counts as inside, because the
+/// driver rounds differently.
 const MARGIN: f32 = 1e-4;
 
 impl Bounds {
-    /// Of nothing.
+    /// The bounds of no position.
     pub const EMPTY: Bounds = Bounds {
         low: [f32::INFINITY; 3],
         high: [f32::NEG_INFINITY; 3],
     };
 
-    /// One position more.
+    /// Extends the box to a position.
     #[inline]
     pub fn add(&mut self, position: [f32; 3]) {
         for ((low, high), p) in self.low.iter_mut().zip(&mut self.high).zip(position) {
-            // Not min and max, which take what is no number for the other one.
+            // Not min and max: they would drop a NaN, which has to stay.
             if p < *low || p.is_nan() {
                 *low = p;
             }
@@ -31,8 +32,8 @@ impl Bounds {
         }
     }
 
-    /// Whether all of it lies beyond one side of the frustum, left, right, bottom or top: no triangle between its positions covers
-    /// anything. `rows`: rows 0, 1 and 3 of the projection times the modelview matrix, so that they give x, y and w of clip space.
+    /// Whether the box lies wholly beyond one side of the frustum: left, right, bottom or top. No triangle between its positions then
+    /// covers a pixel. `rows` are rows 0, 1 and 3 of the projection times the modelview matrix; they give x, y and w of clip space.
     pub fn outside(&self, rows: &[[f32; 4]; 3]) -> bool {
         let corners = (0..8u8).map(|corner| {
             let at = |axis: usize| {
@@ -46,13 +47,13 @@ impl Bounds {
             let vertex = [at(0), at(1), at(2), 1.0];
             rows.map(|row| {
                 let terms = row.iter().zip(vertex).map(|(a, b)| a * b);
-                // The value, and the size of what it is summed from.
+                // The sum, and the sum of the magnitudes of its terms.
                 terms.fold((0.0f32, 0.0f32), |(sum, size), t| (sum + t, size + t.abs()))
             })
         });
         let mut beyond = [true; 4];
         for [x, y, w] in corners {
-            // What is no number is beyond nothing.
+            // A NaN is beyond no side.
             let past = |(v, size): (f32, f32), sign: f32| w.0 + sign * v < -MARGIN * (w.1 + size);
             let sides = [past(x, 1.0), past(x, -1.0), past(y, 1.0), past(y, -1.0)];
             for (beyond, past) in beyond.iter_mut().zip(sides) {

@@ -1,53 +1,54 @@
-//! How many views are drawn when the others are made of them: as many as leave the rate that is asked for.
+//! How many views are drawn when the others are synthesised: as many as the requested frame rate allows.
 //!
 //! Whole frames are timed, from swap to swap, so the number follows whatever the program, the driver and the machine do. It goes down as
-//! soon as some frames take too long, and up only where one view more is expected to fit; where that cannot be told (a program that
-//! waits for the screen always takes the same time), it is tried, and less and less often if it fails.
+//! soon as some frames take too long, and up only where one more view is expected to fit. A program that waits for the screen always
+//! takes the same time, so nothing can be expected there: one more view is tried, less and less often if it fails.
 #![forbid(unsafe_code)]
 
-/// Of one view alone, too much of the others is unknown: up to a twelfth of OpenArena's pictures, at 26 dB.
+/// The fewest views. One view alone leaves too much of the others unknown: up to a twelfth of OpenArena's pictures, at 26 dB.
 const FEWEST: u32 = 2;
-/// Frames that are judged together, by the one that a quarter of them is slower than: a rate is held where most frames have it, not half of them.
+/// Frames that are judged together, by their upper quartile: a rate is held only if most frames reach it, not half of them.
 const WINDOW: usize = 16;
-/// Frames after a change that tell of nothing yet.
+/// Frames after a change that are not counted yet.
 const SETTLING: u32 = 2;
-/// What a frame may take of the time it has, for a while, and at all.
+/// Parts of its time budget that a frame may take: for one window, and at most.
 const OVER: [f32; 2] = [1.015, 1.25];
-/// What it may be expected to take with one view more.
+/// Part of its time budget that a frame with one more view may be expected to take.
 const FITS: f32 = 0.95;
-/// Of the frame, what one view is expected to take before a change has told. Too little costs one window that is too slow, too much a try that comes late.
+/// Part of the frame that one view is expected to take before the first change has measured it. A value too small costs one window that is
+/// too slow; a value too large delays the first try.
 const UNKNOWN: f32 = 0.25;
-/// Frames between changes where one view more fits.
+/// Frames between changes where one more view fits.
 const HELD: u32 = 24;
-/// Frames before one more is tried although it is not expected to fit: the first time, and at most.
+/// Frames before one more view is tried although it is not expected to fit: the first time, and at most.
 const TRIED: [u32; 2] = [240, 3840];
 
-/// One program's.
+/// The number of drawn views of one program.
 #[derive(Clone, Debug)]
 pub struct Governor {
-    /// Milliseconds.
+    /// Time of a frame at the requested rate, in milliseconds.
     budget: f32,
     /// Numbers of views, from few to all.
     levels: Vec<u32>,
     at: usize,
     window: Vec<f32>,
-    /// The last window was over what is allowed for a while.
+    /// The last window took more than a single window may.
     late: bool,
     settling: u32,
     /// Frames since the last change.
     held: u32,
     /// Frames before the next try.
     patience: u32,
-    /// It was raised last, and was not judged since.
+    /// The last change was upwards, and no window was judged since.
     tried: bool,
-    /// What the window before the last change took, and the number of views then.
+    /// Milliseconds of the window before the last change, and the number of views then.
     before: Option<(f32, u32)>,
-    /// What one view takes, of the whole frame.
+    /// Part of the whole frame that one view takes, where a change has measured it.
     share: Option<f32>,
 }
 
 impl Governor {
-    /// For `rate` frames per second of `views` views; above `most` it is all of them. Begins with a few.
+    /// For `rate` frames per second of `views` views. At most `most` of them are drawn, or all. Begins with the fewest.
     #[must_use]
     pub fn new(rate: f64, views: u32, most: u32) -> Governor {
         let mut levels: Vec<u32> = (FEWEST.min(views)..=most.min(views)).collect();
@@ -69,13 +70,13 @@ impl Governor {
         }
     }
 
-    /// Views that the next frame draws.
+    /// The number of views that the next frame draws.
     #[must_use]
     pub fn level(&self) -> u32 {
         self.levels.get(self.at).copied().unwrap_or(1)
     }
 
-    /// A frame took so many milliseconds from the one before.
+    /// Takes the milliseconds from the last frame's swap to this one's, and may change the number of views.
     pub fn frame(&mut self, ms: f32) {
         self.held = self.held.saturating_add(1);
         if self.settling > 0 {
@@ -98,7 +99,7 @@ impl Governor {
         }
         if over {
             self.late = false;
-            // One that was tried and did not fit is not tried again soon.
+            // A number that was tried and did not fit is not tried again soon.
             let too_many = match std::mem::take(&mut self.tried) {
                 true => {
                     self.patience = (2 * self.patience).min(TRIED[1]);
@@ -112,7 +113,7 @@ impl Governor {
             return self.go(to.saturating_sub(1), slow);
         }
         self.tried = false;
-        // From eight views it is all at once.
+        // The last step goes from `most` to all views at once.
         let next = self.levels.get(self.at + 1).copied();
         let more = next.map_or(0, |next| next - self.level()) as f32;
         let fits = slow + more * one <= self.budget * FITS;
@@ -132,14 +133,14 @@ impl Governor {
         }
     }
 
-    /// What one view takes, from the last change.
+    /// Measures the share of one view from the last change.
     fn learn(&mut self, ms: f32) {
         let Some((before, level)) = self.before.take() else {
             return;
         };
         let views = self.level() as f32 - level as f32;
         let share = (ms - before) / views / ms.max(1e-3);
-        // A scene that changed at the same time tells of nothing.
+        // A scene that changed at the same time gives no usable share.
         if views != 0.0 && (0.01..1.0).contains(&share) {
             self.share = Some(share);
         }
@@ -150,7 +151,7 @@ impl Governor {
 mod tests {
     use super::*;
 
-    /// Drives it over frames that take `ms(level, frame, noise)`, the noise from 0.95 to 1.05; answers the levels.
+    /// Drives it over frames that take `ms(level, frame, noise)`, with noise from 0.95 to 1.05; returns the levels.
     fn walk(
         governor: &mut Governor,
         frames: std::ops::Range<u32>,
@@ -189,7 +190,7 @@ mod tests {
 
     #[test]
     fn it_knows_what_a_view_takes_from_the_first_one_more() {
-        // A third view may take a quarter of the frame, for all that is known, which is too much at 33 frames per second: it is tried in time.
+        // Before a change, a view is expected to take a quarter of the frame, which is too much at 33 frames per second: it is tried later.
         for (rate, soon, in_time) in [(33.0, 2, 4), (30.0, 5, 6)] {
             let mut governor = Governor::new(rate, 8, 8);
             let levels = walk(&mut governor, 0..450, |level, _, noise| {
@@ -225,7 +226,7 @@ mod tests {
         };
         let levels = walk(&mut governor, 0..3000, ms);
         assert_eq!([levels[999], levels[1999]], [7, 2]);
-        // Fewer within a few frames, more as soon as they fit.
+        // The number falls within a few frames, and rises as soon as more views fit.
         assert_eq!(levels[1030], 2, "{:?}", &levels[1000..1060]);
         assert!(levels[2400] >= 6, "{:?}", &levels[2000..2500]);
     }

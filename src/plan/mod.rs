@@ -22,7 +22,7 @@ pub use governor::Governor;
 pub use parallax::{Rig, Shear};
 pub use trial::Trial;
 
-/// What the program draws with.
+/// The kind of the program's command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// glBegin … glEnd of one primitive mode.
@@ -35,14 +35,14 @@ pub enum Kind {
     Other,
     /// glClear and its kin.
     Clear {
-        /// Depths as well; taken for granted where the call does not say it.
+        /// It clears depths as well; assumed where the call does not say so.
         depths: bool,
-        /// The buffers, as bits of glClear, that it clears for certain where nothing is masked.
+        /// The buffers, as bits of glClear, that it certainly clears where no mask is set.
         whole: u32,
     },
     /// Display lists.
     List,
-    /// At the raster position.
+    /// glDrawPixels, glBitmap and glCopyPixels, which draw at the raster position.
     Pixels,
     /// Accumulation buffer.
     Accum,

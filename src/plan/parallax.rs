@@ -15,7 +15,7 @@ pub struct Rig {
     /// N.
     pub views: u32,
     camera: Camera,
-    /// What [`Camera::Auto`] is to take as the focal depth.
+    /// The focal depth for [`Camera::Auto`], where it is known for the program.
     focal: Option<f64>,
     latched: Option<(f64, f64)>,
     /// A per unit of row 3, of the last perspective projection that was drawn with.
@@ -57,7 +57,7 @@ impl Rig {
         }
     }
 
-    /// Other cameras from now on; `flat`: all of them stand where the program's own does.
+    /// Sets other cameras; with `flat`, all of them stand where the program's own does.
     pub fn change(&mut self, camera: Camera, flat: bool) {
         if camera != self.camera {
             self.farthest = FARTHEST;
@@ -65,7 +65,7 @@ impl Rig {
         (self.camera, self.flat) = (camera, flat);
     }
 
-    /// Separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them; nothing is shifted before.
+    /// Sets separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them; nothing is shifted before.
     /// `farthest` is where a sky stands, as for [`Rig::at_depth`].
     pub fn set_measured(&mut self, cameras: (f64, f64), farthest: f64) {
         self.latched = Some(cameras);
@@ -85,8 +85,8 @@ impl Rig {
         f64::from(view.0) - (f64::from(self.views) - 1.0) / 2.0
     }
 
-    /// A perspective projection that the program draws its scene with. With [`Camera::Auto`], the first one fixes the focal depth,
-    /// where none is given: the geometric mean of its near and far distance, the far one at most 1000 near distances away.
+    /// Takes note of a perspective projection that the program draws its scene with. With [`Camera::Auto`], the first one fixes the focal
+    /// depth, where none is given: the geometric mean of its near and far distance, the far one at most 1000 near distances away.
     pub fn latch(&mut self, p: &[f32; 16]) {
         if flat(p) {
             return;
@@ -110,13 +110,13 @@ impl Rig {
         AUTO_TOTAL_SEPARATION / f64::from(self.views.max(2) - 1)
     }
 
-    /// Separation and convergence that were found, once known: of neighbouring views in clip space, and in units of clip-space w.
+    /// Separation of neighbouring views in clip space, and convergence in units of clip-space w, once they are known.
     pub fn latched(&self) -> Option<(f64, f64)> {
         self.latched
     }
 
-    /// The shift of what stands at one depth, whatever its projection: `x_i = x + sep_i·depth·w`. Depth 0 is on the panel, 1 is
-    /// infinitely far. `None` where all views are the same, and as long as no perspective projection has said what A is.
+    /// The shift of a draw that stands at one depth, whatever its projection: `x_i = x + sep_i·depth·w`. Depth 0 is on the panel, 1 is
+    /// infinitely far. `None` where all views are the same, and as long as A is not known from a perspective projection.
     pub fn at_depth(&self, p: &[f32; 16], depth: f64) -> Option<Shear> {
         if self.views < 2 || depth == 0.0 {
             return None;
@@ -171,8 +171,8 @@ impl Rig {
         }
     }
 
-    /// The shift for a draw that has zero parallax at a depth of its own, with the separation at infinity of the others: it looks
-    /// ξ/`focal` times as far and as large as it is.
+    /// The shift for a draw that has zero parallax at a depth of its own and the common separation at infinity. It looks ξ/`focal`
+    /// times as far away and as large as it is.
     pub fn shear_about(&self, p: &[f32; 16], focal: f64) -> Option<Shear> {
         let (_, scale) = lens(p);
         Some(Shear {
@@ -187,10 +187,10 @@ pub fn flat(p: &[f32; 16]) -> bool {
     p[3] == 0.0 && p[7] == 0.0 && p[11] == 0.0
 }
 
-/// A = P[0][0] = 2·Zn/(r − l), and the length of row 3 (1 for glFrustum), which is what clip-space w has per unit of depth.
+/// A = P[0][0] = 2·Zn/(r − l), and the length of row 3 (1 for glFrustum), which is the clip-space w per unit of depth.
 ///
-/// A projection that includes the camera's rotation has A spread over row 0; what of it is at a right angle to the viewing
-/// direction (row 3) is A.
+/// A projection that includes the camera's rotation has A spread over row 0. A is the part of row 0 at a right angle to the viewing
+/// direction (row 3).
 fn focal_length(p: &[f32; 16]) -> (f64, f64) {
     if p[3] == 0.0 && p[7] == 0.0 {
         return (f64::from(p[0]), f64::from(p[11]).abs());

@@ -1,37 +1,38 @@
-//! `auto`: the strategy by which this program, on this driver, is drawn fastest, found by drawing its own frames by each in turn.
+//! `auto`: finds the fastest strategy for this program on this driver, by drawing its own frames with each strategy in turn.
 //!
-//! All strategies make the same pictures, so nobody sees it. Whole frames are timed: what a strategy cannot make is replayed, what
-//! lies where costs more than one draw, and only the sum matters.
+//! All strategies make the same pictures, so nobody sees the trial. Whole frames are timed, because only the sum matters: a strategy
+//! replays the draws that it cannot make itself, and its layout of the atlas has a cost beyond the single draw.
 
 use crate::config::Strategy;
 
-/// Frames before it begins: programs load while they show the first ones.
+/// Frames before the trial begins: programs still load while they show the first ones.
 const WARM: u32 = 12;
-/// Frames by one strategy before the next has its turn; the first of them, which makes an atlas and compiles shaders, is not counted.
+/// Frames of one turn of a strategy. The first of them is not counted, since it makes an atlas and compiles shaders.
 const BLOCK: u32 = 4;
-/// Turns of each.
+/// Turns of each strategy.
 const ROUNDS: usize = 4;
-/// What another strategy's median has to be of replay's, which is exact and takes no shaders.
+/// Part of replay's median time that another strategy's may take at most. Replay has the advantage because it is exact and needs no
+/// shaders.
 const BETTER: f32 = 0.92;
-/// A scene that takes more or less than this many times as long as the one that was tried is another one ...
+/// A frame belongs to another scene if it takes this many times as long as the frames of the trial, or as many times less ...
 const OTHER: f32 = 2.0;
-/// ... if it does so for as many frames.
+/// ... and the scene is tried anew if that lasts for as many frames.
 const LASTING: u32 = 120;
 
-/// How far it is.
+/// How far the trial is.
 #[derive(Clone, Debug, PartialEq)]
 enum Stage {
-    /// Frames to come.
+    /// Frames before the trial begins.
     Warming(u32),
-    /// Frames drawn so far, of all turns.
+    /// Frames drawn so far, over all turns.
     Trying(u32),
-    /// Known from before: milliseconds of the frames so far, to know the scene by.
+    /// The strategy is known from an earlier run. Milliseconds of the frames so far, from which the typical time of the scene is taken.
     Known(Vec<f32>),
-    /// Milliseconds of a frame then, and frames since it takes another time.
+    /// Milliseconds of a frame at the end of the trial, and the number of frames in a row that took a very different time.
     Done(f32, u32),
 }
 
-/// One program's.
+/// The trial of one program.
 #[derive(Clone, Debug)]
 pub struct Trial {
     candidates: Vec<Strategy>,
@@ -42,7 +43,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Among strategies, the first of which is preferred; begins with `known`, the outcome of an earlier one, and is over then.
+    /// A trial of `candidates`, of which the first is preferred. With `known`, the outcome of an earlier trial, nothing is tried.
     pub fn new(candidates: Vec<Strategy>, known: Option<Strategy>) -> Trial {
         let first = candidates.first().copied().unwrap_or(Strategy::Replay);
         let known = known.filter(|known| candidates.contains(known));
@@ -58,7 +59,7 @@ impl Trial {
         }
     }
 
-    /// By which the next frame is to be drawn.
+    /// The strategy that draws the next frame.
     pub fn strategy(&self) -> Strategy {
         match self.stage {
             Stage::Trying(frame) => self.candidate(frame).1,
@@ -66,14 +67,13 @@ impl Trial {
         }
     }
 
-    /// Whether the time of this frame counts, so that the driver has to finish it.
+    /// Whether this frame is timed, so that the driver has to finish it first.
     pub fn measures(&self) -> bool {
         matches!(self.stage, Stage::Trying(_))
     }
 
-    /// Milliseconds that a frame took from the one before; answers the strategy when it has been found.
-    /// `made`: the strategy made a draw of it itself; what it only has replayed, in the layout that suits it and not replay, is no gain
-    /// of its own.
+    /// Takes the milliseconds from the last frame's swap to this one's; returns the strategy once it has been found.
+    /// `made`: the strategy made at least one draw of the frame itself. A frame of replayed draws only is no gain of the strategy.
     pub fn frame(&mut self, ms: f32, made: bool) -> Option<Strategy> {
         match &mut self.stage {
             Stage::Warming(0) => self.stage = Stage::Trying(0),
@@ -112,7 +112,7 @@ impl Trial {
         None
     }
 
-    /// Whose turn a frame is.
+    /// The candidate whose turn a frame is, and its index.
     fn candidate(&self, frame: u32) -> (usize, Strategy) {
         let index = (frame / BLOCK) as usize % self.candidates.len().max(1);
         (
@@ -145,7 +145,7 @@ mod tests {
 
     const ALL: [Strategy; 3] = [Strategy::Replay, Strategy::Instanced, Strategy::Geometry];
 
-    /// Draws frames that take `ms` by strategy, until one is found.
+    /// Draws frames that take `ms` milliseconds by strategy, until a strategy is found.
     fn find(trial: &mut Trial, mut ms: impl FnMut(Strategy, u32) -> f32) -> (Strategy, u32) {
         for frame in 0..1000 {
             let time = ms(trial.strategy(), frame);
@@ -163,7 +163,7 @@ mod tests {
             ([8.0, 5.0, 20.0], Strategy::Instanced),
             ([8.0, 9.0, 4.0], Strategy::Geometry),
             ([8.0, 9.0, 20.0], Strategy::Replay),
-            // Not worth it.
+            // The gain is too small.
             ([8.0, 7.8, 20.0], Strategy::Replay),
         ] {
             let mut trial = Trial::new(ALL.to_vec(), None);
@@ -189,7 +189,7 @@ mod tests {
                 1
             };
             match strategy {
-                // With the first ones half of all frames would be slow.
+                // If the first frames counted, half of all frames would be slow.
                 Strategy::Instanced if turn <= 2 => 500.0,
                 Strategy::Instanced => 1.0,
                 _ => 2.0,
@@ -238,7 +238,7 @@ mod tests {
     fn what_is_known_is_taken_and_what_cannot_be_is_not() {
         let mut known = Trial::new(ALL.to_vec(), Some(Strategy::Geometry));
         assert_eq!(known.strategy(), Strategy::Geometry);
-        // Loading takes longer, and is no scene.
+        // Frames take longer while the program loads, which is no other scene.
         for frame in 0..1000 {
             assert_eq!(known.frame(if frame < 9 { 200.0 } else { 5.0 }, true), None);
             assert!(!known.measures());

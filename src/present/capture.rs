@@ -1,4 +1,4 @@
-//! Pictures out of the program, as PNG with row 0 on top.
+//! Captured pictures, as PNG with row 0 on top.
 
 use crate::config::Capture;
 use crate::gl::Gl;
@@ -6,7 +6,7 @@ use crate::state::Neutral;
 use image::{ImageBuffer, Luma, RgbImage};
 use std::path::Path;
 
-/// The rectangle of the bound read framebuffer.
+/// Reads the colours of a rectangle of the bound read framebuffer; x and y are in pixels from the lower left.
 pub fn read_rgb(gl: &Gl, neutral: &Neutral, x: i32, y: i32, width: u32, height: u32) -> RgbImage {
     let mut image = RgbImage::from_raw(
         width,
@@ -18,7 +18,7 @@ pub fn read_rgb(gl: &Gl, neutral: &Neutral, x: i32, y: i32, width: u32, height: 
     image
 }
 
-/// Depth of the bound read framebuffer, 0 (near) to 65535.
+/// Reads the depths of a rectangle of the bound read framebuffer, 0 (near) to 65535; x and y are in pixels from the lower left.
 pub fn read_depth(
     gl: &Gl,
     neutral: &Neutral,
@@ -37,14 +37,20 @@ pub fn read_depth(
     image
 }
 
-/// What is no picture, in the same way.
+/// Writes a file that is no picture in the way of [`write()`].
+///
+/// # Errors
+/// The file and the error of the system, in one line.
 pub fn write_bytes(bytes: &[u8], path: &Path) -> Result<(), String> {
     let partial = Capture::partial(path);
     let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
     written.map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Writes one frame beside its file and renames, so that whoever waits for the file never sees half of it.
+/// Writes a picture to a file beside `path` and renames that, so that whoever waits for the file never sees half of it.
+///
+/// # Errors
+/// The file and the error of the system, in one line.
 pub fn write<P, C>(image: &ImageBuffer<P, C>, path: &Path) -> Result<(), String>
 where
     P: image::Pixel + image::PixelWithColorType,

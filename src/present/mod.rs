@@ -1,4 +1,4 @@
-//! The true framebuffer 0, and the state that our own drawing borrows and gives back.
+//! Captures of the bound framebuffer, and windows with a left and a right buffer.
 #![forbid(unsafe_code)]
 
 pub mod capture;

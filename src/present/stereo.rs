@@ -1,12 +1,12 @@
-//! Windows with a left and a right buffer: what a program's list of GLX attributes has to say to get one.
+//! Windows with a left and a right buffer: changes a program's list of GLX attributes so that it asks for one.
 
 /// GLX_STEREO
 const STEREO: i32 = 6;
 
-/// How a list of GLX attributes is written. Both end with 0 where an attribute could stand.
+/// The format of a list of GLX attributes. Both formats end with a 0 in the place of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Attributes {
-    /// glXChooseVisual: some are wanted where their name stands, the others have a value.
+    /// glXChooseVisual: a boolean attribute is a name alone, the others have a value.
     Visual,
     /// glXChooseFBConfig: each has a value.
     Config,
@@ -18,8 +18,8 @@ impl Attributes {
         self == Self::Config || ![1, 4, 5, STEREO].contains(&name)
     }
 
-    /// A program's list with a stereo window asked for as well; `None` where the program asks for one itself. Nothing is read of
-    /// `list` after its end.
+    /// The program's list, changed to ask for a stereo window as well; `None` if the program asks for one itself. `list` is not read
+    /// beyond its end.
     pub fn with_stereo(self, list: impl IntoIterator<Item = i32>) -> Option<Vec<i32>> {
         let mut list = list.into_iter();
         let mut changed = Vec::new();
@@ -62,7 +62,7 @@ mod tests {
     const DRAWABLE_TYPE: i32 = 0x8010;
     const DONT_CARE: i32 = -1;
 
-    /// The lists of programs go on in memory that is not theirs.
+    /// The changed list; panics if `list` is read beyond its end, where a program has other memory.
     fn changed(kind: Attributes, list: &[i32]) -> Option<Vec<i32>> {
         let beyond = std::iter::from_fn(|| panic!("read past its end"));
         kind.with_stereo(list.iter().copied().chain(beyond))
@@ -72,7 +72,7 @@ mod tests {
     fn an_empty_list_asks_for_stereo_alone() {
         assert_eq!(changed(Visual, &[0]), Some(vec![STEREO, 0]));
         assert_eq!(changed(Config, &[0]), Some(vec![STEREO, 1, 0]));
-        // Where a program gives glXChooseFBConfig no list at all.
+        // The program may give glXChooseFBConfig no list at all.
         assert_eq!(Config.with_stereo([]), Some(vec![STEREO, 1, 0]));
     }
 

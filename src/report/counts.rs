@@ -1,8 +1,9 @@
-//! Counts that every draw adds to, so they have to be cheap: a handful of kinds, found by comparing, made text when they are written.
+//! Counts to which every draw adds, so they have to be cheap: a few kinds, found by a linear search, and turned into text only when
+//! they are written.
 
 use std::collections::BTreeMap;
 
-/// How often each of a few things came.
+/// The number of occurrences of each of a few kinds.
 #[derive(Debug)]
 pub struct Counts<T>(Vec<(T, u64)>);
 
@@ -13,7 +14,7 @@ impl<T> Default for Counts<T> {
 }
 
 impl<T: PartialEq> Counts<T> {
-    /// One more.
+    /// Counts one more.
     #[inline]
     pub fn add(&mut self, what: T) {
         match self.0.iter_mut().find(|(known, _)| *known == what) {
@@ -22,12 +23,12 @@ impl<T: PartialEq> Counts<T> {
         }
     }
 
-    /// The counts since the last time.
+    /// Takes the counts since the last call.
     pub fn take(&mut self) -> impl Iterator<Item = (T, u64)> + '_ {
         self.0.drain(..)
     }
 
-    /// By text.
+    /// The counts by name; kinds of one name are added up.
     pub(super) fn named<'a>(
         &'a self,
         name: impl Fn(&'a T) -> &'static str,

@@ -17,7 +17,7 @@ pub struct Disparity {
     pub cameras: (f64, f64),
     /// Of the nearest point.
     pub least: f64,
-    /// Of the point in the middle of all.
+    /// Of the point at the median of 1/w.
     pub middle: f64,
     /// Of the farthest point.
     pub most: f64,
@@ -81,7 +81,7 @@ struct Summary {
     max: f64,
 }
 
-/// How far the cameras alone have moved a point from one frame to the next, between neighbouring views.
+/// Change of the disparity of a point from one frame to the next, by the cameras alone; in pixels between neighbouring views.
 #[derive(Serialize)]
 struct Changes {
     median: f64,
@@ -99,7 +99,7 @@ impl Disparities {
         self.over += u64::from(d.least.abs().max(d.most.abs()) > d.budget);
         (self.budget, self.mm_per_px) = (d.budget, d.mm_per_px);
         keep(&mut self.middles, self.frames, d.middle);
-        // The step from no cameras to the first ones is no change of theirs.
+        // The step from zero separation to the first cameras does not count as a change.
         if let Some(last) = self.last.filter(|last| last.cameras.0 != 0.0) {
             let (before, now) = (d.under(last.cameras), d.under(d.cameras));
             let moved = before.iter().zip(now).map(|(b, n)| (b - n).abs());
@@ -154,7 +154,7 @@ fn keep(values: &mut Vec<f64>, frame: u64, value: f64) {
     }
 }
 
-/// The value below which a part of all is; 0 of none.
+/// The quantile at `part`, from 0 to 1; 0 without values.
 fn part(values: &[f64], part: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);

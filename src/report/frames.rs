@@ -1,4 +1,4 @@
-//! Frames: how many went how, and how long they took.
+//! Frames: their number by kind, and their times.
 
 use super::walk::Walk;
 use serde::Serialize;
@@ -12,23 +12,23 @@ const KEPT: usize = 4096;
 pub(super) struct Frames {
     /// Frames shown.
     pub(super) shown: u64,
-    /// Those that are the same in all views.
+    /// Number of those that are the same in all views.
     pub(super) mono: u64,
-    /// Those whose views were synthesised.
+    /// Number of those whose views were synthesised.
     pub(super) synthesised: Synthesised,
-    /// Time and number of true views of the last ones.
+    /// Time and number of true views of each of the last ones.
     pub(super) walk: Walk,
     /// Milliseconds of the last ones, in any order.
     times: Vec<f32>,
     last: Option<Instant>,
 }
 
-/// Frames whose scene was drawn in some views, and the others synthesised.
+/// Number of frames whose scene was drawn in some views, from which the others were synthesised.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(super) struct Synthesised {
-    /// Subpixel by subpixel.
+    /// Synthesised subpixel by subpixel, directly into the panel's picture.
     into_panel: u64,
-    /// As views.
+    /// Synthesised as whole views.
     into_tiles: u64,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct FrameTimes {
 }
 
 impl Frames {
-    /// A frame was shown; answers the milliseconds since the one before.
+    /// Counts a frame that was shown; returns the milliseconds since the one before.
     pub(super) fn show(&mut self) -> Option<f32> {
         let now = Instant::now();
         let ms = self

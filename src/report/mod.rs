@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 #[derive(Debug, Default)]
 pub struct Report {
     frames: Frames,
-    /// Method and class.
+    /// By method and class.
     draws: Counts<(&'static str, &'static str)>,
     fallbacks: BTreeMap<String, u64>,
     notes: Vec<String>,
@@ -31,7 +31,7 @@ pub struct Report {
     shaders: u64,
     bytes: u64,
     disparities: Disparities,
-    /// Where a proof is asked for.
+    /// The proof, if one is asked for.
     pub proof: Option<Proof>,
     names: Names,
     last_write: Option<Instant>,
@@ -45,14 +45,14 @@ struct Names {
     lists: u32,
 }
 
-/// The file. More than 12 fields: one for each member of the JSON.
+/// The JSON file. More than 12 fields: one for each member.
 #[derive(Serialize)]
 struct Json<'a> {
     frames: u64,
     frames_drawn_once: u64,
     #[serde(skip_serializing_if = "Synthesised::is_none")]
     frames_synthesised: Synthesised,
-    /// Milliseconds and views drawn of each of the last frames.
+    /// Milliseconds and number of views drawn, for each of the last frames.
     #[serde(skip_serializing_if = "Option::is_none")]
     true_views: Option<Vec<(f32, u32)>>,
     frame_ms: FrameTimes,
@@ -71,40 +71,40 @@ struct Json<'a> {
 }
 
 impl Report {
-    /// One draw went by a method; it was of a class.
+    /// Counts a draw by its method and its class.
     #[inline]
     pub fn draw(&mut self, method: &'static str, class: &'static str) {
         self.draws.add((method, class));
     }
 
-    /// Draws went by replay although something else was asked for.
+    /// Counts draws that were replayed although another strategy was asked for.
     pub fn fallbacks(&mut self, reason: &dyn std::fmt::Display, count: u64) {
         *self.fallbacks.entry(reason.to_string()).or_default() += count;
     }
 
-    /// Something the user should know, once.
+    /// Adds a note for the user, unless it is there already.
     pub fn note(&mut self, text: String) {
         if !self.notes.contains(&text) {
             self.notes.push(text);
         }
     }
 
-    /// A GL error that our own set-up raised.
+    /// Counts a GL error that the layer's own set-up raised.
     pub fn error(&mut self) {
         self.errors += 1;
     }
 
-    /// Programs generated and compiled so far.
+    /// Sets the number of programs that were generated and compiled so far.
     pub fn shaders(&mut self, programs: u64) {
         self.shaders = programs;
     }
 
-    /// Memory of the views' colour, depth and stencil.
+    /// Sets the memory of the views' colour, depth and stencil, in bytes.
     pub fn memory(&mut self, bytes: u64) {
         self.bytes = bytes;
     }
 
-    /// Names that the layer holds in this context; `lists` are those of its share group.
+    /// Sets the number of GL names that the layer holds in this context; `lists` is that of its share group.
     pub fn names(&mut self, made: Count, lists: u32) {
         self.names = Names { made, lists };
     }
@@ -114,7 +114,7 @@ impl Report {
         self.disparities.add(disparity);
     }
 
-    /// A frame is the same in all views, and was drawn in one.
+    /// Counts a frame that is the same in all views and was drawn in one.
     pub fn mono_frame(&mut self) {
         self.frames.mono += 1;
     }
@@ -129,18 +129,18 @@ impl Report {
         self.frames.shown
     }
 
-    /// A frame was shown; answers the milliseconds since the one before.
+    /// Counts a frame that was shown; returns the milliseconds since the one before.
     pub fn frame(&mut self) -> Option<f32> {
         self.frames.show()
     }
 
-    /// Notes how many views that frame has drawn.
+    /// Notes the time of a frame in milliseconds, and the number of views that were drawn in it.
     pub fn drew(&mut self, ms: f32, views: u32) {
         self.frames.walk.frame(ms, views);
     }
 
-    /// After a frame: writes the report and the status when it is time, after each of the first frames, then ten times a second (a program gives no sign
-    /// before it ends).
+    /// After a frame: writes the report, and the status where frames are captured, if they are due. They are after each of the first 10
+    /// frames, then ten times a second, because a program may end without notice.
     pub fn write_if_due(&mut self, config: &Config) {
         let since = self.last_write.map(|last| last.elapsed());
         let due =
@@ -149,22 +149,22 @@ impl Report {
             return;
         }
         self.last_write = Some(Instant::now());
-        // Of a proof the context tells that has proved a frame.
+        // In a proof, the context that has proved a frame writes the status.
         if config.capture.is_some() {
             self.write_status(config, self.frames.shown);
         }
         self.write_report(config);
     }
 
-    /// Tells the launcher how far the program is, and writes the report that belongs to this frame: the launcher ends the program when it has the
-    /// last one that it wants.
+    /// Writes the status, which tells the launcher how many frames there are, and the report of this frame. The launcher ends the program
+    /// after the last frame that it wants.
     pub fn write(&mut self, config: &Config, frames: u64) {
         self.last_write = Some(Instant::now());
         self.write_status(config, frames);
         self.write_report(config);
     }
 
-    /// A file that cannot be written must not disturb the program; the launcher has checked the folders.
+    /// Writes the status. A file that cannot be written must not disturb the program; the launcher has checked the folders.
     fn write_status(&self, config: &Config, frames: u64) {
         if let Some(path) = &config.status {
             let proof = self.proof.as_ref().map(Proof::summary);
@@ -177,7 +177,7 @@ impl Report {
         }
     }
 
-    /// The same.
+    /// Writes the report, and ignores errors likewise.
     fn write_report(&self, config: &Config) {
         if let Some(path) = &config.report {
             let _ = replace(path, self.json().as_bytes());

@@ -1,4 +1,4 @@
-//! The results of `--prove`: the differences of the views and the picture from those of replay, and the time of replay.
+//! The results of `--prove`: how much the views and the picture differ from those of replay, and the time of replay.
 
 use crate::metric::{Comparison, Gate};
 use image::RgbImage;
@@ -17,7 +17,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// None for pictures that cannot be compared.
+    /// Compares two pictures; `None` if they cannot be compared.
     pub fn new(exact: &RgbImage, shown: &RgbImage) -> Option<Self> {
         let compared = Comparison::new(exact, shown, None).ok()?;
         let (mut worst, mut at) = (0, [0; 2]);
@@ -40,7 +40,7 @@ impl Difference {
         self.at
     }
 
-    /// dB; infinite for equal pictures.
+    /// Peak signal-to-noise ratio in dB; infinite for equal pictures.
     pub fn psnr(&self) -> f64 {
         self.compared.psnr
     }
@@ -59,18 +59,18 @@ pub struct Worst {
     pub frame: u64,
 }
 
-/// A view, or the picture made of all views, over all proved frames.
+/// The result for one view, or for the picture of all views, over all proved frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Found {
-    /// In a frame.
+    /// Number of pixels in a frame.
     pub pixels: u64,
     /// Pixels that differ, in the frame where most do.
     pub differing: u64,
-    /// dB, in the worst frame; none where all frames are equal, for which it is infinite.
+    /// Peak signal-to-noise ratio of the worst frame in dB; `None` if all frames are equal, as it is infinite then.
     pub psnr: Option<f64>,
     /// Every frame has passed [`Gate::DESIGN`].
     pub within_gate: bool,
-    /// None where all frames are equal.
+    /// `None` if all frames are equal.
     pub worst: Option<Worst>,
 }
 
@@ -112,13 +112,13 @@ pub struct Culprit {
     pub worst: Worst,
     /// Its view.
     pub view: u32,
-    /// The draw, counted in its frame from 1, clears left out; of a clear that of the draw before it.
+    /// Number of the draw in its frame, from 1. Clears are not counted; a clear has the number of the draw before it.
     pub draw: u32,
     /// Command and primitive.
     pub kind: String,
     /// Its class.
     pub class: String,
-    /// By which it was made.
+    /// The method by which it was drawn.
     pub method: String,
     /// The texture that it samples, 0 for none.
     pub texture: u32,
@@ -126,7 +126,8 @@ pub struct Culprit {
     pub list: Option<u32>,
 }
 
-/// The time of replay. Medians, from a frame's first draw to the end of glFinish after its picture is made.
+/// The times of the chosen strategy and of replay. They are medians, from a frame's first draw to the end of glFinish after its
+/// picture is made.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpeedUp {
     /// ms
@@ -135,11 +136,11 @@ pub struct SpeedUp {
     pub replay_ms: f64,
     /// `replay_ms / chosen_ms`
     pub times: f64,
-    /// How many frames by either.
+    /// Number of frames that were timed by each.
     pub frames: [usize; 2],
 }
 
-/// The summary.
+/// The results of a proof.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Summary {
@@ -151,20 +152,20 @@ pub struct Summary {
     pub carried: u64,
     /// Frames that were not compared, by reason.
     pub skipped: BTreeMap<String, u64>,
-    /// By view.
+    /// Results by view.
     pub views: Vec<Option<Found>>,
-    /// The strategy that the window shows.
+    /// Result for the picture that the window shows.
     pub panel: Option<Found>,
-    /// The draw that brought the worst pixel of a frame.
+    /// The draw that caused the worst pixel of a frame.
     pub draw: Option<Culprit>,
-    /// None until frames of both kinds were timed.
+    /// `None` until frames of both kinds were timed.
     pub speed_up: Option<SpeedUp>,
     /// File with the worst view by replay, the difference, and the view as it was shown.
     pub picture: Option<String>,
 }
 
 impl Summary {
-    /// In words: whether the views are those of replay.
+    /// Whether the views are those of replay, in words.
     pub fn verdict(&self) -> &'static str {
         match () {
             () if self.frames == 0 => "not proved",
@@ -174,12 +175,12 @@ impl Summary {
         }
     }
 
-    /// The views.
+    /// The results of the views that were compared.
     pub fn found(&self) -> impl Iterator<Item = &Found> {
         self.views.iter().flatten()
     }
 
-    /// dB, of the worst view in its worst frame.
+    /// Peak signal-to-noise ratio of the worst view in its worst frame, in dB; `None` if no view differs.
     pub fn psnr(&self) -> Option<f64> {
         self.found().filter_map(|f| f.psnr).min_by(f64::total_cmp)
     }
@@ -194,7 +195,7 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// A frame was compared; `carried`: it did not begin with a clear.
+    /// Adds a frame that was compared; `carried`: it did not begin with a clear.
     pub fn frame(&mut self, frame: u64, carried: bool, views: &[Difference], panel: &[Difference]) {
         let summary = &mut self.summary;
         summary.frames += 1;
@@ -210,22 +211,22 @@ impl Proof {
         }
     }
 
-    /// A frame could not be compared.
+    /// Counts a frame that could not be compared.
     pub fn skipped(&mut self, reason: &str) {
         *self.summary.skipped.entry(reason.to_owned()).or_default() += 1;
     }
 
-    /// dB, of the worst view so far; infinite where none differs.
+    /// Peak signal-to-noise ratio of the worst view so far, in dB; infinite if none differs.
     pub fn psnr(&self) -> f64 {
         self.summary.psnr().unwrap_or(f64::INFINITY)
     }
 
-    /// The picture of the worst view is there.
+    /// Notes the file with the picture of the worst view.
     pub fn picture(&mut self, file: String) {
         self.summary.picture = Some(file);
     }
 
-    /// The draw that brought the worst pixel is found; the worst of all is kept.
+    /// Notes the draw that caused the worst pixel of a frame; only that of the worst of all is kept.
     pub fn culprit(&mut self, culprit: Culprit) {
         let known = self.summary.draw.as_ref();
         if known.is_none_or(|k| k.worst.difference < culprit.worst.difference) {
@@ -233,13 +234,13 @@ impl Proof {
         }
     }
 
-    /// How large the worst pixel is whose draw is known.
+    /// The difference of the worst pixel whose draw is known, in steps of 255; 0 if none is.
     pub fn explained(&self) -> u8 {
         let known = self.summary.draw.as_ref();
         known.map_or(0, |known| known.worst.difference)
     }
 
-    /// How long a frame has taken, ms.
+    /// Adds the time of a frame, in ms.
     pub fn timed(&mut self, by_replay: bool, ms: f64) {
         let times = if by_replay {
             &mut self.replay

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-/// Frames that are told of.
+/// Number of frames that the report lists.
 const KEPT: usize = 1000;
 
 /// Frames whose views are partly synthesised, the oldest first.

@@ -1,7 +1,7 @@
-//! Edits by place, applied in one go.
+//! Edits of a source by byte positions, applied all at once.
 //!
-//! The lines of the program's own text keep their numbers: what goes between them is on a line that is there, or is followed by
-//! `#line`. What needs lines of its own goes behind the end.
+//! The lines of the program's source keep their numbers: an insertion stays within an existing line, or is followed by `#line`.
+//! Whole lines are appended at the end.
 
 use super::error::Refusal;
 use super::scan::{Directive, Scan, Token, line_end};
@@ -10,22 +10,22 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt::Write;
 
-/// The program's last line may be a comment, may end in a backslash, and may have no end.
+/// Goes before the appended lines: the program's last line may be a comment, may end in a backslash, and may lack a newline.
 const BEFORE_TAIL: &str = "\n\n";
 
-/// What will be done to one text.
+/// The edits to be made in one source.
 pub(super) struct Edits<'s, 'a> {
     scan: &'s Scan<'a>,
     version: Version,
-    /// First byte, byte behind the last, new text.
+    /// First byte, byte after the last, new text.
     changes: Vec<(usize, usize, String)>,
     extensions: Vec<&'static str>,
-    /// Declarations before the first use, and the token of that.
+    /// Declarations, and the index of the token before which they have to stand.
     head: Option<(String, usize)>,
     tail: String,
 }
 
-/// Where a declaration can stand before a use.
+/// A position at which a declaration can be inserted.
 struct Place {
     at: usize,
     /// Before a directive: the declaration needs a line of its own.
@@ -44,13 +44,13 @@ impl<'s, 'a> Edits<'s, 'a> {
         }
     }
 
-    /// New text, without the end of a line, in the place of a token.
+    /// Replaces a token by a text without newlines.
     pub(super) fn replace(&mut self, token: &Token, text: impl Into<String>) {
         let mut text = text.into();
         let raw = self.scan.source.get(token.start..token.end);
         let raw = raw.unwrap_or_default();
         let mut at = 0;
-        // Joined lines inside of the token stay, so that the lines after it keep their numbers.
+        // Line continuations inside the token are kept, so that the lines after it keep their numbers.
         while at < raw.len() {
             match line_end(raw, at) {
                 0 => at += 1,
@@ -63,12 +63,12 @@ impl<'s, 'a> Edits<'s, 'a> {
         self.changes.push((token.start, token.end, text));
     }
 
-    /// New text, without the end of a line, before a token.
+    /// Inserts a text without newlines before a token.
     pub(super) fn insert(&mut self, token: &Token, text: impl Into<String>) {
         self.changes.push((token.start, token.start, text.into()));
     }
 
-    /// New text for every token of this name; the first one's place.
+    /// Replaces every token of this name; returns the index of the first.
     pub(super) fn replace_name(&mut self, name: &str, text: &str) -> Option<usize> {
         let mut first = None;
         for (at, token) in self.scan.tokens.iter().enumerate() {
@@ -80,23 +80,23 @@ impl<'s, 'a> Edits<'s, 'a> {
         first
     }
 
-    /// `#extension NAME : require`, behind `#version`.
+    /// Adds `#extension NAME : require` after `#version`.
     pub(super) fn require(&mut self, extension: &'static str) {
         self.extensions.push(extension);
     }
 
-    /// A declaration that has to stand before a token. Of one line if it can be.
+    /// Adds a declaration that has to stand before a token, preferably of one line.
     pub(super) fn declare(&mut self, declaration: impl Into<String>, before: usize) {
         self.head = Some((declaration.into(), before));
     }
 
-    /// A line behind the end of the program's text.
+    /// Appends a line to the program's source.
     pub(super) fn append(&mut self, line: impl AsRef<str>) {
         self.tail.push_str(line.as_ref());
         self.tail.push('\n');
     }
 
-    /// The new text.
+    /// Applies the edits; the result is borrowed where there are none.
     pub(super) fn finish(mut self) -> Result<Cow<'a, [u8]>, Refusal> {
         self.check_macros()?;
         self.insert_extensions();
@@ -104,7 +104,7 @@ impl<'s, 'a> Edits<'s, 'a> {
         if self.changes.is_empty() && self.tail.is_empty() {
             return Ok(Cow::Borrowed(self.scan.source));
         }
-        // An insertion at the first byte of what is replaced comes before it.
+        // An insertion at the first byte of a replacement comes before it.
         self.changes.sort_by_key(|&(start, end, _)| (start, end));
         let source = self.scan.source;
         let mut text = Vec::with_capacity(source.len() + self.tail.len() + 1024);
@@ -122,7 +122,7 @@ impl<'s, 'a> Edits<'s, 'a> {
         Ok(Cow::Owned(text))
     }
 
-    /// The program's macros must not be found in our text.
+    /// Refuses if a macro of the program has the name of a token in the added text.
     fn check_macros(&self) -> Result<(), Refusal> {
         let scan = self.scan;
         let define = |directive: &&Directive| *scan.called(directive) == *b"define";
@@ -181,7 +181,7 @@ impl<'s, 'a> Edits<'s, 'a> {
         let lines = declaration.contains('\n');
         let text = if place.directive || lines {
             let line = self.version.line_directive(self.numbered_line(place.at));
-            // Between tokens of a line the declaration's own lines begin with a new one.
+            // A declaration of several lines begins on a new line.
             let before = if lines { "\n" } else { "" };
             format!("{before}{declaration}\n#line {line}\n")
         } else {
@@ -191,8 +191,8 @@ impl<'s, 'a> Edits<'s, 'a> {
         Ok(())
     }
 
-    /// Outside of all conditions and behind the program's `#extension` lines: before the first token outside of all conditions, or
-    /// before the condition that holds the use.
+    /// The position of a declaration, which has to be outside all conditions and after the program's `#extension` lines: before the
+    /// first token outside all conditions, or before the outermost condition that holds the use.
     fn place(&self, before: usize) -> Result<Place, Refusal> {
         let scan = self.scan;
         let mut directives = scan.directives.iter();
@@ -252,7 +252,7 @@ impl<'s, 'a> Edits<'s, 'a> {
         match set {
             Some((end, number)) => {
                 let since = here.saturating_sub(scan.line_of(end) + 1);
-                // What the directive calls the line after it.
+                // The number that the directive gives to the line after it.
                 let next = number + (1 - self.version.line_directive(1));
                 next + since
             }

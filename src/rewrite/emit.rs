@@ -1,6 +1,6 @@
-//! Geometry shaders: each vertex moves as it is emitted.
+//! Geometry shaders: each vertex is shifted when it is emitted.
 //!
-//! The program's own `gl_Position` is put back, so that what it reads of it or adds to it does not add up from vertex to vertex.
+//! The program's `gl_Position` is restored after each vertex, so that shifts do not accumulate where the program reads it back.
 
 use super::edit::Edits;
 use super::error::Refusal;
@@ -34,7 +34,7 @@ pub(super) fn wrap(
         edits.declare(format!("void {emit}();"), first);
     }
     if !facts.main {
-        // The object with main has the function.
+        // The object with main defines the function.
         return Ok(());
     }
     let (highp, kept) = (facts.version.highp(), names.other("position"));
@@ -48,7 +48,7 @@ pub(super) fn wrap(
     Ok(())
 }
 
-/// `EmitStreamVertex(0)` is `EmitVertex()`.
+/// Replaces `EmitStreamVertex(0)`, which is `EmitVertex()`; returns the index of the first.
 fn streams(edits: &mut Edits, scan: &Scan, emit: &str) -> Result<Option<usize>, Refusal> {
     for (at, token) in scan.tokens.iter().enumerate() {
         if *scan.name(at) != *b"EmitStreamVertex" {

@@ -1,4 +1,4 @@
-//! The last stage before the rasteriser, other than a geometry shader: `main` gets another name, and a new one calls it.
+//! Vertex and tessellation evaluation shaders as the last stage before the rasteriser: `main` is renamed, and a new one calls it.
 
 use super::edit::Edits;
 use super::error::Refusal;
@@ -8,7 +8,7 @@ use super::outputs::Outputs;
 use super::scan::Scan;
 use super::{Amplifier, Options, Stage, Target, instance, position, target};
 
-/// Rewrites a vertex or tessellation evaluation shader; the index of the tile's first clip distance, if it has some.
+/// Rewrites a vertex or tessellation evaluation shader; returns the index of the tile's first clip distance, if it has any.
 pub(super) fn wrap(
     edits: &mut Edits,
     scan: &Scan,
@@ -33,7 +33,7 @@ pub(super) fn wrap(
         instance::divide(edits, names);
     }
     if !facts.main {
-        // The array has one size in all objects of a stage, and the one with main does not see this one's.
+        // The array has one size in all objects of a stage, but the size in this one is not known when the one with main is rewritten.
         if options.target == Target::Tiles && facts.clip_distance {
             return Err(Refusal::Distances);
         }

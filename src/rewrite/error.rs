@@ -2,19 +2,19 @@
 
 use thiserror::Error;
 
-/// The draw is then replayed with the shift of fixed function, or drawn once.
+/// Why a shader is not rewritten. The draw is then replayed with the shift of fixed function, or drawn once.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Refusal {
-    /// A zero byte, and text behind it: drivers do not agree on what counts.
+    /// A zero byte with text after it. Drivers do not agree on where such a source ends.
     #[error("the shader has a zero byte inside")]
     Zero,
-    /// `#include`: what it brings is not in the text.
+    /// `#include`: the included text is not known.
     #[error("the shader includes other text")]
     Include,
-    /// `##`: names may be put together that the text does not show.
+    /// `##`: it may form names that the source does not show.
     #[error("the shader puts names together with ##")]
     Pasted,
-    /// A macro with the name of something that the added text says.
+    /// A macro with a name that occurs in the added text.
     #[error("the shader defines {0} as a macro")]
     Defined(String),
     /// A member of a structure or block called `main`.
@@ -31,7 +31,7 @@ pub enum Refusal {
     /// `Target::Tiles` below GLSL 1.30.
     #[error("clip distances need GLSL 1.30, and the shader is of an earlier version")]
     NoClipDistances,
-    /// `gl_Layer`, `gl_ViewportIndex`, `gl_ClipVertex`, `gl_CullDistance`: where the view itself has to write, or what its place changes.
+    /// `gl_Layer`, `gl_ViewportIndex`, `gl_ClipVertex`, `gl_CullDistance` and others, which conflict with what the view adds.
     #[error("the shader uses {0}")]
     Uses(&'static str),
     /// `gl_ClipDistance` with a size or an index that is not a plain number, or as a whole.
@@ -43,10 +43,10 @@ pub enum Refusal {
     /// `gl_PerVertex` is declared without `gl_Position`.
     #[error("the shader has no gl_Position")]
     NoPosition,
-    /// Instances are counted by the vertex shader, and tessellation evaluation and geometry shaders do not see the count.
+    /// Only the vertex shader has `gl_InstanceID`; tessellation evaluation and geometry shaders cannot tell the view from it.
     #[error("views by instances end at the vertex shader")]
     StageAfterVertex,
-    /// A geometry shader has its place in the atlas by the viewport only.
+    /// A geometry shader can draw to a tile by the viewport only.
     #[error("a geometry shader is drawn once per view, into its tile")]
     GeometryTarget,
     /// `gl_FragData` with an index that is not a plain 0, or as a whole.

@@ -1,16 +1,16 @@
-//! What a text uses, told by its tokens: what a macro or a branch of `#if` says counts as used.
+//! Features that a source uses, found by its tokens. Names in macros and in all branches of `#if` count as used.
 
 use super::scan::{Kind, Scan};
 use super::version::Version;
 
-/// What a text uses. More than 12 fields: one for each word that matters.
+/// Features that a source uses. More than 12 fields: one for each word that matters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
-    /// The version of the text.
+    /// The version of the source.
     pub version: Version,
-    /// There is a `main`. A text without is a helper: its functions are called from another shader object.
+    /// There is a `main`. A source without one is a helper, whose functions are called from another shader object.
     pub main: bool,
-    /// `ftransform()` or the projection matrix of the compatibility profile: a projection that is moved there is seen here.
+    /// `ftransform()` or the projection matrix of the compatibility profile, so that a shifted projection matrix takes effect.
     pub projection: bool,
     /// `gl_FragCoord`
     pub frag_coord: bool,
@@ -32,11 +32,11 @@ pub struct Facts {
     pub clip_distance: bool,
     /// `gl_CullDistance`
     pub cull_distance: bool,
-    /// Outputs to transform feedback are named in the text.
+    /// The source names outputs for transform feedback.
     pub feedback: bool,
     /// There are subroutines, whose uniforms belong to the program that is bound.
     pub subroutines: bool,
-    /// Images, buffers or counters are written: a second draw would do it again.
+    /// Images, buffers or counters are written; a second draw would write them again.
     pub side_effects: bool,
     /// Uniform 4x4 matrices.
     pub matrices: Vec<Matrix>,
@@ -51,9 +51,9 @@ pub struct Matrix {
     pub block: Option<String>,
 }
 
-/// What is written to by functions and declarations.
+/// Whether a name is that of a function or declaration by which shaders write to memory.
 fn writes(name: &[u8], version: Version) -> bool {
-    // A plain name before the versions that have buffers; those that get them by extension name it.
+    // `buffer` is a plain name in versions without storage buffers; sources that get them by extension name the extension.
     let buffers = version.desktop(430) || (version.es && version.number >= 310);
     name.starts_with(b"imageStore")
         || name.starts_with(b"imageAtomic")
@@ -63,7 +63,7 @@ fn writes(name: &[u8], version: Version) -> bool {
 }
 
 impl Facts {
-    /// Whether a fragment shader writes to outputs of GLSL's, if to any; else under names of its own.
+    /// Whether a fragment shader writes to built-in outputs, if it has any. Otherwise it declares its own.
     pub fn writes_built_in(&self) -> bool {
         self.frag_data || !self.version.desktop(130)
     }
@@ -106,7 +106,7 @@ impl Facts {
                 b"gl_CullDistance" => facts.cull_distance = true,
                 b"subroutine" => facts.subroutines = true,
                 name => {
-                    // With Inverse, Transpose and InverseTranspose behind.
+                    // Also with the suffixes Inverse, Transpose and InverseTranspose.
                     facts.projection |= name.starts_with(b"gl_ModelViewProjectionMatrix")
                         || name.starts_with(b"gl_ProjectionMatrix");
                     facts.feedback |= name.starts_with(b"xfb_");
@@ -118,7 +118,7 @@ impl Facts {
     }
 }
 
-/// Words between `uniform` and the type.
+/// Whether a word may stand between `uniform` and the type.
 fn qualifies(name: &[u8]) -> bool {
     matches!(
         name,
@@ -158,11 +158,11 @@ fn matrices(scan: &Scan) -> Vec<Matrix> {
     found
 }
 
-/// Reads up to the semicolon or the brace that ends a declaration; what follows that is returned, the brace itself if it is one.
+/// Reads a declaration up to its end. Returns the index after its semicolon, or the index of the closing brace that ends it.
 fn declaration(scan: &Scan, mut at: usize, block: Option<&str>, found: &mut Vec<Matrix>) -> usize {
     let mut matrix = false;
     let mut brackets = 0_usize;
-    // The type, or a comma: a name follows.
+    // Set by the type or a comma, after which a name follows.
     let mut named = false;
     while let Some(token) = scan.tokens.get(at) {
         match token.kind {

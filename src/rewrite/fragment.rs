@@ -3,10 +3,10 @@
 //! ```text
 //! (X, Y) = (x − stride·⌊x/stride⌋)·across + y·up + origin        z and w as they are
 //! ```
-//! x and y are pixels of the atlas, X and Y of the window. By distorted rays there are no strides, and a pixel shows what lies as much to the side as
-//! it was moved. Written out where it is used, so that it is right in the values of globals
-//! and in helpers as well. The quotient is not negative, so its whole part is its floor, and no function of GLSL is called under a
-//! name that the program may have given to its own.
+//! x and y are in pixels of the atlas, X and Y in pixels of the window. Under distorted rays there are no strides; the displacement
+//! of the sample is subtracted from x instead. The expression replaces every use, so that it holds in initialisers of globals and in
+//! helper functions too. The quotient is not negative, so `int` is its floor. No function is called, because the program may have
+//! defined one under the name of a built-in.
 
 use super::Target;
 use super::edit::Edits;
@@ -17,8 +17,8 @@ use super::version::Version;
 
 const COORD: &[u8] = b"gl_FragCoord";
 
-/// Whether the token is right as it is: in a declaration of its own (`in vec4 gl_FragCoord`, `invariant gl_FragCoord`), or only z or
-/// w are looked at.
+/// Whether the token needs no edit: it is in a redeclaration (`in vec4 gl_FragCoord`, `invariant gl_FragCoord`), or only its z or w
+/// is read.
 fn stays(scan: &Scan, at: usize) -> bool {
     let members = scan.name(at + 2);
     matches!(&*scan.name(at.wrapping_sub(1)), b"vec4" | b"invariant")
@@ -27,7 +27,7 @@ fn stays(scan: &Scan, at: usize) -> bool {
             && members.iter().all(|c| b"zwbapq".contains(c)))
 }
 
-/// Rewrites a fragment shader that uses `gl_FragCoord`; whether it does.
+/// Rewrites the uses of `gl_FragCoord` in a fragment shader; returns whether there are any.
 pub(super) fn rewrite(
     edits: &mut Edits,
     scan: &Scan,
@@ -54,7 +54,7 @@ pub(super) fn rewrite(
         return false;
     };
     let uniforms = |precision: &str| format!("uniform {precision}vec4 {across}, {up};");
-    // The first ES has no more than mediump in fragment shaders of some hardware, and says so by a macro.
+    // In fragment shaders of GLSL ES 1.00, highp is optional; the macro says whether there is any.
     let declaration = if version.es && version.number < 300 {
         format!(
             "#ifdef GL_FRAGMENT_PRECISION_HIGH\n{}\n#else\n{}\n#endif",

@@ -1,10 +1,11 @@
-//! Views by instances: the draw is made with as many times the instances, and views change fastest.
+//! Views by instances: the number of instances is multiplied by the number of views, and the view changes fastest.
 //!
 //! ```text
 //! view = gl_InstanceID % views     what the program sees: gl_InstanceID / views
 //! ```
-//! Based on: GL_OVR_multiview as ANGLE has it by instances. Attributes with a divisor advance with the program's own instances where the
-//! caller multiplies the divisor by the views. Below GLSL 1.30 there is no remainder, so it is put together.
+//! Based on: GL_OVR_multiview, as ANGLE emulates it by instances. Attributes with a divisor advance with the program's own instances
+//! if the caller multiplies the divisor by the number of views. GLSL below 1.30 has no operator `%`, so the remainder is computed by
+//! a division.
 
 use super::edit::Edits;
 use super::names::{Names, Uniform};
@@ -12,7 +13,7 @@ use super::version::Version;
 
 const BY_EXTENSION: &str = "gl_InstanceIDARB";
 
-/// The count of instances: its name, and the extension that it needs.
+/// The built-in that counts instances: its name, and the extension that it needs.
 fn counter(version: Version) -> (&'static str, Option<&'static str>) {
     if version.number >= 140 {
         ("gl_InstanceID", None)
@@ -25,7 +26,7 @@ fn declaration(names: &Names) -> String {
     format!("uniform int {};", names.uniform(Uniform::Views))
 }
 
-/// Gives the program its own count.
+/// Replaces the program's uses of the instance number by the number without views.
 pub(super) fn divide(edits: &mut Edits, names: &Names) {
     let views = names.uniform(Uniform::Views);
     let firsts = ["gl_InstanceID", BY_EXTENSION]
@@ -35,7 +36,7 @@ pub(super) fn divide(edits: &mut Edits, names: &Names) {
     }
 }
 
-/// The uniform, where the program's text does not need it, and the extension.
+/// Requires the extension, and declares the uniform where [`divide`] has not. `used`: the program's source reads the instance number.
 pub(super) fn declare(edits: &mut Edits, names: &Names, version: Version, used: bool) {
     let (_, extension) = counter(version);
     if let Some(extension) = extension {
@@ -46,7 +47,7 @@ pub(super) fn declare(edits: &mut Edits, names: &Names, version: Version, used: 
     }
 }
 
-/// `int mv_view`, in the body of a function.
+/// Writes the statement that declares `int mv_view`.
 pub(super) fn view(edits: &mut Edits, names: &Names, version: Version) {
     let (counter, _) = counter(version);
     let (view, views) = (names.other("view"), names.uniform(Uniform::Views));

@@ -1,7 +1,7 @@
-//! A program's shader in, the shader of a view out. Text only: no GL, no files.
+//! Rewrites a program's shader to the shader of a view. Works on text only: no GL, no files.
 //!
-//! The program's own shaders and programs stay as they are; draws that need views use a variant of the program, linked from rewritten
-//! texts, with the same attributes, uniforms and varyings and those of the view.
+//! The program's own shaders and programs stay as they are. Draws that need views use a program variant, which is linked from
+//! rewritten sources; it has the same attributes, uniforms and varyings, and in addition those of the view.
 //!
 //! ```text
 //! source ── scan ──► tokens ─┬─ entry      vertex, tessellation evaluation: a main around the program's
@@ -10,12 +10,12 @@
 //!              names         │    └─ target     layer, or tile and clip distances
 //!                            ├─ emit       geometry: each vertex as it is emitted
 //!                            ├─ fragment   gl_FragCoord
-//!                            └─ moved      fragment: by how much distorted rays have moved a sample
+//!                            └─ moved      fragment: displacement of a sample by distorted rays
 //!                                 └──► edit ──► text
 //! ```
-//! Programs' GLSL is of many versions and dialects, and only what is edited is understood: names and a few patterns of tokens. What the
-//! driver does not compile in the end is replayed. Only the last stage before the rasteriser moves vertices; the caller leaves the
-//! stages before it as they are, or gets them back unchanged.
+//! Programs use many versions and dialects of GLSL, so the rewriter understands only what it edits: names and a few patterns of
+//! tokens. If the driver does not compile the result, the draw is replayed. Only the last stage before the rasteriser moves vertices;
+//! the caller does not rewrite the stages before it, and control and compute shaders come back unchanged.
 #![forbid(unsafe_code)]
 
 mod edit;
@@ -45,7 +45,7 @@ use edit::Edits;
 use scan::Scan;
 use std::borrow::Cow;
 
-/// The stage that a shader object is of.
+/// The stage of a shader object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// `GL_VERTEX_SHADER`
@@ -65,61 +65,62 @@ pub enum Stage {
 /// How one draw becomes several views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Amplifier {
-    /// The draw is repeated, with other uniforms; each time view 0 of them.
+    /// The draw is repeated with new uniforms; each time the shader draws view 0 of the arrays.
     Replay,
-    /// The draw has as many times the instances; divisors are multiplied by the views.
+    /// The number of instances is multiplied by the number of views, and so are the divisors of attributes.
     Instanced,
 }
 
-/// What tells the views apart in the atlas.
+/// How the views are separated in the atlas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// The viewport: nothing is written.
+    /// By the viewport: the shader writes nothing.
     Whole,
-    /// `gl_Layer`, by this extension.
+    /// By `gl_Layer`, which this extension provides.
     Layer(VertexLayer),
     /// Tiles side by side under one viewport, kept apart by two clip distances. The program's draw has no clip plane of fixed function.
     Tiles,
-    /// Nothing: rays are distorted, by a function of [`Names::ray_distortion`], and the fragment shader says by how much.
+    /// No views, but distorted rays: a function of [`Names::ray_distortion`] moves vertices, and the fragment shader writes the
+    /// displacement.
     DistortedRays,
 }
 
-/// What the rewritten shader is for.
+/// How the rewritten shader draws the views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// How one draw becomes several views.
     pub amplifier: Amplifier,
-    /// What tells the views apart.
+    /// How the views are separated.
     pub target: Target,
     /// Views that the arrays of uniforms hold: at least 1; 1 in replay.
     pub views: u32,
-    /// The context is of OpenGL ES, where a text without `#version` is of 1.00.
+    /// The context is of OpenGL ES, where a source without `#version` is GLSL ES 1.00.
     pub es: bool,
 }
 
 /// A shader for views.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rewritten<'a> {
-    /// The text; borrowed where it is the program's own, which then serves the view as it is.
+    /// The new source; borrowed where the program's own serves the view unchanged.
     pub text: Cow<'a, [u8]>,
-    /// What the program's text uses.
+    /// Features that the program's source uses.
     pub facts: Facts,
-    /// What our uniforms are called.
+    /// The names of the added uniforms.
     pub names: Names,
     /// `Target::Tiles`: the index of the left side's clip distance, the right side's is the next. They have to be enabled.
     pub first_distance: Option<u32>,
 }
 
-/// What a text uses. `es`: the context is of OpenGL ES.
+/// Finds the features that a source uses. `es`: the context is of OpenGL ES.
 ///
 /// # Errors
-/// Those of every stage, where the text does not show what it uses.
+/// If the source does not show all names that it uses: [`Refusal::Zero`], [`Refusal::Include`] or [`Refusal::Pasted`].
 pub fn facts(source: &[u8], es: bool) -> Result<Facts, Refusal> {
     let scan = readable(source)?;
     Ok(Facts::of(&scan, Version::of(&scan, es)))
 }
 
-/// Rewrites the text of one shader object: all its strings, one behind the other.
+/// Rewrites the source of one shader object, which is all its strings joined.
 ///
 /// # Errors
 /// Why this shader cannot draw the views in this way.
@@ -156,9 +157,9 @@ pub fn rewrite<'a>(
     })
 }
 
-/// The tokens of a text that shows all that it uses.
+/// Reads the tokens of a source; refuses one that does not show all names that it uses.
 fn readable(source: &[u8]) -> Result<Scan<'_>, Refusal> {
-    // Programs that count the zero at the end of a C string.
+    // Some programs count the zero at the end of a C string.
     let end = source.iter().rposition(|&byte| byte != 0);
     let source = source
         .get(..end.map_or(0, |end| end + 1))

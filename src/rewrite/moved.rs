@@ -1,8 +1,8 @@
-//! By how much a sample lies beside its place, for the picture of distorted rays: a second output of the fragment shader, at location 1.
+//! The displacement of a sample by distorted rays: a second output of the fragment shader, at location 1.
 //!
-//! A program has either the outputs of GLSL's or its own (GLSL 1.30, 7.2), and so has what is added: `gl_FragData[1]`, which makes a
-//! `gl_FragColor` the first of them, or a name of its own, which the caller binds before it links. `gl_FragColor` is for all images, but
-//! the window has one.
+//! A program has either built-in outputs or its own (GLSL 1.30, 7.2), and the added output is of the same kind. It is `gl_FragData[1]`,
+//! and `gl_FragColor` becomes `gl_FragData[0]`; or it has a name of its own, which the caller binds before it links. `gl_FragColor`
+//! writes to all images, but the window has only one.
 
 use super::edit::Edits;
 use super::entry;
@@ -12,7 +12,7 @@ use super::names::Names;
 use super::scan::Scan;
 use super::version::Version;
 
-/// x of the pixel's place in the tile before it was moved.
+/// Expression of the x that the pixel had in the tile before it was moved.
 pub(super) fn write_displacement(names: &Names) -> String {
     format!(
         "(gl_FragCoord.x - {}.x * gl_FragCoord.w)",
@@ -20,7 +20,7 @@ pub(super) fn write_displacement(names: &Names) -> String {
     )
 }
 
-/// What comes from the vertex stage; see [`crate::fixed::ray_distortion`].
+/// Declaration of the varying from the vertex stage; see [`crate::fixed::ray_distortion`].
 pub(super) fn declaration(names: &Names, version: Version) -> String {
     let direction = match version.desktop(130) {
         true => "in",
@@ -29,7 +29,7 @@ pub(super) fn declaration(names: &Names, version: Version) -> String {
     format!("{direction} vec2 {};", names.other("moved"))
 }
 
-/// Rewrites a fragment shader; `declared`: what comes in is.
+/// Rewrites a fragment shader; `declared`: the varying is declared already.
 pub(super) fn wrap(
     edits: &mut Edits,
     scan: &Scan,
@@ -48,7 +48,7 @@ pub(super) fn wrap(
                     return Err(Refusal::Outputs);
                 }
             }
-            // What is discarded below would leave its depth.
+            // Fragments that are discarded below would still write their depth.
             b"early_fragment_tests" => return Err(Refusal::Uses("early_fragment_tests")),
             _ => {}
         }
@@ -71,7 +71,7 @@ pub(super) fn wrap(
     let moved = names.other("moved");
     edits.append("void main() {");
     edits.append(format!("    {}();", names.other("main")));
-    // Last: what is sampled after a discard has no gradients.
+    // The discard comes last, because textures that are sampled after it have no gradients.
     edits.append(format!("    if ({moved}.y < 0.999)"));
     edits.append("        discard;");
     edits.append(format!("    {output} = vec4({moved}.x * gl_FragCoord.w);"));

@@ -1,4 +1,4 @@
-//! Names of ours that the program does not have.
+//! Names for additions to a shader, which the program itself does not use.
 
 use super::scan::Scan;
 use crate::fixed::ray_distortion;
@@ -7,30 +7,31 @@ use std::collections::HashSet;
 /// A uniform of the rewritten shaders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Uniform {
-    /// `vec4 mv_shift[VIEWS]`, per view: s, s · conv, what a vertex without depth moves by; all in clip space.
+    /// `vec4 mv_shift[VIEWS]`, per view: s, s · conv, the shift of a vertex without perspective; all in clip space.
     Shift,
     /// `vec4 mv_tile[VIEWS]`, per view: centre of its tile x and y in NDC of the atlas, layer.
     Tile,
     /// `vec4 mv_map`: width and height of the program's viewport over those of the atlas.
     Map,
-    /// `vec4 mv_clip`: left and right of what may be drawn, in NDC of the program's viewport.
+    /// `vec4 mv_clip`: left and right of the visible part, in NDC of the program's viewport.
     Clip,
     /// `int mv_views`: views of this draw, at most as many as the arrays hold.
     Views,
-    /// `vec4 mv_across`: x and y in the window of a step to the right in the tile; the distance from one tile to the next in pixels.
+    /// `vec4 mv_across`: window pixels per step to the right in the tile, x and y; the distance from one tile to the next in pixels.
     Across,
-    /// `vec4 mv_up`: x and y in the window of a step upwards in the tile; where the tile begins in the window, x and y.
+    /// `vec4 mv_up`: window pixels per step upwards in the tile, x and y; window position of the tile's origin, x and y.
     Up,
     /// `sampler2DArray mv_distortion_map`: the map of an occlusion camera; see [`crate::fixed::ray_distortion`].
     DistortionMap,
-    /// `vec4 mv_window`: where its texels lie.
+    /// `vec4 mv_window`: factors and offsets from NDC to pixels of the map.
     Window,
-    /// `vec4 mv_disparity`: its disparities, and a pixel in NDC.
+    /// `vec4 mv_disparity`: factor and offset from depth in NDC to disparity; a pixel in NDC; 1 if vertices that are not moved are left
+    /// out.
     Disparity,
 }
 
 impl Uniform {
-    /// Each of them once.
+    /// All uniforms.
     pub const ALL: [Uniform; 10] = [
         Uniform::Shift,
         Uniform::Tile,
@@ -73,7 +74,7 @@ const OTHERS: [&str; 9] = [
     "beside",
 ];
 
-/// The names in one shader: `mv_…`, and where the program has one of those, all with the next prefix that it has none of.
+/// The names in one shader: `mv_…`. If the program uses one of those, all have the next prefix with which it uses none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Names {
     prefix: String,
@@ -90,7 +91,7 @@ impl Names {
             uniforms.chain(OTHERS)
         };
         let mut prefix = "mv_".to_owned();
-        // Each prefix that is not free takes a name of the text, so there is a free one in as many steps as it has names.
+        // Each prefix that is not free conflicts with another name of the source, so there are no more steps than names.
         for next in 1..=taken.len() {
             let free = ours().all(|word| !taken.contains(format!("{prefix}{word}").as_bytes()));
             if free {
@@ -101,17 +102,17 @@ impl Names {
         Self { prefix }
     }
 
-    /// What a uniform is called. A shader that has no use for it does not have it (location −1).
+    /// The name of a uniform. A shader that does not use it does not have it (location −1).
     pub fn uniform(&self, uniform: Uniform) -> String {
         self.other(uniform.word())
     }
 
-    /// The output of a fragment shader that says by how much a sample is moved, where that has a name.
+    /// The name of the fragment output for the displacement of a sample, where it is no built-in output.
     pub fn beside(&self) -> String {
         self.other("beside")
     }
 
-    /// The text of the vertex shader object that distorts rays for these names.
+    /// The source of the vertex shader object that distorts rays, with these names.
     pub fn ray_distortion(&self) -> String {
         ray_distortion(&self.prefix)
     }

@@ -1,10 +1,10 @@
-//! What a text says of the built-in outputs of a vertex: `gl_PerVertex` and `gl_ClipDistance`.
+//! Declarations and uses of the built-in outputs of a vertex: `gl_PerVertex` and `gl_ClipDistance`.
 
 use super::error::Refusal;
 use super::scan::Scan;
 use std::ops::Range;
 
-/// The built-in outputs of a text.
+/// The built-in outputs of a source.
 #[derive(Default)]
 pub(super) struct Outputs {
     /// `out gl_PerVertex { …`, as tokens, up to the closing brace.
@@ -13,15 +13,15 @@ pub(super) struct Outputs {
     pub(super) no_position: bool,
     /// Declarations of `gl_ClipDistance` with a size: the token of the number.
     pub(super) sized: Vec<usize>,
-    /// Declarations without: the token of the closing bracket.
+    /// Declarations without a size: the token of the closing bracket.
     pub(super) open: Vec<usize>,
-    /// The size of all declarations with one.
+    /// The size in those declarations that have one.
     size: Option<u32>,
     /// One more than the greatest index.
     used: u32,
     /// An index that is not a plain number.
     computed: bool,
-    /// Something that is not to be understood token by token.
+    /// There is something that cannot be understood token by token.
     unclear: bool,
 }
 
@@ -67,7 +67,7 @@ impl Outputs {
                     }
                 }
                 b"gl_ClipDistance" if directive => all.unclear = true,
-                // What comes in, `gl_in[0].gl_ClipDistance`, is another's.
+                // An input, such as `gl_in[0].gl_ClipDistance`, belongs to the stage before.
                 b"gl_ClipDistance"
                     if inside != Inside::Input && !scan.is(at.wrapping_sub(1), b'.') =>
                 {
@@ -79,7 +79,7 @@ impl Outputs {
         all
     }
 
-    /// A mention of `gl_ClipDistance`.
+    /// Notes one occurrence of `gl_ClipDistance`.
     fn distance(&mut self, scan: &Scan, at: usize) {
         if !scan.is(at + 1, b'[') {
             self.unclear = true;
@@ -99,7 +99,7 @@ impl Outputs {
         }
     }
 
-    /// How many clip distances the program has.
+    /// Number of clip distances that the program writes.
     pub(super) fn distances(&self) -> Result<u32, Refusal> {
         match self.size {
             _ if self.unclear => Err(Refusal::Distances),

@@ -1,22 +1,22 @@
 //! The shift of a view, in clip space.
 //!
 //! ```text
-//! x' = x + s·w − s·conv     in the scene: the same as the view's own projection where w of the eye is 1
-//! x' = x + flat             where w of the clip space is 1: no perspective, so no depth to shift by
+//! x' = x + s·w − s·conv     in the scene: equal to the view's own projection if w in eye space is 1
+//! x' = x + flat             if w in clip space is 1: no perspective, so no depth to shift by
 //! ```
-//! y, z and w do not change. Nothing is called here: programs may have functions of their own under the names of GLSL's.
+//! y, z and w do not change. No function is called, because the program may have defined one under the name of a built-in.
 
 use super::edit::Edits;
 use super::names::{Names, Uniform};
 use super::version::Version;
 
-/// The uniforms of the shift.
+/// Declares the uniforms of the shift.
 pub(super) fn declare(edits: &mut Edits, names: &Names, version: Version, views: u32) {
     let (highp, shift) = (version.highp(), names.uniform(Uniform::Shift));
     edits.append(format!("uniform {highp}vec4 {shift}[{views}];"));
 }
 
-/// Moves `gl_Position`, in the body of a function. `view` is an index into the uniforms.
+/// Writes the statements that shift `gl_Position`. `view` is an index into the uniforms.
 pub(super) fn shift(edits: &mut Edits, names: &Names, version: Version, view: &str) {
     let (highp, shift, by) = (
         version.highp(),

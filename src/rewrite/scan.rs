@@ -1,13 +1,13 @@
-//! Tokens of a shader with their places; comments and spaces are what lies between them.
+//! Tokens of a shader with their positions; comments and spaces lie between them.
 //!
 //! Based on: The OpenGL Shading Language 4.60, section 3: a backslash at the end of a line joins it with the next, then
-//! comments become spaces, then lines that begin with `#` are directives. What ends a line is a carriage return or a line feed, alone or
-//! together. Any bytes are tokens of some kind, and time and memory are linear in the text.
+//! comments become spaces, then lines that begin with `#` are directives. A line ends with a carriage return, a line feed or both.
+//! Any bytes are tokens of some kind, and time and memory are linear in the length of the source.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// What a token is, as far as rewriting asks.
+/// The kind of a token, as far as the rewriter needs it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Letters, digits and underscores; keywords too.
@@ -18,37 +18,37 @@ pub(super) enum Kind {
     Mark(u8),
 }
 
-/// A token and where it is.
+/// A token and its position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Token {
     pub(super) kind: Kind,
     /// First byte.
     pub(super) start: usize,
-    /// Behind the last byte.
+    /// Byte after the last.
     pub(super) end: usize,
     /// Part of a directive, its `#` included.
     pub(super) directive: bool,
-    /// A backslash and the end of a line lie inside.
+    /// It contains a line continuation: a backslash before the end of a line.
     joined: bool,
 }
 
 /// A line that begins with `#`.
 #[derive(Clone, Debug)]
 pub(super) struct Directive {
-    /// Its tokens as places in [`Scan::tokens`]; the first is the `#`.
+    /// Its tokens, as indices of [`Scan::tokens`]; the first is the `#`.
     pub(super) tokens: Range<usize>,
-    /// The byte of the end of its line, or the end of the text.
+    /// The byte of the end of its line, or the end of the source.
     pub(super) end: usize,
 }
 
-/// A text and its tokens.
+/// A source and its tokens.
 pub(super) struct Scan<'a> {
     pub(super) source: &'a [u8],
     pub(super) tokens: Vec<Token>,
     pub(super) directives: Vec<Directive>,
 }
 
-/// How long the end of a line at this place is: 0, 1 or 2 bytes.
+/// Length in bytes of the end of a line at this byte: 1 or 2, and 0 if no line ends here.
 pub(super) fn line_end(source: &[u8], at: usize) -> usize {
     match (source.get(at), source.get(at + 1)) {
         (Some(b'\r'), Some(b'\n')) | (Some(b'\n'), Some(b'\r')) => 2,
@@ -61,7 +61,7 @@ fn in_name(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// A place in the text that steps over joined lines.
+/// A position in a source, which steps over line continuations.
 struct Cursor<'a> {
     source: &'a [u8],
     at: usize,
@@ -69,7 +69,7 @@ struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
-    /// The byte here, behind all joins.
+    /// The byte at the position, after all line continuations.
     fn peek(&mut self) -> Option<u8> {
         while self.source.get(self.at) == Some(&b'\\') {
             match line_end(self.source, self.at + 1) {
@@ -83,7 +83,7 @@ impl Cursor<'_> {
         self.source.get(self.at).copied()
     }
 
-    /// The byte after the one here.
+    /// The byte after the one at the position.
     fn second(&mut self) -> Option<u8> {
         self.peek()?;
         let mut next = Cursor {
@@ -94,7 +94,7 @@ impl Cursor<'_> {
         next.peek()
     }
 
-    /// Goes on while bytes are wanted, and says where the last one ended.
+    /// Advances while bytes are wanted; returns the end of the last one.
     fn take(&mut self, mut wanted: impl FnMut(u8) -> bool) -> usize {
         let mut end = self.at;
         let mut joined = self.joined;
@@ -106,7 +106,7 @@ impl Cursor<'_> {
             end = self.at;
             joined = self.joined;
         }
-        // A join behind the last byte belongs to what follows.
+        // A line continuation after the last byte belongs to the next token.
         self.at = end;
         self.joined = joined;
         end
@@ -114,7 +114,7 @@ impl Cursor<'_> {
 }
 
 impl<'a> Scan<'a> {
-    /// All tokens of a text.
+    /// Reads all tokens of a source.
     pub(super) fn new(source: &'a [u8]) -> Self {
         let mut cursor = Cursor {
             source,
@@ -175,7 +175,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// The text of a token without joins.
+    /// The text of a token without line continuations.
     pub(super) fn text(&self, token: &Token) -> Cow<'a, [u8]> {
         let raw = self.source.get(token.start..token.end).unwrap_or_default();
         if !token.joined {
@@ -195,7 +195,7 @@ impl<'a> Scan<'a> {
         Cow::Owned(whole)
     }
 
-    /// The text of the token at a place if it is a name, else nothing.
+    /// The text of the token at an index if it is a name, else nothing.
     pub(super) fn name(&self, at: usize) -> Cow<'a, [u8]> {
         match self.tokens.get(at) {
             Some(token) if token.kind == Kind::Name => self.text(token),
@@ -203,7 +203,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// The number at a place, if it is a whole one in decimal digits.
+    /// The number at an index, if it is whole and in decimal digits.
     pub(super) fn number(&self, at: usize) -> Option<u32> {
         let token = self.tokens.get(at)?;
         if token.kind != Kind::Number {
@@ -217,14 +217,14 @@ impl<'a> Scan<'a> {
         std::str::from_utf8(&text).ok()?.parse().ok()
     }
 
-    /// Whether the token at a place is this mark.
+    /// Whether the token at an index is this mark.
     pub(super) fn is(&self, at: usize, mark: u8) -> bool {
         self.tokens
             .get(at)
             .is_some_and(|token| token.kind == Kind::Mark(mark))
     }
 
-    /// What a directive is called: `version`, `define`, …
+    /// The name of a directive: `version`, `define`, …
     pub(super) fn called(&self, directive: &Directive) -> Cow<'a, [u8]> {
         self.name(directive.tokens.start + 1)
     }
@@ -246,7 +246,7 @@ impl<'a> Scan<'a> {
     }
 }
 
-/// The end of a line: a directive on it is complete.
+/// Ends a line, and so the directive on it.
 fn close(inside: &mut bool, directives: &mut [Directive], tokens: usize, end: usize) {
     if *inside && let Some(last) = directives.last_mut() {
         last.tokens.end = tokens;
@@ -255,7 +255,7 @@ fn close(inside: &mut bool, directives: &mut [Directive], tokens: usize, end: us
     *inside = false;
 }
 
-/// Steps over a comment of several lines; one without an end goes to the end of the text.
+/// Steps over a `/* */` comment; one without an end goes to the end of the source.
 fn skip_comment(cursor: &mut Cursor) {
     // The two bytes of its beginning, then all up to a star and a slash.
     let (mut begin, mut star, mut done) = (2, false, false);

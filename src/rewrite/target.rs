@@ -17,10 +17,10 @@ use std::ops::{Range, RangeInclusive};
 
 /// `GL_MAX_CLIP_DISTANCES` is at least this.
 const MOST: u32 = 8;
-/// Left and right.
+/// Clip distances of a tile: left and right.
 const SIDES: u32 = 2;
 
-/// What the program must leave to the view.
+/// Refuses a shader that uses a built-in which the view needs.
 pub(super) fn check(facts: &Facts, target: Target) -> Result<(), Refusal> {
     if target == Target::Whole {
         return Ok(());
@@ -32,7 +32,7 @@ pub(super) fn check(facts: &Facts, target: Target) -> Result<(), Refusal> {
     if tiles && facts.version.number < 130 {
         return Err(Refusal::NoClipDistances);
     }
-    // A shader that writes distances has no planes: those of gl_ClipVertex, which is in a space of its own, would be gone.
+    // Clip planes have no effect in a shader that writes clip distances, so those that clip gl_ClipVertex would be lost.
     let taken = [
         ("gl_Layer", facts.layer),
         ("gl_ViewportIndex", facts.viewport_index),
@@ -45,24 +45,24 @@ pub(super) fn check(facts: &Facts, target: Target) -> Result<(), Refusal> {
     }
 }
 
-/// What a fragment shader must not see of the view.
+/// Refuses a fragment shader that reads a built-in which the view changes.
 pub(super) fn check_fragment(facts: &Facts, target: Target) -> Result<(), Refusal> {
     match target {
         Target::Layer(_) if facts.layer => Err(Refusal::Uses("gl_Layer")),
-        // Its array has to be as long as that of the vertex shader.
+        // The array would have to be as long as that of the vertex shader.
         Target::Tiles if facts.clip_distance => Err(Refusal::Uses("gl_ClipDistance")),
         Target::DistortedRays if facts.version.es => Err(Refusal::Es),
         _ => Ok(()),
     }
 }
 
-/// `gl_Layer` for the vertex shader. Where `gl_PerVertex` is declared again, Mesa takes `gl_Layer` for one of the members left out, and
-/// the reference compiler for none of its members, so that neither is right to add to. Without the declaration both have it; sizes of
-/// arrays are then declared by themselves.
+/// Makes `gl_Layer` available in the vertex shader. Where the program redeclares `gl_PerVertex`, Mesa takes `gl_Layer` for an omitted
+/// member of the block, and the reference compiler does not take it for a member at all, so no edit of the block suits both. Both
+/// provide it without the redeclaration, which is therefore removed; the sizes of its arrays are declared one by one.
 pub(super) fn layer(edits: &mut Edits, scan: &Scan, outputs: &Outputs, extension: VertexLayer) {
     edits.require(extension.extension());
     for block in &outputs.blocks {
-        // One that says more of its members, such as `invariant`, is needed.
+        // A block with other qualifiers of its members, such as `invariant`, is needed.
         let plain = |at: usize| {
             let name = scan.name(at);
             let word = matches!(&*name, b"" | b"out" | b"vec4" | b"float");
@@ -75,7 +75,7 @@ pub(super) fn layer(edits: &mut Edits, scan: &Scan, outputs: &Outputs, extension
     }
 }
 
-/// Takes a block apart.
+/// Removes a block, but keeps its declarations of arrays with a size.
 fn dissolve(edits: &mut Edits, scan: &Scan, block: &Range<usize>) {
     let mut remove = |tokens: RangeInclusive<usize>| {
         for token in tokens.filter_map(|at| scan.tokens.get(at)) {
@@ -105,7 +105,7 @@ fn dissolve(edits: &mut Edits, scan: &Scan, block: &Range<usize>) {
     }
 }
 
-/// Room for the sides of the tile behind the program's clip distances; the index of the first of ours.
+/// Adds clip distances for the sides of the tile after the program's own; returns the index of the first of them.
 pub(super) fn grow(edits: &mut Edits, scan: &Scan, outputs: &Outputs) -> Result<u32, Refusal> {
     let own = outputs.distances()?;
     let size = own.saturating_add(SIDES);
@@ -131,7 +131,7 @@ pub(super) fn grow(edits: &mut Edits, scan: &Scan, outputs: &Outputs) -> Result<
     Ok(own)
 }
 
-/// The uniforms of the place.
+/// Declares the uniforms of the target, or the function that distorts rays.
 pub(super) fn declare(edits: &mut Edits, names: &Names, target: Target, views: u32) {
     if target == Target::DistortedRays {
         let distort = names.other("distort_rays");
@@ -149,7 +149,8 @@ pub(super) fn declare(edits: &mut Edits, names: &Names, target: Target, views: u
     }
 }
 
-/// Puts `gl_Position` in its place, in the body of a function. `view` is an index into the uniforms, `first` one into `gl_ClipDistance`.
+/// Writes the statements that move `gl_Position` to the tile of the view, or choose its layer. `view` is an index into the uniforms,
+/// `first` one into `gl_ClipDistance`.
 pub(super) fn write_position(
     edits: &mut Edits,
     names: &Names,

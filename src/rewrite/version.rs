@@ -1,8 +1,8 @@
-//! The version of the language that a text is written in.
+//! The GLSL version of a source.
 
 use super::scan::Scan;
 
-/// A version of the language.
+/// A version of GLSL.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Version {
     /// As in `#version`: 110 to 460, in OpenGL ES 100 to 320.
@@ -12,7 +12,7 @@ pub struct Version {
 }
 
 impl Version {
-    /// From the `#version` of a text. One without is 1.10, or 1.00 in a context of OpenGL ES.
+    /// Reads the `#version` of a source. The default is 1.10, or 1.00 in a context of OpenGL ES.
     pub(super) fn of(scan: &Scan, es_context: bool) -> Self {
         let written = scan.directives.iter().find_map(|directive| {
             let first = directive.tokens.start;
@@ -29,12 +29,12 @@ impl Version {
         })
     }
 
-    /// At least this one of the desktop's.
+    /// Whether this is desktop GLSL of at least this version.
     pub(super) fn desktop(self, number: u32) -> bool {
         !self.es && self.number >= number
     }
 
-    /// What `#line` has to say so that the line after it is line `next`: up to 3.20 the number is that of the directive.
+    /// The number for a `#line` after which the next line is line `next`. Before GLSL 3.30 the number is that of the directive itself.
     pub(super) fn line_directive(self, next: usize) -> usize {
         if self.es || self.number >= 330 {
             next

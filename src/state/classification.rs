@@ -1,19 +1,20 @@
-//! State that no draw needs for its views, but that tells what the draw is.
+//! State by which draws are classified; no draw needs it for its views.
 
 use super::{State, Touch};
 use crate::config::{DepthRange, DepthState, Projection, Viewport};
 use crate::gl::{Gl, consts as c};
 
-/// Valid in the groups that [`State::read_classification`] was last asked for, until a command touches them.
+/// State by which draws are classified. A group is valid once [`State::read_classification`] was asked for it, until a command
+/// touches it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClassificationState {
     /// Depth test and mask.
     pub depth: DepthState,
-    /// Fragments have to have the very depth that is there already: GL_EQUAL.
+    /// Fragments have to have exactly the depth in the buffer: GL_EQUAL.
     pub equal: bool,
     /// Which part of the depth buffer is drawn to.
     pub range: DepthRange,
-    /// GL_DEPTH_RANGE, as it is.
+    /// GL_DEPTH_RANGE, near and far.
     pub depths: [f32; 2],
     /// Normalised depths begin at 0, by glClipControl.
     pub zero_to_one: bool,
@@ -47,7 +48,7 @@ impl Default for ClassificationState {
 }
 
 impl State {
-    /// Reads again what of some groups a command has touched; after [`State::refresh`].
+    /// Reads again those of `groups` that a command has touched. [`State::refresh`] has to come first.
     pub fn read_classification(&mut self, gl: &Gl, groups: Touch) {
         let stale = |group: Touch| groups.has(group) && self.touched.has(group);
         if stale(Touch::DEPTH) {
@@ -101,7 +102,7 @@ impl State {
         }
     }
 
-    /// What the projection matrix is.
+    /// The kind of projection of the projection matrix.
     pub fn projection_kind(&self) -> Projection {
         let p = &self.matrices.projection;
         if [p[3], p[7], p[11]] != [0.0; 3] {
@@ -114,11 +115,11 @@ impl State {
     }
 }
 
-/// The part of the depth buffer between two values of glDepthRange.
-/// From here on nothing but a sky is drawn: the scene has all that is nearer, in Trigger Rally up to 0.999.
+/// Where a near value of glDepthRange means that only a sky is drawn. Scenes use nearer ranges; that of Trigger Rally ends at 0.999.
 const FAR: f32 = 0.99;
 
 fn depth_range([near, far]: [f32; 2]) -> DepthRange {
+/// The part of the depth buffer between two values of glDepthRange.
     match (near.min(far), near.max(far)) {
         (0.0, 1.0) => DepthRange::Whole,
         (FAR.., _) => DepthRange::Far,

@@ -1,6 +1,6 @@
-//! What recorded immediate-mode calls do to the current values.
+//! The effects of recorded immediate-mode calls on the current values.
 
-/// The current value that a call sets, or what else it does.
+/// A set of effects of calls: the current values that they set, and whether they emit a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effect(u32);
 
@@ -59,7 +59,7 @@ pub struct Immediate {
 }
 
 impl Immediate {
-    /// Takes note of one call.
+    /// Notes one call.
     #[inline]
     pub fn note(&mut self, e: Effect) {
         if e == Effect::VERTEX {
@@ -78,7 +78,7 @@ impl Immediate {
         }
     }
 
-    /// Whether a material changes between glBegin and glEnd, or something may that is not looked into.
+    /// Whether a material changes between glBegin and glEnd, or may change by a call whose effect is unknown.
     pub fn changes_material(&self) -> bool {
         (self.before_vertex | self.after_vertex) & (Effect::MATERIAL.0 | Effect::UNKNOWN.0) != 0
     }
@@ -88,9 +88,10 @@ impl Immediate {
         Effect(self.before_vertex | self.after_vertex)
     }
 
-    /// The current values that must be put back before the calls are sent again; none if they can be sent as they are.
+    /// The current values that must be restored before the calls are sent again; [`Effect::NONE`] if none must be.
     pub fn must_restore(&self) -> Effect {
-        // Texture coordinates of several units and materials of two faces share a bit: set before is not "all set before".
+        // Texture coordinates of several units and materials of two faces share a bit, so one that was set before the first vertex does
+        // not mean that all were.
         let shared = Effect::MULTITEX.0 | Effect::MATERIAL.0;
         Effect(self.after_vertex & (!self.before_vertex | shared))
     }

@@ -2,16 +2,16 @@
 
 use crate::gl::{Gl, consts as c};
 
-/// Which buffers a drawable has, and what they are called.
+/// Which buffers a drawable has, and their names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Buffers {
-    /// Of a context of OpenGL ES: the only buffer is called GL_BACK.
+    /// The context is of OpenGL ES, where the only buffer is called GL_BACK.
     pub es: bool,
     /// There is a back buffer.
     pub double_buffered: bool,
     /// There is a left and a right buffer.
     pub stereo: bool,
-    /// Whether GL_BACK is a name of a buffer: of the front one where there is no other, which Mesa allows.
+    /// Whether GL_BACK names a buffer. Where there is only a front buffer, Mesa allows the name for that.
     pub names_back: bool,
     /// The buffer that a new context draws to. GL_BACK for some drawables without a back buffer too (EGL pbuffers).
     pub default_draw: u32,
@@ -43,8 +43,8 @@ pub struct Window {
 }
 
 impl Window {
-    /// Whether front and back buffer are two images. Those of multisampled windows are taken for one: which of them a program
-    /// resolves and when is the driver's choice.
+    /// Whether front and back buffer are two images. In a multisampled window they count as one, because the driver chooses which of
+    /// them is resolved, and when.
     pub fn has_two_images(&self) -> bool {
         self.buffers.double_buffered && self.samples == 0 && !self.buffers.es
     }
@@ -54,7 +54,7 @@ impl Window {
         self.accumulation[0] > 0
     }
 
-    /// Asks the driver about the true framebuffer 0, which must be bound for drawing.
+    /// Queries the driver for the true framebuffer 0, which must be bound for drawing. `width` and `height` are in pixels.
     pub fn ask(gl: &Gl, width: u32, height: u32, compatibility: bool) -> Window {
         let bit = |name| gl.get_integer(name).max(0) as u32;
         let names = [
@@ -77,7 +77,7 @@ impl Window {
             false => gl.get_integer(c::READ_BUFFER) as u32,
         };
         let names_back = double_buffered || {
-            // A new context: the program has no errors in it yet.
+            // The context is new, so the error is not the program's.
             gl.read_buffer(c::BACK);
             let refused = gl.get_error() != c::NO_ERROR;
             gl.read_buffer(default_read);
@@ -137,7 +137,7 @@ pub struct Framebuffers {
 }
 
 impl Framebuffers {
-    /// As a new context has them.
+    /// The bindings and buffers of a new context.
     pub fn new(window: &Window) -> Self {
         Framebuffers {
             draw: 0,
@@ -149,8 +149,8 @@ impl Framebuffers {
         }
     }
 
-    /// The images that a name of a buffer of framebuffer 0 stands for, as attachments of the atlas; `None` for a name that
-    /// framebuffer 0 of this window refuses, which the driver must be asked about.
+    /// The images behind a buffer name of framebuffer 0, as attachments of the atlas. `None` for a name that framebuffer 0 of this
+    /// window does not have; the driver then has to decide.
     pub fn images(&self, buffer: u32) -> Option<&'static [u32]> {
         const BOTH: [u32; 2] = [FRONT, BACK];
         let (front, both) = match self.two {
@@ -168,7 +168,7 @@ impl Framebuffers {
         }
     }
 
-    /// Whether glDrawBuffers takes one name for framebuffer 0.
+    /// Whether glDrawBuffers takes exactly one name for framebuffer 0.
     pub fn names_one(&self) -> bool {
         self.buffers.es
     }
@@ -200,7 +200,7 @@ impl Framebuffers {
         self.draw_buffers.iter().any(|b| front.contains(b))
     }
 
-    /// After glPopAttrib the driver may have put back another draw buffer of the atlas.
+    /// Reads the draw buffer again: glPopAttrib may have restored another one of the atlas.
     pub(super) fn reread(&mut self, gl: &Gl) {
         if self.draw != 0 {
             return;

@@ -1,8 +1,8 @@
-//! What is in the program's display lists: runs of commands, each compiled into a driver's list of its own, so that state is set
-//! once and drawing happens once per view.
+//! The contents of the program's display lists: runs of commands. Each is compiled into a list of the driver by itself, so that
+//! changes of state are executed once and draws once per view.
 //!
-//! A list of the program stays whole in the driver as well: under its own name it calls its runs in order. Whoever calls it by
-//! itself (another list, a context without a layer, selection) gets all of it.
+//! Under the name of the program's list, the driver has a list that calls the runs in order. Whoever calls that directly (another
+//! list, a context without a layer, selection) thus executes the whole list.
 
 use super::Shaders;
 use super::{Effect, Immediate, Touch};
@@ -10,14 +10,14 @@ use crate::gl::{Fence, consts as c};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What a run of commands does, and so how it is executed.
+/// The kind of a run of commands, by which it is executed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Run {
-    /// Nothing that decides it: executed once, but may become part of a run that draws.
+    /// Not decided yet: executed once, but may become part of a run that draws.
     Open,
-    /// Changes state that a sending per view would change again, or that the views depend on: executed once.
+    /// Changes state on which the views depend, or which would change again if the run were sent once per view: executed once.
     State,
-    /// Primitives, with any state that can be put back between two views.
+    /// Primitives, with state that can be restored between two views.
     Draw,
     /// Clears.
     Clear,
@@ -25,7 +25,7 @@ pub enum Run {
     ClearAll,
     /// glAccum: its arguments are in [`Segment::names`].
     Accum,
-    /// Pictures at the raster position.
+    /// Pixels and bitmaps at the raster position.
     Raster,
     /// Reads from the framebuffer.
     Read,
@@ -48,7 +48,7 @@ pub enum Run {
 }
 
 impl Run {
-    /// Whether the driver's own list does what the run is to do, where nothing is drawn to framebuffer 0.
+    /// Whether it suffices to call the driver's list, where nothing is drawn to framebuffer 0.
     pub fn is_plain(self) -> bool {
         !matches!(
             self,
@@ -78,7 +78,7 @@ impl Run {
 /// One run of a list.
 #[derive(Clone, Debug)]
 pub struct Segment {
-    /// What it does.
+    /// Its kind.
     pub run: Run,
     /// The driver's list that holds it.
     pub name: u32,
@@ -86,19 +86,19 @@ pub struct Segment {
     pub touch: Touch,
     /// The names of glCallLists, the buffers of glDrawBuffers, the arguments of glBlitFramebuffer, glClear and glAccum.
     pub names: Arc<[u32]>,
-    /// What it does to the current values.
+    /// Its effect on the current values.
     pub immediate: Immediate,
-    /// Of a run that draws: nothing but primitives and current values.
+    /// A run that draws has nothing but primitives and current values.
     pub primitives: bool,
-    /// There may be lines or points among them.
+    /// It may draw lines or points.
     pub thin: bool,
-    /// Levels of attributes that it pops and has not pushed.
+    /// Number of levels of the attribute stack that it pops without having pushed them.
     pub pops: u32,
-    /// The masks of those that it pushes and leaves.
+    /// Masks of the levels that it pushes and does not pop.
     pub pushes: Vec<u32>,
     /// The primitive that it leaves open (glBegin without glEnd).
     pub opens: Option<u32>,
-    /// It begins within a primitive and ends that (glEnd without glBegin).
+    /// It begins within a primitive and ends it (glEnd without glBegin).
     pub closes: bool,
 }
 
@@ -112,7 +112,7 @@ impl Segment {
 /// The runs of one list.
 pub type Body = Arc<[Segment]>;
 
-/// What a context has made that its share group keeps when the context is destroyed: to be deleted by another one.
+/// Objects of the layer that stay in the share group when their context is destroyed; another context deletes them.
 #[derive(Debug, Default)]
 pub struct Orphans {
     /// Framebuffer objects, which drivers share although they need not.
@@ -127,12 +127,12 @@ pub struct Orphans {
     pub fences: Vec<Fence>,
 }
 
-/// The display lists of one share group, and what is left of its destroyed contexts.
+/// The display lists and programs of one share group, and the orphaned objects of its destroyed contexts.
 #[derive(Debug)]
 pub struct Lists {
-    /// Names of ours without a context.
+    /// Objects of the layer whose context is destroyed.
     pub orphans: Orphans,
-    /// Its programs.
+    /// The programs of the share group.
     pub shaders: Shaders,
     bodies: HashMap<u32, Body>,
     spare: Vec<u32>,
@@ -140,7 +140,7 @@ pub struct Lists {
     highest: u32,
 }
 
-/// The first name of ours.
+/// The first name for a run; further ones follow downwards.
 const TOP: u32 = u32::MAX - 1;
 
 impl Default for Lists {
@@ -150,7 +150,7 @@ impl Default for Lists {
             shaders: Shaders::default(),
             bodies: HashMap::new(),
             spare: Vec::new(),
-            // From the top downwards, where no program numbers its lists.
+            // Names are taken from the top downwards, where no program numbers its lists.
             next: TOP,
             highest: 0,
         }
@@ -180,7 +180,7 @@ impl Lists {
         self.spare.push(name);
     }
 
-    /// How many names of ours are in use.
+    /// Number of names that runs use.
     pub fn held(&self) -> u32 {
         TOP - self.next - self.spare.len() as u32
     }
@@ -240,14 +240,14 @@ impl Lists {
     }
 }
 
-/// When the driver executes what is compiled into the open run.
+/// When the driver executes the commands that are compiled into the open run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// When the run has ended, or never.
     Later,
     /// At once (GL_COMPILE_AND_EXECUTE).
     Now,
-    /// At once, in the program's own view; in the others when the run has ended.
+    /// At once in the program's own view, and in the others when the run has ended.
     Own,
 }
 
@@ -263,19 +263,19 @@ impl Start {
 
 /// A list between glNewList and glEndList.
 ///
-/// With GL_COMPILE_AND_EXECUTE the driver itself executes what it compiles, for the program's own view: what it makes of incomplete
-/// primitives and of wrong calls is not what it makes of a list that is called.
+/// With GL_COMPILE_AND_EXECUTE the driver itself executes the commands that it compiles, for the program's own view: it treats
+/// incomplete primitives and invalid calls differently than in a list that is called.
 #[derive(Debug)]
 pub struct Compiling {
     /// The program's name for it.
     pub list: u32,
     /// The mode that the program gave.
     pub mode: u32,
-    /// Between glBegin and glEnd in it: a run cannot end here.
+    /// The list is between glBegin and glEnd, where a run cannot end.
     pub between: bool,
     /// It enables GL_FRAMEBUFFER_SRGB.
     pub enables_srgb: bool,
-    /// How the open run was begun.
+    /// When the open run is executed.
     pub start: Start,
     closed: Vec<Segment>,
     open: Segment,
@@ -285,10 +285,10 @@ pub struct Compiling {
     mode_begun: u32,
 }
 
-/// A command in a list, as far as it decides about runs.
+/// A command in a list, as far as it matters for runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
-    /// Of the kind of a run.
+    /// A command that decides the kind of its run.
     Of(Run),
     /// glBegin.
     Begin(u32),
@@ -347,8 +347,8 @@ impl Compiling {
         }
     }
 
-    /// Decides on a command that is about to be compiled; how another run has to be begun for it, if the open one must be ended
-    /// first ([`Compiling::split`]).
+    /// For a command that is about to be compiled: how to begin a new run for it ([`Compiling::split`]), or `None` if it belongs to the
+    /// open one.
     pub fn needs_split(&self, command: Command) -> Option<Start> {
         let run = self.kind(command);
         let start = match run {
@@ -374,7 +374,7 @@ impl Compiling {
 
     fn close(&mut self, mut segment: Segment) {
         if !segment.pushes.is_empty() {
-            // What stays pushed must be the program's own rectangles.
+            // Rectangles that stay on the attribute stack must be the program's own.
             segment.touch = segment.touch | Touch::RECTS;
         }
         if self.between {
@@ -403,10 +403,11 @@ impl Compiling {
         self.closed.last()
     }
 
-    /// Takes note of a command that is compiled into the open run, and of what it touches; answers what that is in this list.
+    /// Notes a command that is compiled into the open run, and the state that it touches. Returns the state that it touches in this
+    /// list, whose matrix mode may be known.
     pub fn note(&mut self, command: Command, touch: Touch) -> Touch {
         let run = self.kind(command);
-        // A list that begins within a primitive: nothing but vertices, and the end.
+        // A list that begins within a primitive has nothing but vertices before the glEnd.
         let inside = self.closed.is_empty() && self.open.run == Run::Open && self.open.primitives;
         if !self.between && run != Run::Open {
             self.open.run = run;
@@ -427,7 +428,7 @@ impl Compiling {
         self.open.touch = self.open.touch | touch;
         self.open.thin |= match command {
             Command::Begin(mode) => mode <= c::LINE_STRIP,
-            // Which mode arrays are drawn in is not known here.
+            // The mode in which arrays are drawn is not known here.
             Command::Of(Run::Draw) => true,
             _ => false,
         };
@@ -449,14 +450,14 @@ impl Compiling {
             Command::End if self.between => self.between = false,
             Command::End => self.open.closes = inside && !self.executes(),
             Command::Immediate(effect) => self.open.immediate.note(effect),
-            // Its vertices use the current values as they are before it.
+            // The vertices of the draw use the current values from before it.
             Command::Of(Run::Draw) => self.open.immediate.note(Effect::VERTEX),
             Command::Of(_) | Command::Matrix | Command::Begin(_) => {}
         }
         touch
     }
 
-    /// The names of glCallLists, just compiled into the open run.
+    /// Sets the [`Segment::names`] of the open run.
     pub fn note_names(&mut self, names: &[u32]) {
         self.open.names = names.into();
     }
@@ -473,12 +474,12 @@ impl Compiling {
 
     fn kind(&self, command: Command) -> Run {
         let free = |balanced: bool| if balanced { Run::Open } else { Run::State };
-        // Unknown: the mode is that of the time of the call, nearly always the modelview.
+        // Where the list sets no mode, it is the one at the time of the call: nearly always the modelview.
         let modelview = self.matrix_mode.is_none_or(|m| m == c::MODELVIEW);
         match command {
             Command::Of(run) => run,
             Command::Begin(_) => Run::Draw,
-            // Alone it is an error.
+            // Without a glBegin it is an error.
             Command::End => Run::Open,
             Command::MatrixMode(_) => Run::State,
             Command::Matrix | Command::PushMatrix => free(modelview),

@@ -1,5 +1,5 @@
-//! What the program believes about its context: kept only where a plan reads it, refreshed from the driver only when a
-//! command has touched it.
+//! The state of a context as the program sees it. Only state that a plan reads is kept, and it is read from the driver only
+//! after a command has touched it.
 #![forbid(unsafe_code)]
 
 mod classification;
@@ -27,13 +27,13 @@ pub struct Touch(u32);
 impl Touch {
     /// The current matrix; which group that is depends on the matrix mode.
     pub const MATRIX: Touch = Touch(1);
-    /// Some matrix named by the call.
+    /// Any matrix, by a call that names the matrix itself (direct state access).
     pub const DSA_MATRIX: Touch = Touch(2 | 8 | 1 << 11);
     /// The projection matrix.
     pub const PROJECTION: Touch = Touch(2);
     /// Viewport, scissor rectangle and scissor test.
     pub const RECTS: Touch = Touch(4);
-    /// What the vertex stage of fixed function reads.
+    /// State that the vertex stage of fixed function reads.
     pub const FIXED: Touch = Touch(8);
     /// The matrix mode.
     pub const MODE: Touch = Touch(16);
@@ -45,7 +45,7 @@ impl Touch {
     pub const DEPTH: Touch = Touch(1 << 9);
     /// The 2D texture of the active unit.
     pub const TEXTURE: Touch = Touch(1 << 10);
-    /// What is bound to any texture unit; stale whenever [`Touch::TEXTURE`] is.
+    /// The bindings of all texture units; stale whenever [`Touch::TEXTURE`] is.
     pub const UNITS: Touch = Touch(1 << 13);
     /// The modelview matrix.
     pub const MODELVIEW: Touch = Touch(1 << 11);
@@ -80,12 +80,12 @@ impl core::ops::BitOr for Touch {
     }
 }
 
-/// What the program does between glBegin and glEnd.
+/// Whether the program is between glBegin and glEnd, and where its calls go there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Begin {
     /// Not between them.
     Outside,
-    /// Between them, and the calls are recorded. The driver stands between them too, with nothing sent to it.
+    /// Between them, and the calls are recorded. The driver is between them too, but gets none of these calls.
     Recorded(u32),
     /// Between them, and the calls go to the driver.
     Direct,
@@ -111,7 +111,7 @@ pub struct Rectangles {
     pub scissor_test: bool,
 }
 
-/// What primitives become.
+/// Modes that decide whether primitives make a picture.
 #[derive(Debug)]
 pub struct Primitives {
     /// GL_RENDER, GL_SELECT or GL_FEEDBACK.
@@ -120,7 +120,7 @@ pub struct Primitives {
     pub transform_feedback: bool,
 }
 
-/// What runs the program's shaders.
+/// The program objects in use.
 #[derive(Debug, Default)]
 pub struct InUse {
     /// glUseProgram.
@@ -129,7 +129,7 @@ pub struct InUse {
     pub pipeline: u32,
 }
 
-/// What the context has.
+/// Features of the context.
 #[derive(Debug, Default)]
 pub struct Capabilities {
     /// The fixed-function pipeline.
@@ -147,13 +147,13 @@ pub struct Capabilities {
 pub struct State {
     /// Groups that must be read again before use.
     pub touched: Touch,
-    /// What the context has.
+    /// Features of the context.
     pub has: Capabilities,
     /// Matrices of fixed function.
     pub matrices: FixedMatrices,
     /// Viewport and scissor.
     pub rectangles: Rectangles,
-    /// What else tells what a draw is; read only where that is asked.
+    /// Further state by which draws are classified; read only if a rule needs it.
     pub classification: ClassificationState,
     /// Bound framebuffers, draw and read buffers.
     pub framebuffers: Framebuffers,
@@ -163,11 +163,11 @@ pub struct State {
     pub list: Option<Compiling>,
     /// Immediate mode.
     pub begin: Begin,
-    /// What primitives become.
+    /// Modes that decide whether primitives make a picture.
     pub primitives: Primitives,
-    /// What runs the program's shaders.
+    /// The program objects in use.
     pub in_use: InUse,
-    /// Errors of the program that were taken out of the driver's queue before calls of ours, oldest first.
+    /// Errors of the program that were taken out of the driver's queue before the layer's own calls, oldest first.
     pub errors: std::collections::VecDeque<u32>,
 }
 
@@ -199,7 +199,7 @@ impl State {
         }
     }
 
-    /// The same, with what the context has asked of the driver, and the program's errors kept.
+    /// As [`State::new`], with the features of the context as the driver reports them, and with the program's errors kept.
     pub fn ask(gl: &Gl, window: Window, compatibility: bool) -> Self {
         let mut state = State::new(window, compatibility);
         let any = |names: &[&str]| names.iter().any(|name| gl.has_extension(name));
@@ -212,7 +212,7 @@ impl State {
         state
     }
 
-    /// Notes that state groups change. `MATRIX` becomes the group that the matrix mode names.
+    /// Notes that state groups change. `MATRIX` becomes the group that the matrix mode selects.
     #[inline]
     pub fn touch(&mut self, groups: Touch) {
         let mut groups = groups;
@@ -231,7 +231,7 @@ impl State {
         self.touched = self.touched | groups;
     }
 
-    /// Reads again what a plan reads and a command has touched, except the fixed-function state (see `draw`).
+    /// Reads again the state that a plan needs and a command has touched, except the fixed-function state (see `draw`).
     pub fn refresh(&mut self, gl: &Gl) {
         let touched = self.touched;
         if touched.has(Touch::RECTS) {
@@ -256,8 +256,9 @@ impl State {
             touched.without(Touch::RECTS | Touch::PROJECTION | Touch::MODE | Touch::OBJECTS);
     }
 
-    /// Takes the program's errors out of the driver's queue, before calls of ours that may raise some. While the program has not asked
-    /// for those that are kept, further ones are nothing new: the driver, too, would keep the first only. Whether there were any.
+    /// Takes the program's errors out of the driver's queue, before the layer's own calls, which may raise errors. While errors are kept
+    /// that the program has not yet asked for, further ones are dropped: the driver, too, would keep only the first. Returns whether
+    /// there were any.
     pub fn keep_errors(&mut self, gl: &Gl) -> bool {
         let kept = !self.errors.is_empty();
         for count in 0..16 {
@@ -270,12 +271,12 @@ impl State {
         true
     }
 
-    /// Whether a draw now lands in framebuffer 0 as picture: not in a list, a selection, a feedback or an own framebuffer.
+    /// Whether a draw now makes a picture in framebuffer 0: not in a display list, selection, feedback or a framebuffer object.
     pub fn draws_to_window(&self) -> bool {
         self.framebuffers.draw == 0 && self.makes_pictures()
     }
 
-    /// Whether a draw now makes a picture, wherever.
+    /// Whether a draw now makes a picture, in any framebuffer.
     pub fn makes_pictures(&self) -> bool {
         self.list.is_none()
             && self.primitives.render_mode == c::RENDER

@@ -1,6 +1,6 @@
-//! The neutral state that the layer's own passes draw in: entered with the program's state saved, left with it as it was.
+//! The neutral state, in which the layer's own passes draw. Entering it saves the program's state, and leaving it restores that.
 //!
-//! A pass of the layer's asks for a [`Neutral`], so that none can be made in the state of the program.
+//! Every pass of the layer takes a [`Neutral`] as an argument, so that none can run in the program's state.
 
 use crate::gl::{Gl, PixelStore, consts as c};
 
@@ -24,7 +24,7 @@ const CAPABILITIES: &[(u32, Needs)] = &[
     (c::FRAMEBUFFER_SRGB, Needs::Srgb),
 ];
 
-/// And nothing of the kind in OpenGL ES.
+/// OpenGL 3.2, and no version of OpenGL ES.
 const DESKTOP_3_2: Needs = Needs::Version((3, 2), (u32::MAX, 0));
 
 /// Texture units that passes sample from.
@@ -36,14 +36,14 @@ enum Needs {
     Compatibility,
     /// Not OpenGL ES.
     Desktop,
-    /// A switch for sRGB.
+    /// The context has GL_FRAMEBUFFER_SRGB.
     Srgb,
-    /// Of OpenGL, and of OpenGL ES.
+    /// At least this version of OpenGL, or of OpenGL ES.
     Version((u32, u32), (u32, u32)),
 }
 
-/// Proof that the state is neutral, and the program's state for as long as it is: no capability, blending, mask, pixel store, sampler or
-/// buffer of the program's takes part in a draw, a copy or a read. Framebuffer bindings are the caller's.
+/// Proof that the state is neutral, with the saved state of the program. No capability, blending, mask, pixel store, sampler or
+/// buffer of the program's affects a draw, a copy or a read. Framebuffer bindings are the caller's.
 #[derive(Debug)]
 #[must_use = "the program's state comes back by `leave`"]
 pub struct Neutral {
@@ -52,11 +52,11 @@ pub struct Neutral {
     viewport: [i32; 4],
     polygon_mode: [u32; 2],
     pixels: PixelStore,
-    /// Where the context has vertex arrays and array textures.
+    /// `None` in a context without vertex arrays and array textures.
     objects: Option<Objects>,
 }
 
-/// What the context is, as far as it decides what there is to save.
+/// The properties of the context that decide which state is saved.
 struct Context<'g> {
     gl: &'g Gl,
     compatibility: bool,
@@ -90,7 +90,7 @@ impl Neutral {
         let enabled = disable_all(gl, &context);
         let colours = Colours::enter(gl, &context);
         let pixels = PixelStore::enter(gl);
-        // A core context answers one mode, a compatibility context one per face, and OpenGL ES has none.
+        // A core context returns one mode, a compatibility context one per face, and OpenGL ES has none.
         let [front, back] = match gl.is_es() {
             true => [c::FILL; 2],
             false => gl.get_integers(c::POLYGON_MODE).map(|m| m as u32),
@@ -117,7 +117,7 @@ impl Neutral {
         &self.pixels
     }
 
-    /// Puts everything back. Framebuffer bindings are the caller's.
+    /// Restores the program's state. Framebuffer bindings are the caller's.
     pub fn leave(self, gl: &Gl) {
         let [x, y, w, h] = self.viewport;
         gl.viewport(x, y, w, h);
@@ -137,7 +137,7 @@ impl Neutral {
     }
 }
 
-/// Disables the capabilities that would spoil a copy of colours; answers those that were on.
+/// Disables the capabilities that would spoil a copy of colours; returns those that were on.
 fn disable_all(gl: &Gl, context: &Context) -> Vec<u32> {
     let planes = match gl.is_es() && !gl.has_extension("GL_EXT_clip_cull_distance") {
         true => 0,
@@ -202,7 +202,7 @@ impl Colours {
     }
 }
 
-/// Programs, vertex array, and what is bound to the texture units that passes sample from.
+/// The program, the program pipeline, the vertex array, and the bindings of the texture units from which passes sample.
 #[derive(Debug)]
 struct Objects {
     program: u32,

@@ -1,4 +1,4 @@
-//! What the programs of a share group were linked from.
+//! The sources from which the programs of a share group were linked.
 
 use crate::gl::{Gl, consts as c};
 use crate::rewrite::Stage;
@@ -11,20 +11,20 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Text {
     /// Its type, such as GL_VERTEX_SHADER.
     pub kind: u32,
-    /// The stage that this is.
+    /// The same as a stage.
     pub stage: Stage,
     /// All its strings; empty where it has none.
     pub source: Vec<u8>,
 }
 
-/// What a program was linked from.
+/// The sources from which a program was linked.
 #[derive(Clone, Debug)]
 pub struct Linked {
-    /// Which of its links this is.
+    /// The number of this link, counted over all programs of the share group.
     pub link: u64,
-    /// The texts.
+    /// Its shader objects.
     pub texts: Arc<[Text]>,
-    /// A sum of them, the same in each run of the program.
+    /// A hash of their sources, which is the same in each run of the program.
     pub sum: u64,
 }
 
@@ -35,24 +35,24 @@ pub struct Shaders {
     links: u64,
 }
 
-/// Changes of uniforms, in all contexts: also one without a layer, such as that of a thread that loads, sets uniforms of programs that it
-/// shares. A change in another share group costs one more look at the uniforms, and no picture is wrong.
+/// Number of changes of uniforms, in all contexts: one without a layer, such as that of a loading thread, may also set uniforms of
+/// shared programs. A change in an unrelated share group costs one more read of the uniforms, but makes no picture wrong.
 static CHANGES: AtomicU64 = AtomicU64::new(1);
 
-/// Programs that were linked or deleted, in all share groups.
+/// Number of times that a program was linked or deleted, in all share groups.
 static LINKS: AtomicU64 = AtomicU64::new(1);
 
-/// A uniform of some program gets another value.
+/// Notes that a uniform of some program gets another value.
 pub fn uniform_changes() {
     CHANGES.fetch_add(1, Ordering::Relaxed);
 }
 
-/// How many have changed so far.
+/// The number of changes of uniforms so far.
 pub fn uniform_change() -> u64 {
     CHANGES.load(Ordering::Relaxed)
 }
 
-/// How often any program's executable has changed so far.
+/// The number of changes of programs' executables so far.
 pub fn link_change() -> u64 {
     LINKS.load(Ordering::Relaxed)
 }
@@ -90,7 +90,7 @@ impl Shaders {
         self.programs.remove(&program);
     }
 
-    /// Some program whose texts have this sum.
+    /// A program whose sources have this hash.
     pub fn with(&self, sum: u64) -> Option<Linked> {
         let found = self.programs.values().find(|linked| linked.sum == sum);
         found.cloned()
@@ -102,10 +102,10 @@ impl Shaders {
     }
 }
 
-/// The matrices of a program's own shaders.
+/// The 4x4 uniform matrices of a program's own shaders.
 #[derive(Debug, Default)]
 pub struct Matrices {
-    /// Locations.
+    /// Locations of those that are plain uniforms.
     uniforms: Vec<i32>,
     /// Block and offset of those in blocks.
     in_blocks: Vec<(u32, u32)>,
@@ -134,7 +134,7 @@ impl Matrices {
             .collect()
     }
 
-    /// Whether some are in buffers, of whose changes nothing is told.
+    /// Whether some are in buffers, whose changes the layer does not see.
     pub fn has_blocks(&self) -> bool {
         !self.in_blocks.is_empty()
     }
@@ -145,7 +145,7 @@ impl Matrices {
         Some(gl.uniform_matrix(program, *location))
     }
 
-    /// What they are now, column-major, those in buffers last; with `blocks` also those in buffers, for which the driver has to be waited for, and which may raise an
+    /// The current values, column-major. With `blocks` those in buffers follow: reading them waits for the driver and may raise an
     /// error.
     pub fn values(&self, gl: &Gl, program: u32, blocks: bool) -> Vec<[f32; 16]> {
         let uniforms = self.uniforms.iter();
@@ -161,7 +161,7 @@ impl Matrices {
 /// The textures that a program's own shaders sample, and the images that they load and store.
 #[derive(Debug, Default)]
 pub struct Samplers {
-    /// Locations, and texture targets.
+    /// Locations of samplers, and texture targets.
     uniforms: Vec<(i32, u32)>,
     /// Locations of images.
     images: Vec<i32>,
@@ -203,7 +203,7 @@ impl Samplers {
     }
 }
 
-/// The target of the textures that a type of samplers reads; none for other types, and for buffers.
+/// The texture target that a sampler type reads; `None` for other types, and for buffer textures.
 fn sampled(kind: u32) -> Option<u32> {
     Some(match kind {
         0x8B5D | 0x8B61 | 0x8DC9 | 0x8DD1 => c::TEXTURE_1D,
@@ -219,12 +219,12 @@ fn sampled(kind: u32) -> Option<u32> {
     })
 }
 
-/// Whether a type of uniforms is that of an image: GL_IMAGE_1D to GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY.
+/// Whether a uniform type is an image: GL_IMAGE_1D to GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY.
 fn is_image(kind: u32) -> bool {
     (0x904C..=0x906C).contains(&kind)
 }
 
-/// FNV-1a of all texts with their types, 64 bits.
+/// The 64-bit FNV-1a hash of all sources with their types.
 fn sum(texts: &[Text]) -> u64 {
     let bytes = texts.iter().flat_map(|text| {
         let kind = text.kind.to_le_bytes();

@@ -1,6 +1,6 @@
 //! A picture with the depth of each pixel.
 
-/// A camera that stands beside the one of the picture: the one equation, as `plan::parallax` has it, for one view.
+/// A camera that stands beside that of the picture: the equation of `plan::parallax` for one view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shift {
     /// sep·e_i, in clip space.
@@ -10,7 +10,7 @@ pub struct Shift {
 }
 
 impl Shift {
-    /// Pixels to the right by which something at 1/w moves in a picture that is so wide: `separation·(1 − convergence/w)·width/2`.
+    /// Pixels to the right by which a point at 1/w moves in a picture of this width: `separation·(1 − convergence/w)·width/2`.
     pub fn pixels(&self, inverse: f64, width: u32) -> f64 {
         self.separation * (1.0 - self.convergence * inverse) * f64::from(width) / 2.0
     }
@@ -21,15 +21,15 @@ impl Shift {
     }
 }
 
-/// Why a picture and depths are none.
+/// Why colours and depths are no depth image: width, height, number of colours, number of depths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a picture of {0} x {1} pixels has {2} colours and {3} depths")]
 pub struct DepthImageError(u32, u32, usize, usize);
 
-/// 1/w where nothing was drawn: behind everything.
+/// Stands for 1/w where nothing was drawn: behind everything.
 const NOTHING: f32 = -1.0;
 
-/// Whether nothing was drawn there.
+/// Whether a value of 1/w says that nothing was drawn.
 pub(super) fn is_nothing(inverse: f32) -> bool {
     inverse < 0.0
 }
@@ -43,7 +43,8 @@ pub struct DepthImage {
 }
 
 impl DepthImage {
-    /// Of width x height colours and as many values of 1/w. What is no number, or behind the camera, was not drawn.
+    /// From width x height colours and as many values of 1/w, rows from the top. A value that is not finite, or below 0, means that nothing was
+    /// drawn.
     pub fn new(
         size: [u32; 2],
         colours: Vec<[u8; 3]>,
@@ -57,7 +58,7 @@ impl DepthImage {
         Ok(DepthImage::of(size, colours, inverses.into_iter()))
     }
 
-    /// Of as many of both as there are pixels.
+    /// As [`DepthImage::new`], of as many colours and values as there are pixels.
     pub(super) fn of(
         size: [u32; 2],
         colours: Vec<[u8; 3]>,
@@ -77,17 +78,17 @@ impl DepthImage {
         self.size
     }
 
-    /// The colours of a row; of none none.
+    /// The colours of a row; empty below the last one.
     pub fn colours(&self, y: u32) -> &[[u8; 3]] {
         self.row(&self.colours, y)
     }
 
-    /// The values of 1/w of a row.
+    /// The values of 1/w of a row; empty below the last one.
     pub fn inverses(&self, y: u32) -> &[f32] {
         self.row(&self.inverses, y)
     }
 
-    /// 1/w of a pixel, where there is one.
+    /// 1/w of a pixel. None outside the picture.
     pub fn inverse(&self, x: i64, y: i64) -> Option<f32> {
         let [w, h] = self.size.map(i64::from);
         let inside = (0..w).contains(&x) && (0..h).contains(&y);

@@ -1,47 +1,47 @@
-//! Where a depth image would tear: pixels in front of a step in depth.
+//! Depth discontinuities, where a depth image would tear: the pixels on their near side.
 //!
-//! Popescu et al., section IV.C.2, step 2: "the second order depth variation exceeds a threshold"; the normal by a least-squares line through
-//! the discontinuity pixels around.
+//! Popescu et al., section IV.C.2, step 2: "the second order depth variation exceeds a threshold". The normal is that of a least-squares line
+//! through the discontinuity pixels around.
 
 use super::DepthImage;
 use super::depth_image::is_nothing;
 use super::warp::excess;
 
-/// Pixels to either side within which discontinuity pixels are of one line.
+/// Pixels to either side within which discontinuity pixels belong to one line.
 const AROUND: i64 = 3;
-/// Pixels around within which what is drawn says how far away something may be that comes out before nothing: the reach of a splat.
+/// Pixels to either side, the reach of a splat, within which the farthest sample is sought where nothing was drawn behind an edge.
 const BEYOND: i64 = 30;
 
-/// A pixel in front of something farther.
+/// A pixel on the near side of a depth discontinuity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
     /// Column and row.
     pub at: [i64; 2],
-    /// Away from what is in front, of length 1.
+    /// Away from the occluder, of length 1.
     pub normal: [f64; 2],
     /// 1/w in front.
     pub near: f64,
-    /// 1/w behind. Where nothing was drawn there, something may still come out: as far away as the farthest around.
+    /// 1/w behind. Where nothing was drawn behind, a hidden surface may still come out; this is then the 1/w of the farthest sample around.
     pub far: f64,
 }
 
-/// All of a depth image.
+/// All discontinuity pixels of a depth image.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Edges {
     /// Rows from the top, from left to right.
     pub all: Vec<Edge>,
-    /// 1/w by pixel of what they were found in.
+    /// 1/w by pixel of the depth image.
     pub(super) depths: Vec<f32>,
-    /// 1/w of a step.
+    /// The threshold they were found with, in 1/w.
     pub(super) threshold: f64,
 }
 
 impl Edges {
-    /// Finds them; `threshold`: 1/w by which a step is more than a slope.
+    /// Finds the discontinuities of a depth image: steps of 1/w that differ from the slopes around them by more than `threshold`.
     pub fn of(image: &DepthImage, threshold: f64) -> Edges {
         let [w, h] = image.size().map(|side| side as usize);
         let beyond = Beyond::of(image, threshold);
-        // Of each pixel in front: the sum of the directions to what is behind, and the farthest of that.
+        // For each pixel in front: the sum of the directions to the pixels behind it, and the 1/w of the farthest of those.
         let mut found: Vec<Option<([f64; 2], f64)>> = vec![None; w * h];
         let mut note = |at: [usize; 2], towards: [f64; 2], far: f64| {
             if let Some(slot) = found.get_mut(at[1] * w + at[0]) {
@@ -94,10 +94,10 @@ impl Edges {
     }
 }
 
-/// How far away something may be that hides behind an edge before nothing.
+/// How far away a hidden surface may be behind an edge where nothing was drawn.
 struct Beyond {
     width: usize,
-    /// By pixel: the farthest around, or, where that is no step, of all.
+    /// By pixel: 1/w of the farthest sample around, or of the whole image where there is no step to the former.
     farthest: Vec<f32>,
 }
 
@@ -120,7 +120,7 @@ impl Beyond {
         }
     }
 
-    /// What is known to be behind, or else what may be.
+    /// The 1/w behind a pixel, or, where nothing was drawn behind it, of the farthest surface that may be there.
     fn or(&self, behind: f64, at: [usize; 2]) -> f64 {
         match is_nothing(behind as f32) {
             true => f64::from(self.farthest[at[1] * self.width + at[0]]),
@@ -129,7 +129,8 @@ impl Beyond {
     }
 }
 
-/// The least value within [`BEYOND`] along lines: so many values, so many lines; from one to the next.
+/// By value: the least one within [`BEYOND`] along its line. There are `lines` lines of `count` values; `next` and `line` are the steps of the index
+/// to the next value and to the next line.
 fn least(values: &[f32], [count, lines]: [usize; 2], [next, line]: [usize; 2]) -> Vec<f32> {
     let mut out = vec![f32::INFINITY; values.len()];
     for start in (0..lines).map(|number| number * line) {
@@ -142,7 +143,7 @@ fn least(values: &[f32], [count, lines]: [usize; 2], [next, line]: [usize; 2]) -
     out
 }
 
-/// Across the line that fits the discontinuity pixels around best, to the side of `towards`.
+/// The normal of the line that best fits the discontinuity pixels around, on the side of `towards`.
 fn normal(at: [i64; 2], towards: [f64; 2], here: impl Fn(i64, i64) -> bool) -> [f64; 2] {
     let around = (-AROUND..=AROUND).flat_map(|dy| (-AROUND..=AROUND).map(move |dx| (dx, dy)));
     let points = around.filter(|&(dx, dy)| here(at[0] + dx, at[1] + dy));
@@ -164,7 +165,7 @@ fn normal(at: [i64; 2], towards: [f64; 2], here: impl Fn(i64, i64) -> bool) -> [
     }
 }
 
-/// Of length 1, if it has a length.
+/// The vector with length 1; to the right for a vector without length.
 fn unit(v: [f64; 2]) -> [f64; 2] {
     let length = v[0].hypot(v[1]);
     match length > 0.0 {

@@ -1,60 +1,62 @@
 //! The distortion map of the depth-discontinuity occlusion camera: how rays are distorted at each pixel.
 //!
-//! Popescu et al., section IV.C: steps 3 to 5 and asymmetrical splats (Equation 1). What differs from the paper, because splats of scenes with
-//! edges everywhere take each other's place:
+//! Popescu et al., section IV.C: steps 3 to 5 and asymmetrical splats (Equation 1). In a scene with edges everywhere, splats compete for the same
+//! places. The map therefore differs from the paper:
 //!
-//! - Equation 2 moves what lies halfway in depth by half of what it moves the background by, which leaves it behind the edge from a place on that
-//!   viewpoints do see: of r/2 only r/3 comes out, with α = 4 only r/6. Here Equation 1 holds for each depth, with as much of r as viewpoints part that
-//!   depth from the edge. Rays are then parallel to those of the farthest viewpoint as long as they have the room, and close up only beyond.
-//! - How far away an edge is is measured from each place, not from the middle of its pixel, so that samples keep their order within a splat.
-//! - D is the most. A splat reaches as far as the viewpoints that matter can part what makes the edge. That matters where small steps count as
-//!   edges, and little where only large ones do (docs/measured.md).
-//! - Of two splats, the one that reaches farther has some more of the places between them.
-//! - A conflict counts where the splat's own samples go, in front of the edge, not somewhere in its disc; and from 60° on.
-//! - α is the most, too: a splat has room before the background up to a conflict, and only where that is less than it reaches is it asymmetrical.
-//! - What a reduced splat gives up is taken by the next one that reaches there.
-//! - A place keeps the closest splat that distorts another way, too. What the closest one leaves behind something, and this one brings out, it bends.
-//!   Samples keep their vectors, so it need not be known later which one it was.
+//! - Equation 2 moves a surface halfway in depth by half as much as the background. Part of it then stays hidden, although viewpoints see it: of the
+//!   r/2 that they see, only r/3 comes out, and with α = 4 only r/6. Here Equation 1 holds for each depth, with r scaled to the pixels by which
+//!   viewpoints separate that depth from the edge. Rays are then parallel to those of the farthest viewpoint while there is room, and converge only
+//!   beyond.
+//! - The distance to an edge is measured from each place, not from the centre of its pixel, so that samples keep their order within a splat.
+//! - D is a maximum. A splat reaches only as far as the viewpoints that matter can separate the two sides of its edge. That matters where small
+//!   steps count as edges, and little where only large ones do (docs/measured.md).
+//! - Of two splats, the larger one gets more of the places between them.
+//! - A conflict counts only on the normal of the edge, where the splat's own samples go, not anywhere in its disc. Directions conflict from 60° on.
+//! - α is a maximum, too. A splat has the room before the background up to the first conflict, and is asymmetrical only where that is less than its
+//!   reach.
+//! - Places that a reduced splat gives up go to the next splat that reaches them.
+//! - A place also keeps the closest splat that distorts in a conflicting direction. That one applies to samples that it brings out and that the
+//!   closest one leaves hidden. Samples keep their vectors, so later steps need not know which splat applied.
 
 use super::{Edge, Edges};
 
-/// Pixels from the middle of the last pixel in front to where it ends.
+/// Pixels from the centre of the last pixel of an occluder to its edge.
 const END: f64 = 0.25;
-/// Of the room before the background a splat takes so much.
+/// Share of the room before the background that a splat takes.
 const TAKEN: f64 = 0.8;
-/// Directions conflict if the cosine between them is less: 60° and more.
+/// Directions conflict if the cosine between them is less: above 60°.
 const ALIKE: f64 = 0.5;
-/// Parts of a step by which something may lie behind the drawn surface and still be of it.
+/// Share of the threshold of a step by which a sample may lie behind the drawn surface and still belong to it.
 const SAME: f64 = 0.5;
 
 /// How the rays near a depth discontinuity are distorted. Depths are 1/w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distortion {
-    /// (d_u, d_v), of length 1, away from what is in front.
+    /// (d_u, d_v), of length 1, away from the occluder.
     pub direction: [f64; 2],
-    /// Where what is in front ends, in pixels.
+    /// Place of the occluder's edge, in pixels.
     pub edge: [f64; 2],
-    /// 1/z_n: up to there nothing moves.
+    /// 1/z_n: nothing nearer than this moves.
     pub near: f64,
     /// 1/z_f.
     pub far: f64,
-    /// Pixels behind what is in front that viewpoints see of what is as far away as z_f.
+    /// Pixels behind the occluder that viewpoints see of a surface at z_f.
     pub seen: f64,
-    /// r: the most that is reached, at any depth.
+    /// r: pixels behind the occluder that are reached at most, at any depth.
     pub radius: f64,
-    /// Pixels before the background; where that is less than what is reached, α is their ratio.
+    /// Pixels that the splat may take on the side of the background. Where they are fewer than the reach, α is the ratio of the two.
     pub room: f64,
 }
 
 impl Distortion {
-    /// Pixels by which something at a place and 1/w moves.
+    /// Pixels along [`Distortion::direction`] by which a point at a place and 1/w moves.
     pub fn at(&self, place: [f64; 2], inverse: f64) -> f64 {
         let to = [0, 1].map(|i| place[i] - self.edge[i]);
         let x = to[0].hypot(to[1]).copysign(dot(to, self.direction));
         let depth = ((self.near - inverse) / (self.near - self.far)).clamp(0.0, 1.0);
         let reach = (depth * self.seen).min(self.radius);
         match x {
-            // No viewpoint sees this: it stays behind what is in front, and what is seen does not tear from it.
+            // No viewpoint sees this: it stays behind the occluder, joined to the part that is seen.
             _ if x < -self.radius => 0.0,
             _ if x < -reach => (2.0 * reach + x).max(0.0),
             _ => magnitude(x, reach, (reach / self.room).max(1.0)),
@@ -62,33 +64,33 @@ impl Distortion {
     }
 }
 
-/// What the user chooses.
+/// The parameters that the user chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Splats {
-    /// D: pixels behind what is in front that the camera reaches at most, 30 in the paper.
+    /// D: the most pixels that the camera reaches behind an occluder; 30 in the paper.
     pub radius: f64,
-    /// Pixels by which the farthest viewpoint that matters parts things per unit of 1/w: no splat reaches farther than its own step in depth
-    /// needs. Infinite: all reach as far as the paper's.
+    /// Disparity of the farthest viewpoint that matters, in pixels per unit of 1/w: no splat reaches farther than its own depth discontinuity needs.
+    /// With infinity all splats reach D, as in the paper.
     pub parallax: f64,
-    /// α: on the side of the background a splat reaches at most so much less far. 1: as far as on the other.
+    /// The greatest α: reach behind the occluder, over the extent on the side of the background. 1 keeps both sides equal.
     pub asymmetry: f64,
 }
 
-/// The distortion at each pixel.
+/// The distortion map: the distortion at each pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distortions {
     size: [u32; 2],
     map: Vec<Option<Distortion>>,
-    /// Of splats that bend another way than those of `map`.
+    /// The closest splats that distort in a direction in conflict with that of `map`.
     others: Vec<Option<Distortion>>,
-    /// 1/w by pixel of what straight rays see.
+    /// 1/w by pixel that undistorted rays see.
     depths: Vec<f32>,
-    /// 1/w by which something may lie behind that and still be of it.
+    /// 1/w by which a sample may lie behind that and still belong to the same surface.
     same: f64,
 }
 
 impl Distortions {
-    /// Of the discontinuities of a picture of this size.
+    /// From the discontinuities of a picture of this size.
     pub fn of(size: [u32; 2], edges: &Edges, splats: &Splats) -> Distortions {
         let (depths, same) = (edges.depths.clone(), edges.threshold * SAME);
         let edges = &edges.all;
@@ -131,7 +133,7 @@ impl Distortions {
         }
     }
 
-    /// None: straight rays.
+    /// No distortion: straight rays.
     pub fn none(size: [u32; 2]) -> Distortions {
         Distortions {
             size,
@@ -142,7 +144,8 @@ impl Distortions {
         }
     }
 
-    /// The distortion vector of something at a place and 1/w in a picture of this size, in its pixels: Figure 15 has the same rays with more samples.
+    /// The distortion vector of a point at a place and 1/w, all in pixels of a picture of this size. The map's own picture may have another size:
+    /// Figure 15 has the same rays with more samples.
     pub fn vector(&self, size: [u32; 2], place: [f64; 2], inverse: f64) -> [f64; 2] {
         let scale = [0, 1].map(|i| f64::from(size[i]) / f64::from(self.size[i]));
         let own = [0, 1].map(|i| place[i] / scale[i]);
@@ -152,7 +155,7 @@ impl Distortions {
         })
     }
 
-    /// Of something at a place in the map's own picture and 1/w.
+    /// The distortion of a point at a place in the map's own picture and 1/w. None where its ray is straight.
     pub fn at(&self, place: [f64; 2], inverse: f64) -> Option<&Distortion> {
         let index = self.index(place)?;
         let closest = self.map.get(index)?.as_ref()?;
@@ -178,15 +181,15 @@ impl Distortions {
     }
 }
 
-/// The splat that has a place, by the number of its edge, and how far away that is: positive on the side of the background.
+/// The splat that owns a place, by the number of its edge, and the distance x of the edge in pixels: positive on the side of the background.
 #[derive(Clone, Copy)]
 struct Owner {
     number: usize,
     x: f64,
 }
 
-/// Step 3: the splat whose centre is closest has the place, where one that reaches four times as far may be twice as far away; `may`: of those of
-/// edges that may have the place of this index.
+/// Step 3: a place belongs to the splat whose centre is closest, but one with four times the radius may be twice as far away. Only edges for which
+/// `may` is true compete for the place with this index.
 fn owners(
     size: [u32; 2],
     edges: &[Edge],
@@ -227,7 +230,7 @@ fn owners(
     Owners { size: [w, h], all }
 }
 
-/// Who has each place.
+/// The owner of each place.
 struct Owners {
     size: [i64; 2],
     all: Vec<Option<Owner>>,
@@ -242,7 +245,7 @@ impl Owners {
             .flatten()?
     }
 
-    /// Step 4: pixels before the background up to where a splat has the place that distorts another way.
+    /// Step 4: pixels on the side of the background up to the first place that belongs to a splat in a conflicting direction; at most `most`.
     fn room(&self, edges: &[Edge], edge: &Edge, most: f64) -> f64 {
         let place =
             |t: f64| [0, 1].map(|i| (edge.at[i] as f64 + t * edge.normal[i]).round() as i64);
@@ -254,7 +257,7 @@ impl Owners {
         steps.into_iter().find(conflict).unwrap_or(most)
     }
 
-    /// As far behind what is in front as edges of the same line have places: more would only press the samples together.
+    /// The reach of each edge behind its occluder: as far as edges of the same line own places. More would only press the samples together.
     fn reaches(&self, edges: &[Edge], radii: &[f64]) -> Vec<f64> {
         let [w, h] = self.size;
         let mut own = vec![0.0_f64; edges.len()];
@@ -279,7 +282,7 @@ impl Owners {
     }
 }
 
-/// Pixels to either side within which edges that bend the same way, by less than 60°, are of one line.
+/// Pixels to either side within which edges whose normals differ by less than 60° belong to one line.
 const LINE: i64 = 8;
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -1,9 +1,9 @@
-//! Views of a depth image by the driver: what [`super::warp`] says, pixel by pixel backwards.
+//! Synthesises views from depth images on the GPU: the backward warp, pixel by pixel, whose result [`super::warp`] defines.
 //!
-//! A ray of the other camera is a straight line over the disparities of a row (see `shaders/disparity.wgsl`), so what it sees is the first sample that it
-//! meets. How high and how low blocks of a row are leads it over what it cannot meet, and
-//! straight to what is a plane. What is hidden it seeks in the reference image of an occlusion camera, where there is one (see
-//! `shaders/reference.wgsl`); that camera's map is made here as well, and has to be what [`super::RowDistortionMap`] says.
+//! A ray of another camera is a straight line over the disparities of a row (see `shaders/disparity.wgsl`), and it sees the first surface that it
+//! meets. The greatest and least disparities of blocks of a row let it skip samples that it cannot meet. A ray that ends in a hole seeks hidden
+//! samples in the reference image of an occlusion camera, where there is one (see `shaders/reference.wgsl`). The distortion map of that camera is
+//! computed here as well; [`super::RowDistortionMap`] defines it.
 
 use crate::atlas::{Atlas, DistortionTarget, PyramidTarget, PyramidTextures, Tiles};
 use crate::config::DisocclusionSource;
@@ -23,12 +23,12 @@ pub struct Passes {
     block_bounds: Program,
     row_maxima: Program,
     ray_range: Program,
-    /// Where nothing else is known of what is hidden, or several views are drawn.
+    /// Synthesises a view from the own view alone, or from several drawn views.
     view: Program,
     reference: Option<Reference>,
 }
 
-/// Those of an occlusion camera.
+/// The passes of an occlusion camera.
 #[derive(Debug)]
 struct Reference {
     steps: Program,
@@ -38,8 +38,8 @@ struct Reference {
 }
 
 impl Passes {
-    /// For a context whose shading language has this version × 100; `behind`: what is to be known of what is hidden. The error is naga's or
-    /// the driver's.
+    /// For a context whose shading language has this version × 100; `behind` is the source of disocclusions. The error is the text of naga or of the
+    /// driver.
     pub fn new(gl: &Gl, glsl: u32, behind: DisocclusionSource) -> Result<Passes, String> {
         let program = |pass| Program::new(gl, glsl, Pass::Synthesis(pass));
         let camera = || {
@@ -67,7 +67,7 @@ impl Passes {
         })
     }
 
-    /// Whether an occlusion camera is among them.
+    /// Whether the passes of an occlusion camera are among them.
     pub fn distorts(&self) -> bool {
         self.reference.is_some()
     }
@@ -89,8 +89,8 @@ impl Passes {
         .map(Program::name)
     }
 
-    /// Learns how high the views are whose textures these are, the own one or all that are drawn. State must be as
-    /// [`crate::state::Neutral`] has it; changes the framebuffers that are bound.
+    /// Computes the disparity pyramids of the views in these textures: of the own view, or of all that are drawn. The state must be that of
+    /// [`crate::state::Neutral`]; the bindings of framebuffers change.
     pub fn measure(
         &self,
         gl: &Gl,
@@ -139,7 +139,7 @@ impl Passes {
         gl.bind_texture(c::TEXTURE_2D_ARRAY, textures.ray_range);
     }
 
-    /// Makes the distortion map of the own view, which has been measured, for the next frame; false where there is none.
+    /// Computes the distortion map for the next frame from the own view, which has been measured. False without an occlusion camera.
     pub fn map_distortion(
         &self,
         gl: &Gl,
@@ -169,8 +169,8 @@ impl Passes {
         true
     }
 
-    /// Makes the views that are shown, and not drawn, of copies of those that are, which have been measured: colours, and depths for what is drawn
-    /// after them. The depth test must pass and write everything; changes the framebuffers that are bound.
+    /// Synthesises the views that are shown but not drawn from the textures of those that are drawn, which have been measured. Writes colours, and
+    /// depths for later draws. The depth test must pass and write everything; the bindings of framebuffers change.
     pub fn views(
         &self,
         gl: &Gl,

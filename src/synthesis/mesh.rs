@@ -1,13 +1,13 @@
-//! The mesh of a picture's samples, and what other cameras see of it.
+//! The mesh of a picture's samples, and the pictures that other cameras see of it.
 //!
-//! Popescu et al., section VI: samples are joined to their neighbours; each is where it was before its ray was distorted. A depth image is a reference
-//! image whose rays are straight.
+//! Popescu et al., section VI: samples are joined to their neighbours; each lies where an undistorted ray would see it. A depth image is a
+//! reference image whose rays are straight.
 
 use super::occlusion::Sample;
 use super::warp::{View, excess, finish};
 use super::{DepthImage, Distortions, Motion, Reference, Shift, Triangle, Vertex};
 
-/// Pixels that one of the reference image may cover to either side, as far as half of the way to the next one.
+/// Greatest length in pixels of a margin that reaches half of the way to the next pixel. One that reaches all of the way may be twice as long.
 const WIDEST: f64 = 6.0;
 
 impl From<&DepthImage> for Reference {
@@ -30,7 +30,7 @@ impl From<&DepthImage> for Reference {
 }
 
 impl Reference {
-    /// Of samples by pixel, rows from the top, each where the undistorted camera projects it.
+    /// From samples by pixel, rows from the top. Each lies where the undistorted camera projects it.
     pub fn of(size: [u32; 2], samples: impl IntoIterator<Item = Option<Vertex>>) -> Reference {
         let mut image = Reference::new(size);
         let width = size[0].max(1) as usize;
@@ -51,8 +51,8 @@ impl Reference {
         self.size
     }
 
-    /// Its samples by pixel, rows from the top: where the undistorted camera projects each, and whether it is of one surface with the next one of
-    /// its row and of its column; `threshold` is that of [`super::Edges::of`].
+    /// The samples by pixel, rows from the top. Each lies where the undistorted camera projects it. The flags say whether it belongs to the same
+    /// surface as the next sample of its row, and of its column; `threshold` is that of [`super::Edges::of`].
     pub fn joined(&self, threshold: f64) -> impl Iterator<Item = Option<(Vertex, [bool; 2])>> {
         let [width, height] = self.size.map(|side| side as usize);
         let joints = Joints::of(self, threshold);
@@ -62,7 +62,7 @@ impl Reference {
         })
     }
 
-    /// Colours and depths as they lie in the picture.
+    /// Colours and depths by pixel, without the distortion vectors.
     pub fn depth_image(&self) -> DepthImage {
         let colours = self.all_seen().into_iter();
         let colours = colours.map(|seen| seen.map_or([0; 3], |(_, colour)| colour));
@@ -71,13 +71,13 @@ impl Reference {
         DepthImage::of(self.size, colours.collect(), depths)
     }
 
-    /// What a camera beside that of the picture sees of it, holes filled; `threshold` is that of [`super::Edges::of`].
+    /// The view of a camera beside that of the picture, holes filled; `threshold` is that of [`super::Edges::of`].
     pub fn view(&self, shift: &Shift, threshold: f64) -> View {
         let seen = self.seen(self.size, &Motion::beside(shift, self.size[0]), threshold);
         finish(self.size, seen.all_seen(), true)
     }
 
-    /// What another camera sees of it, in a picture of this size: the mesh of its samples, drawn.
+    /// Draws the mesh of the samples for another camera, in a picture of the same size.
     pub fn seen(&self, size: [u32; 2], motion: &Motion, threshold: f64) -> Reference {
         let mut seen = Reference::new(size);
         let moved = self.mesh(threshold).filter_map(|[a, b, c]| {
@@ -87,8 +87,8 @@ impl Reference {
         seen
     }
 
-    /// The triangles between its samples, each where the undistorted camera projects it. Samples of different surfaces are not joined;
-    /// as far as half a pixel of this picture around a sample there is always what it is of, and a whole one where that goes on behind its neighbour.
+    /// The triangles between the samples, each of which lies where the undistorted camera projects it. Samples of different surfaces are not joined.
+    /// Around a sample its surface always extends by half a pixel of this picture, or by a whole one where it continues behind its neighbour.
     pub fn mesh(&self, threshold: f64) -> impl Iterator<Item = Triangle> {
         let [w, h] = self.size.map(|side| side as usize);
         let joints = Joints::of(self, threshold);
@@ -123,8 +123,8 @@ impl Reference {
         })
     }
 
-    /// Between a sample and those to the right, below and across: two triangles where all are of one surface, and one for each corner
-    /// whose two sides are.
+    /// The triangles between a sample and those to its right, below it and diagonally opposite: two where all four belong to one surface, else one
+    /// for each corner whose two sides do.
     fn cell(&self, joints: &Joints, [x, y]: [usize; 2], out: &mut Vec<Triangle>) {
         let [w, h] = self.size.map(|side| side as usize);
         if x + 1 >= w || y + 1 >= h {
@@ -149,9 +149,9 @@ impl Reference {
         }
     }
 
-    /// How far what a sample is of reaches to one side, a step to a neighbouring pixel: half of the way to that, or, along the surface as its
-    /// neighbour on the other side has it or else its own triangle, half of the way beyond. What is behind the next pixel's surface does not end between them, so it
-    /// reaches all of the way.
+    /// How far the surface of a sample extends to one side, which is a step to a neighbouring pixel. It extends half of the way to a neighbour that
+    /// is joined to it. Else it extends half a step along its own slope, taken from the neighbour on the other side or from the triangle of the
+    /// sample. A surface that lies behind that of the next pixel does not end between the two, so it extends all of the way.
     fn margin(&self, own: &Vertex, at: [usize; 2], side: [isize; 2], joined: &[bool]) -> Margin {
         let neighbour = |sign: isize| {
             let x = at[0].checked_add_signed(sign * side[0])?;
@@ -174,7 +174,7 @@ impl Reference {
         let margin = neighbour(-1)
             .filter(|(_, joined)| *joined)
             .map(|(before, _)| towards(&before, -share));
-        // Neighbours whose rays go entirely elsewhere say nothing.
+        // A neighbour whose ray goes somewhere else entirely says nothing of the slope.
         let near = |margin: &Margin| margin.at[0].hypot(margin.at[1]) <= 2.0 * share * WIDEST;
         let margin = margin.filter(near);
         let own = || self.slope(at, side, share).filter(near);
@@ -184,7 +184,7 @@ impl Reference {
         })
     }
 
-    /// A share of the way to the next pixel on a side, on the triangle that a sample is of.
+    /// A share of the way to the next pixel on a side, along the triangle that the sample belongs to.
     fn slope(&self, at: [usize; 2], side: [isize; 2], share: f64) -> Option<Margin> {
         let index = at[1] * self.size[0] as usize + at[0];
         let slopes = self.samples.get(index).copied().flatten()?.slopes?;
@@ -208,15 +208,15 @@ impl Reference {
     }
 }
 
-/// From a sample to where what it is of ends.
+/// The way from a sample to the end of its surface.
 #[derive(Clone, Copy)]
 struct Margin {
     at: [f64; 2],
-    /// By which 1/w grows on the way.
+    /// Growth of 1/w on the way.
     inverse: f64,
 }
 
-/// Which neighbours are of one surface.
+/// Which neighbours belong to one surface.
 struct Joints {
     width: usize,
     /// A pixel and the next of its row.
@@ -235,12 +235,12 @@ impl Joints {
             across: vec![false; w * h],
             down: vec![false; w * h],
         };
-        // Where the undistorted camera has two in another order, something else lies between them.
+        // Two samples that the undistorted camera sees in another order have something else between them.
         let order = |first: usize, next: usize, side: usize| {
             let moved = |at: usize| image.samples[at].map_or(0.0, |s| s.moved[side]);
             drawn(first) && drawn(next) && moved(next) - moved(first) < 1.0
         };
-        // Both triangles go on to the other's sample, also where the step from one to the other changes.
+        // By how much the sample of each misses the plane of the other's triangle: 0 for one surface, even where its step changes.
         let parted = |first: usize, next: usize, side: usize| {
             let [a, b] = [image.samples[first]?, image.samples[next]?];
             let off = |slopes: [[f64; 3]; 2]| (b.inverse - a.inverse - slopes[side][0]).abs();
@@ -267,7 +267,7 @@ impl Joints {
         joints
     }
 
-    /// Whether a pixel and those to the right, below and across are.
+    /// Whether a pixel and those to its right, below it and diagonally opposite belong to one surface.
     fn cell(&self, x: usize, y: usize) -> bool {
         let at = y * self.width + x;
         let next = |all: &[bool], at: usize| all.get(at) == Some(&true);

@@ -1,12 +1,11 @@
-//! Views that are not drawn but made of pictures with depth: what each step has to come to, on the CPU and exactly, and the passes
-//! by which the driver makes them (`gpu`).
+//! Views that are synthesised from depth images instead of drawn: an exact reference of each step on the CPU, and the passes of the driver (`gpu`).
 //!
-//! `depth_image` is the plain picture with depths, `warp` makes a view of it. `discontinuity` finds where it would tear, `distortion` distorts
-//! the rays of the camera there so that they reach behind what is in front, and `occlusion` projects with such rays, builds the reference image and
-//! draws views of it. After: Popescu, Rosen and Aliaga, "3D Display Rendering Acceleration Using Occlusion Camera Reference Images".
+//! `depth_image` is a picture with depths; `warp` synthesises a view from it. `discontinuity` finds where such a view would tear. `distortion`
+//! distorts the rays of the camera there, so that they reach behind the occluder. `occlusion` projects with such rays, builds the reference image
+//! and draws views of it. After: Popescu, Rosen and Aliaga, "3D Display Rendering Acceleration Using Occlusion Camera Reference Images".
 //!
-//! Depths are 1/w of clip space throughout (0 infinitely far): a disparity is a straight line over it, as is the depth buffer of a perspective
-//! projection, and the equations of the paper are written in 1/z. Coordinates are in pixels, x to the right, y downwards, centres at halves.
+//! Depths are 1/w of clip space throughout; 0 is infinitely far. Disparities and the depth buffer of a perspective projection are linear in 1/w,
+//! and the equations of the paper are written in 1/z. Coordinates are in pixels, x to the right, y downwards, centres at halves.
 #![forbid(unsafe_code)]
 
 mod depth_image;

@@ -1,7 +1,6 @@
-//! The occlusion camera: projection by distorted rays, its reference image, and views of that.
+//! The occlusion camera: projection by distorted rays, and its reference image.
 //!
-//! Popescu et al., section V (Equation 2) and VI: the distortion of each sample is kept beside it, since it cannot be told from where the sample
-//! has come to lie.
+//! Popescu et al., sections V (Equation 2) and VI: each sample keeps its distortion vector, which its place in the reference image does not tell.
 
 use super::Distortions;
 use super::raster::raster;
@@ -19,7 +18,7 @@ pub struct Vertex {
     pub colour: [f64; 3],
 }
 
-/// Three of them, in either direction.
+/// Three vertices, in either winding.
 pub type Triangle = [Vertex; 3];
 
 /// A sample of the reference image.
@@ -27,22 +26,23 @@ pub type Triangle = [Vertex; 3];
 pub(super) struct Sample {
     /// 1/w.
     pub(super) inverse: f64,
-    /// As that of a vertex.
+    /// Red, green and blue, 0 to 255.
     pub(super) colour: [f64; 3],
     /// The distortion vector, in pixels.
     pub(super) moved: [f64; 2],
-    /// Where it was drawn, of what: changes of 1/w and of the two parts of the vector over the triangle, to the next column and to the next row.
+    /// Of the triangle that drew the sample: changes of 1/w and of the two parts of the vector, to the next column and to the next row. None where it
+    /// was not drawn.
     pub(super) slopes: Option<[[f64; 3]; 2]>,
 }
 
-/// A projected vertex.
+/// A vertex as the occlusion camera projects it.
 #[derive(Clone, Copy, Debug)]
 struct Projected {
     at: [f64; 2],
     sample: Sample,
 }
 
-/// A single-layer picture of what is seen, and of what is about to be seen.
+/// The reference image: a single layer of samples that are seen, and of hidden ones that neighbouring viewpoints are about to see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     pub(super) size: [u32; 2],
@@ -50,7 +50,7 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Nothing yet.
+    /// An empty image.
     pub fn new(size: [u32; 2]) -> Reference {
         Reference {
             size,
@@ -58,8 +58,8 @@ impl Reference {
         }
     }
 
-    /// Draws triangles through the distorted rays, whose map may be of a picture of another size. They are cut until no edge is longer than `longest`
-    /// pixels, which has to be above 0.
+    /// Draws triangles through the distorted rays, whose map may belong to a picture of another size. Triangles are subdivided until no edge is
+    /// longer than `longest` pixels, which has to be above 0.
     pub fn draw(
         &mut self,
         triangles: impl IntoIterator<Item = Triangle>,
@@ -100,7 +100,7 @@ impl Reference {
         });
     }
 
-    /// The picture as it is, with the depths; what is empty is black and infinitely far.
+    /// The picture as it is: empty pixels are black, and holes.
     pub fn picture(&self) -> View {
         finish(self.size, self.all_seen(), false)
     }
@@ -109,14 +109,14 @@ impl Reference {
         self.samples.iter().map(seen).collect()
     }
 
-    /// 1/w by pixel, rows from the top; 0 where it is empty.
+    /// 1/w by pixel, rows from the top; 0 where nothing was drawn.
     pub fn inverses(&self) -> Vec<f32> {
         let all = self.samples.iter();
         all.map(|s| s.map_or(0.0, |s| s.inverse as f32)).collect()
     }
 }
 
-/// Of 1/w and the distortion vector over a triangle, as [`Sample::slopes`] has them; None if it has no area.
+/// Slopes of 1/w and of the distortion vector over a triangle, as in [`Sample::slopes`]. None if it has no area.
 fn slopes([a, b, c]: &[Projected; 3]) -> Option<[[f64; 3]; 2]> {
     let values = |v: &Projected| [v.sample.inverse, v.sample.moved[0], v.sample.moved[1]];
     let side = |v: &Projected| [0, 1].map(|i| v.at[i] - a.at[i]);
@@ -131,7 +131,7 @@ fn slopes([a, b, c]: &[Projected; 3]) -> Option<[[f64; 3]; 2]> {
     })
 }
 
-/// Equation 2, but for d(z): see [`super::Distortion::at`].
+/// Equation 2, with another d(z): see [`super::Distortion::at`].
 fn project(size: [u32; 2], vertex: &Vertex, distortions: &Distortions) -> Projected {
     let [u, v] = vertex.at;
     let moved = distortions.vector(size, vertex.at, vertex.inverse);
@@ -146,7 +146,7 @@ fn project(size: [u32; 2], vertex: &Vertex, distortions: &Distortions) -> Projec
     }
 }
 
-/// Cut across the longest edge, if that is longer than asked for.
+/// Cuts a triangle in two across its longest edge. None if no edge is longer than `longest`.
 fn halves(triangle: &Triangle, longest: f64) -> Option<[Triangle; 2]> {
     let square = |a: &Vertex, b: &Vertex| {
         let [u, v] = [0, 1].map(|i| a.at[i] - b.at[i]);
@@ -163,7 +163,7 @@ fn halves(triangle: &Triangle, longest: f64) -> Option<[Triangle; 2]> {
         [_, second, _] if second == most => [*b, *c, *a],
         _ => [*c, *a, *b],
     };
-    // 1/w is a straight line over the picture, colours are one over the surface.
+    // 1/w is linear over the picture, colours are linear over the surface.
     let inverse = (a.inverse + b.inverse) / 2.0;
     let share = match inverse > 0.0 {
         true => a.inverse / (2.0 * inverse),

@@ -1,23 +1,23 @@
-//! Planar pinhole cameras: where a point is seen, and where a sample is.
+//! Planar pinhole cameras: projection of points and unprojection of samples.
 //!
-//! Popescu et al., sections V and VI: PPHC_0, and the unprojection of what its images hold.
+//! Popescu et al., sections V and VI: PPHC_0, and the unprojection of its images.
 
 use super::{Shift, Vertex};
 
 /// A camera that looks along −z. Points and the eye are in inches, x to the right, y upwards; the picture is in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pinhole {
-    /// Where all rays meet.
+    /// The point where all rays meet.
     pub eye: [f64; 3],
-    /// From the eye to the picture, in pixels.
+    /// Distance from the eye to the picture, in pixels.
     pub focal: f64,
-    /// Where the ray along −z meets the picture.
+    /// The principal point: where the ray along −z meets the picture.
     pub centre: [f64; 2],
 }
 
 impl Pinhole {
-    /// Through a window of so many pixels in the plane z = 0, its centre at the origin, with so many pixels to an inch. What lies in that
-    /// plane is at the same place for every eye, as on a display.
+    /// Looks from `eye` through a window in the plane z = 0, whose size is in pixels and whose centre is the origin; `scale` is in pixels per inch.
+    /// A point in that plane has the same place for every eye, as on a display.
     pub fn through(window: [u32; 2], scale: f64, eye: [f64; 3]) -> Pinhole {
         let [w, h] = window.map(|side| f64::from(side) / 2.0);
         Pinhole {
@@ -27,7 +27,7 @@ impl Pinhole {
         }
     }
 
-    /// Where a point is seen, and its 1/w, which is the distance along −z; nowhere behind the eye.
+    /// The place of a point in the picture, and its 1/w; w is the distance along −z. None behind the eye.
     pub fn project(&self, point: [f64; 3]) -> Option<([f64; 2], f64)> {
         let [x, y, z] = [0, 1, 2].map(|i| point[i] - self.eye[i]);
         let inverse = -1.0 / z;
@@ -48,7 +48,7 @@ impl Pinhole {
         ]
     }
 
-    /// How what this camera sees moves on the way to the picture of another one.
+    /// How samples move from the picture of this camera to that of another one.
     pub fn to(&self, other: &Pinhole) -> Motion {
         let scale = other.focal / self.focal;
         let [x, y, z] = [0, 1, 2].map(|i| self.eye[i] - other.eye[i]);
@@ -63,19 +63,19 @@ impl Pinhole {
     }
 }
 
-/// From places and 1/w in the picture of one camera to those in that of another.
+/// Takes places and 1/w in the picture of one camera to those in the picture of another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     scale: f64,
     offset: [f64; 2],
     by_inverse: [f64; 2],
     centre: [f64; 2],
-    /// By which w grows.
+    /// Growth of w.
     nearer: f64,
 }
 
 impl Motion {
-    /// To a camera beside that of a picture that is so wide.
+    /// To a camera beside that of the picture, which is `width` pixels wide.
     pub fn beside(shift: &Shift, width: u32) -> Motion {
         let still = shift.pixels(0.0, width);
         Motion {
@@ -87,7 +87,7 @@ impl Motion {
         }
     }
 
-    /// The same in the other picture; nothing behind that camera.
+    /// The vertex in the other picture. None behind that camera.
     pub fn apply(&self, vertex: &Vertex) -> Option<Vertex> {
         let share = 1.0 / (1.0 + self.nearer * vertex.inverse);
         let at = [0, 1].map(|i| {

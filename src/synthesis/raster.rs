@@ -1,6 +1,6 @@
 //! Which pixels a triangle covers.
 
-/// Calls for each pixel whose centre a triangle covers, in either direction, with the weights of its corners.
+/// Calls `pixel` for each pixel whose centre a triangle of either winding covers, with its index and the barycentric weights of the corners.
 pub(super) fn raster(
     [w, h]: [u32; 2],
     corners: [[f64; 2]; 3],
@@ -11,7 +11,7 @@ pub(super) fn raster(
         let (low, high) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
         up(low - 0.5)..up_past(high - 0.5).min(end)
     };
-    // Most triangles of a fine mesh lie between the centres.
+    // Most triangles of a fine mesh lie between pixel centres.
     let rows = range(1, h);
     if rows.is_empty() {
         return;
@@ -35,13 +35,14 @@ pub(super) fn raster(
     }
 }
 
-/// The first whole number from here on that is not negative. A cast is far faster than `ceil` where the processor has no instruction for that.
+/// The least whole number that is neither below the value nor negative. A cast is far faster than `ceil` where the processor has no instruction
+/// for that.
 fn up(value: f64) -> u32 {
     let whole = value as u32;
     whole + u32::from(f64::from(whole) < value && whole < u32::MAX)
 }
 
-/// One more than the last whole number up to here; 0 if that is negative.
+/// One more than the largest whole number up to the value; 0 for a negative value.
 fn up_past(value: f64) -> u32 {
     match value >= 0.0 {
         true => (value as u32).saturating_add(1),

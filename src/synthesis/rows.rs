@@ -1,31 +1,34 @@
-//! The distortion map of an occlusion camera whose views stand beside each other: rays are distorted along their rows alone.
+//! The distortion map of an occlusion camera whose views stand beside each other: rays are distorted along their rows only.
 //!
-//! Popescu et al., section IV.C, for viewpoints on a line: what such views uncover lies left and right of its occluder, so a splat is a
-//! piece of a row. Places are taken as they are and not by pixel, and discontinuities lie between two pixels. Three rules differ from those of
-//! [`super::Distortions`]: a splat reaches no farther behind than any view sees; it ends half of the way to one on the other side of
-//! what is in front; and α is the least of 1, 2 and 4 by which it has room on the side of the background, r/α, half of the way to the next
-//! one that distorts against it.
+//! Popescu et al., section IV.C, for viewpoints on a line: a disocclusion of such views lies left or right of its occluder, so a splat is a piece of
+//! a row. Places are continuous, not pixels, and discontinuities lie between two pixels. Three rules differ from those of
+//! [`super::Distortions`]:
+//!
+//! - A splat reaches no farther behind its occluder than any view sees.
+//! - It ends half of the way to the splat on the other side of its occluder.
+//! - α is the least of 1, 2 and 4 with which r/α fits the room on the side of the background. That room is half of the way to the next splat that
+//!   distorts in the other direction. If none fits, α is 4 and r shrinks.
 
 use super::distortion::magnitude;
 use super::warp::excess;
 
-/// What is chosen, and how far views stand apart.
+/// The parameters of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowDistortionMap {
-    /// D: pixels behind what is in front that the camera reaches at most.
+    /// D: the most pixels that the camera reaches behind an occluder.
     pub reach: f64,
-    /// Pixels by which the outermost view parts what differs by 1 in 1/w.
+    /// Disparity of the outermost view, in pixels per unit of 1/w.
     pub longest: f64,
 }
 
-/// The splat that has two pixels beside each other.
+/// The splat of two neighbouring pixels, which share one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowDistortion {
-    /// Where the discontinuity lies, in pixels from the left.
+    /// Place of the discontinuity, in pixels from the left.
     pub edge: f64,
-    /// r, in pixels; below 0 where what is behind lies to the left.
+    /// r, in pixels; below 0 where the background lies to the left.
     pub radius: f64,
-    /// α: on the side of the background it takes so much less than it reaches behind.
+    /// α: reach behind the occluder, over the extent on the side of the background.
     pub asymmetry: f64,
     /// 1/z_n.
     pub near: f64,
@@ -34,7 +37,7 @@ pub struct RowDistortion {
 }
 
 impl RowDistortion {
-    /// Pixels to the right by which something at a place and 1/w moves: Equations 1 and 2.
+    /// Pixels to the right by which a point at x and 1/w moves: Equations 1 and 2.
     pub fn at(&self, x: f64, inverse: f64) -> f64 {
         let (side, r) = (self.radius.signum(), self.radius.abs());
         let from = (x - self.edge) * side;
@@ -46,20 +49,20 @@ impl RowDistortion {
     }
 }
 
-/// Pixels that one splat has together.
+/// Neighbouring pixels of a row that share one splat.
 const CELL: usize = 2;
 
-/// A step in depth between two pixels.
+/// A depth discontinuity between two pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Step {
-    /// The pixel on its right side.
+    /// The pixel on its right.
     at: usize,
-    /// 1 where what is behind lies on the right, else -1.
+    /// 1 where the background lies on the right, else -1.
     side: i64,
 }
 
 impl RowDistortionMap {
-    /// The splat of each two pixels of a row with these values of 1/w.
+    /// The splats of a row with these values of 1/w, one for every two pixels. None where rays are straight.
     pub fn row(&self, inverses: &[f32]) -> Vec<Option<RowDistortion>> {
         let steps = self.steps(inverses);
         let cells = 0..inverses.len().div_ceil(CELL);
@@ -68,7 +71,7 @@ impl RowDistortionMap {
             .collect()
     }
 
-    /// Steps that the outermost view tears by a pixel or more.
+    /// Discontinuities that the outermost view tears by more than a pixel.
     fn steps(&self, inverses: &[f32]) -> Vec<Step> {
         let torn = |at: &usize| excess(inverses, at - 1) * self.longest > 1.0;
         let step = |at: usize| Step {
@@ -93,7 +96,7 @@ impl RowDistortionMap {
         }
         let [before, after] = [nearest.at - 1, nearest.at].map(|at| f64::from(inverses[at]));
         let (near, far) = (before.max(after), before.min(after));
-        // To the nearest one that distorts the other way, on a side of this one.
+        // Pixels to the nearest step on one side of this one that distorts in the other direction.
         let conflict = |side: i64| {
             let apart = |other: &Step| (other.at as i64 - nearest.at as i64) * side;
             let others = steps.iter().filter(|other| other.side != nearest.side);
@@ -126,7 +129,7 @@ mod tests {
         longest: 100.0,
     };
 
-    /// Of a far wall with bars before it.
+    /// 1/w of a far wall with bars before it.
     fn bars(places: &[[usize; 2]]) -> Vec<f32> {
         let near = |x: &usize| places.iter().any(|[from, to]| (*from..*to).contains(x));
         (0..96).map(|x| if near(&x) { 0.5 } else { 0.1 }).collect()
@@ -140,14 +143,14 @@ mod tests {
             radii
         };
         assert_eq!(all(bars(&[[30, 70]]), DISTORTION_MAP), [-12.0, 12.0]);
-        // What no view sees is not reached for.
+        // A splat does not reach for what no view sees.
         let near = RowDistortionMap {
             longest: 20.0,
             ..DISTORTION_MAP
         };
         let seen = all(bars(&[[30, 70]]), near);
         assert!(seen.len() == 2 && (seen[1] - 9.0).abs() < 1e-5, "{seen:?}");
-        // Two sides of one bar.
+        // Both sides of one bar share it.
         assert_eq!(all(bars(&[[40, 46]]), DISTORTION_MAP), [-3.0, 3.0]);
         // A gap of 4 pixels, between bars that are wide enough.
         assert_eq!(
@@ -169,10 +172,10 @@ mod tests {
         let row = DISTORTION_MAP.row(&bars(&[[30, 70]]));
         let right = row[37].unwrap();
         assert_eq!((right.edge, right.near), (70.0, 0.5));
-        // The farthest that is reached appears at the edge; where the splat ends nothing moves.
+        // The farthest place that is reached appears at the edge; where the splat ends, nothing moves.
         assert!((58.0 + right.at(58.0, 0.1) - 70.0).abs() < 1e-6);
         assert!(right.at(82.0, 0.1).abs() < 1e-6);
-        // What is in front stays.
+        // The occluder stays.
         assert_eq!(right.at(69.0, 0.5), 0.0);
         assert_eq!(right.at(57.9, 0.1), 0.0);
     }
@@ -192,7 +195,7 @@ mod tests {
             });
             let moved: Vec<f64> = moved.collect();
             for (at, pair) in moved.windows(2).enumerate() {
-                // Which splat has a place is known by cell.
+                // The splat of a place is known by cell only.
                 prop_assert!(pair[1] >= pair[0] - CELL as f64, "{} at {at}", pair[0] - pair[1]);
             }
         }

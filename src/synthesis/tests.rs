@@ -4,7 +4,7 @@ use super::*;
 use proptest::prelude::*;
 
 const SIZE: [u32; 2] = [96, 64];
-/// 1/w of the background, and of what stands before it.
+/// 1/w of the background, and of the columns before it.
 const FAR: f64 = 0.1;
 const NEAR: f64 = 0.25;
 const THRESHOLD: f64 = 0.02;
@@ -125,7 +125,7 @@ fn a_camera_moves_what_it_sees_as_it_would_project_it() {
             );
         }
     }
-    // What lies in the window stays, and what is beyond the eye is nowhere.
+    // A point in the plane of the window keeps its place, and a point behind the eye has none.
     assert_eq!(
         nearer.project([0.0; 3]).map(|seen| seen.0),
         Some([48.0, 32.0])
@@ -246,12 +246,12 @@ fn distorted(radius: f64, room: f64) -> Distortion {
 #[test]
 fn rays_bend_between_near_and_far_only() {
     let distorted = distorted(16.0, 8.0);
-    // In front, where the splat ends and behind what it reaches.
+    // Nothing moves in front, where the splat ends, and beyond its reach.
     assert_eq!(distorted.at([45.0, 0.0], NEAR), 0.0);
     assert_eq!(distorted.at([45.0, 0.0], 2.0 * NEAR), 0.0);
     assert!(distorted.at([58.0, 0.0], FAR).abs() < 1e-12);
     assert_eq!(distorted.at([33.9, 0.0], FAR), 0.0);
-    // Beyond z_f as at z_f: Equation 1 with α = 2.
+    // Points beyond z_f move as at z_f: Equation 1 with α = 2.
     assert!((distorted.at([50.0, 0.0], FAR) - 16.0 / 3.0).abs() < 1e-12);
     assert_eq!(
         distorted.at([50.0, 0.0], 0.0),
@@ -269,7 +269,7 @@ fn what_is_seen_of_each_depth_comes_out_from_behind_the_edge() {
             let reach = (16.0 * depth).min(radius);
             let lands = |x: f64| 50.0 + x + distorted.at([50.0 + x, 0.0], inverse);
             assert!((lands(-reach) - 50.0).abs() < 1e-9, "{depth}");
-            // What is not seen stays behind it, and the rest in its order.
+            // Samples that no viewpoint sees stay behind the edge, and the others keep their order.
             assert!((-30..0).all(|x| lands(f64::from(x) / 2.0 - reach - 1e-9) <= 50.0 + 1e-9));
             let all: Vec<f64> = (0..80).map(|x| lands(f64::from(x) / 2.0 - reach)).collect();
             assert!(all.windows(2).all(|pair| pair[0] < pair[1]), "{depth}");
@@ -305,7 +305,7 @@ fn compare(places: &[[f64; 2]], splats: &Splats) -> (usize, usize, usize) {
     for separation in [-0.2, 0.2] {
         let shift = at_zero_parallax(separation);
         let truth = truth(&scene, &shift);
-        // What lies beyond the edge of the picture no camera of the middle has.
+        // No sample comes from beyond the edges of the picture, so holes there do not count.
         let inner = |view: &View| {
             let holes = view.holes.iter().enumerate();
             let inside = holes.filter(|(at, hole)| **hole && (8..88).contains(&(at % 96)));
@@ -328,9 +328,9 @@ fn an_occlusion_camera_has_what_is_about_to_be_seen() {
     };
     let (depth, occlusion, wrong) = compare(&[[32.0, 64.0]], &splats);
     assert!(depth > 200, "{depth}");
-    // What is left lies at the corners, where splats of two directions meet.
+    // The remaining holes lie at the corners, where splats of two directions meet.
     assert!(occlusion * 10 <= depth, "{occlusion} of {depth}");
-    // Of what is seen, all but single pixels at silhouettes is what the other camera sees.
+    // Apart from holes, only single pixels at silhouettes differ from the picture of the other camera.
     assert!(wrong * 200 <= 2 * 96 * 64, "{wrong}");
 }
 
@@ -428,11 +428,11 @@ fn a_surface_goes_on_along_itself_to_where_it_is_covered() {
         })
     };
     let (low, high, last) = ends(0.4..0.6);
-    // At the picture's edge half a pixel, below the other surface all of the way to its first sample, as deep as the slope is there.
+    // The slope extends half a pixel at the picture's edge. Behind the other surface it extends to that one's first sample, at the slope's own depth.
     assert!(
         (low, high) == (0.0, 4.5) && (last - 0.46).abs() < 1e-6,
         "{low} {high} {last}"
     );
-    // What is in front ends half a pixel before its first sample.
+    // The surface in front ends half a pixel before its first sample.
     assert_eq!(ends(0.7..0.9), (4.0, 6.0, f64::from(0.8_f32)));
 }

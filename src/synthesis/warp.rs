@@ -1,22 +1,22 @@
-//! A view of a depth image (McMillan's 3D warping along rows: cameras stand beside each other, so nothing moves up or down).
+//! Synthesises a view from a depth image: McMillan's 3D warping along rows. Cameras stand beside each other, so nothing moves up or down.
 //!
-//! Neighbours of one surface stay joined; where the surface ends it ends half a pixel beyond its last sample. What is nearest is
-//! seen. Where nothing is, there is a hole: it gets the colour of the farther one of its two ends, since what is uncovered belongs to what is
-//! behind. What nothing was drawn on is behind everything, and the same in all views.
+//! Neighbouring samples of one surface stay joined; a surface ends half a pixel beyond its last sample. The nearest surface is seen. Where there is
+//! none, there is a hole: it gets the colour at its farther end, since a disocclusion shows the background. Pixels on which nothing was drawn lie
+//! behind everything and are the same in all views.
 
 use super::depth_image::is_nothing;
 use super::{DepthImage, Shift};
 use image::{Rgb, RgbImage};
 
-/// Pixels by which neighbours may part, beyond what the surfaces around them do, and still be of one surface.
+/// Pixels by which neighbours may move apart, beyond the slope of the surfaces around them, and still belong to one surface.
 const TEAR: f64 = 0.5;
 
-/// A picture that was made, not drawn.
+/// A synthesised view.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct View {
     /// The picture, holes filled.
     pub picture: RgbImage,
-    /// By pixel, rows from the top: nothing was known of it.
+    /// By pixel, rows from the top: whether no sample covers it.
     pub holes: Vec<bool>,
 }
 
@@ -28,7 +28,7 @@ impl View {
     }
 }
 
-/// What is seen at a pixel: its 1/w and colour.
+/// 1/w and colour that are seen at a pixel. None in a hole.
 pub(super) type Seen = Option<(f64, [u8; 3])>;
 
 /// The view of a camera beside that of the picture.
@@ -38,7 +38,7 @@ pub fn warp(image: &DepthImage, shift: &Shift) -> View {
     finish(image.size(), seen, true)
 }
 
-/// A picture of what is seen at each pixel, rows from the top; `filled`: holes get what is at their farther end.
+/// The view with these pixels, rows from the top; `filled`: holes get the colour at their farther end, else black.
 pub(super) fn finish(size: [u32; 2], mut seen: Vec<Seen>, filled: bool) -> View {
     let [w, h] = size;
     let holes = seen.iter().map(Option::is_none).collect();
@@ -61,7 +61,7 @@ fn warp_row(image: &DepthImage, y: u32, shift: &Shift) -> Vec<Seen> {
         .collect();
     let limit = TEAR / shift.pixels_per_inverse(width as u32);
     let drawn = |x: usize| inverses.get(x).is_some_and(|v| !is_nothing(*v));
-    // The step from a pixel to the next is small in the view, or no other than the one before it, seen from where the rays come.
+    // Pixels are joined where the step between them is small in the view, or equals the step before it on the side that the rays come from.
     let towards = if shift.separation < 0.0 { -1 } else { 1 };
     let joined = |x: usize| {
         let steps = [Some(x), x.checked_add_signed(towards)].map(|x| step(inverses, x?));
@@ -97,14 +97,14 @@ fn warp_row(image: &DepthImage, y: u32, shift: &Shift) -> Vec<Seen> {
     row
 }
 
-/// Of 1/w from a pixel to the next.
+/// The step of 1/w from a pixel to the next.
 fn step(inverses: &[f32], from: usize) -> Option<f64> {
     let pair = (inverses.get(from)?, inverses.get(from + 1)?);
     Some(f64::from(*pair.1) - f64::from(*pair.0))
 }
 
-/// By how much the step of 1/w from a pixel to the next is another than those before and after it: nothing on planes and at creases, the
-/// height of a step between two surfaces.
+/// How much the step of 1/w from a pixel to the next differs from the steps before and after it, whichever is closer. It is 0 on planes and at
+/// creases, and the height of a step between two surfaces.
 pub(super) fn excess(inverses: &[f32], x: usize) -> f64 {
     let step = |from: usize| step(inverses, from);
     let Some(own) = step(x) else {
@@ -116,7 +116,7 @@ pub(super) fn excess(inverses: &[f32], x: usize) -> f64 {
     least.unwrap_or(own.abs())
 }
 
-/// Draws what lies between two places of a row, where it is nearest. What is turned away is not seen.
+/// Draws a surface between two places of a row, with a depth test. One that is turned away (`to` lies left of `from`) is not seen.
 fn cover(row: &mut [Seen], [from, to]: [f64; 2], [first, last]: [(f64, [u8; 3]); 2]) {
     let start = (from - 0.5).ceil().max(0.0);
     let mut x = start as usize;
@@ -139,7 +139,7 @@ fn mixed(a: [u8; 3], b: [u8; 3], u: f64) -> [u8; 3] {
     [(a[0], b[0]), (a[1], b[1]), (a[2], b[2])].map(mix)
 }
 
-/// Gives holes what is at their farther end.
+/// Fills holes with the pixel at their farther end.
 fn fill(row: &mut [Seen]) {
     let mut x = 0;
     while x < row.len() {

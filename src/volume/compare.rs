@@ -1,36 +1,38 @@
-//! How far the slices of a reference image are from those of the geometry.
+//! Comparison of the slices of a reference image with those of the geometry.
 
 use super::eye::{Camera, Spread, direction};
 use super::fragments::by_number;
 use super::{RotatingScreen, Volume, VolumeError, Voxel};
 
-/// A voxel is visible from an eye where nothing lies more than this before it, in radii of the display: four pixels of a slice.
+/// A voxel is visible from an eye where no voxel lies more than this in front of it, in radii of the display: four pixels of a slice.
 pub const VISIBLE: f64 = 0.01;
 
 /// Rows of the pictures that decide which samples are visible: two rows of a slice fall on one of these, so that surfaces have no gaps.
 const ROWS: u32 = 384;
 
-/// Two volumes compared. Neighbouring voxels are those that differ by at most one sector, one column and one row: as far as a piece may be from its surface.
+/// The difference of two volumes. Neighbouring voxels differ by at most one sector, one column and one row: the largest distance of a piece from
+/// its surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
     /// Voxels of the geometry that the eyes see.
     pub seen: usize,
-    /// Of these, how many the other has not.
+    /// Of these, voxels that the other volume lacks.
     pub missing: usize,
-    /// Of these, how many have no neighbour in the other either.
+    /// Of these, voxels without a neighbour in the other volume either.
     pub lost: usize,
-    /// Voxels of the other.
+    /// Voxels of the other volume.
     pub drawn: usize,
-    /// Of these, how many the geometry has not.
+    /// Of these, voxels that the geometry lacks.
     pub extra: usize,
-    /// Of these, how many have no neighbour in the geometry either.
+    /// Of these, voxels without a neighbour in the geometry either.
     pub wrong: usize,
     /// Mean difference of a channel where both have a voxel, of 255.
     pub colour: f64,
 }
 
 impl Difference {
-    /// Between the whole geometry and a part of it that is meant for eyes at these places, in display space and inches. Disabled eyes all its voxels count as seen.
+    /// Compares the whole geometry with a part of it that is meant for `eyes`, in display space, inches. Without eyes all its voxels count
+    /// as seen.
     pub fn between(
         geometry: &Volume,
         other: &Volume,
@@ -76,7 +78,7 @@ impl Difference {
     }
 }
 
-/// One half plane: the counts, the sum of the colours' differences, and of how many voxels.
+/// One half plane: the counts, the sum of the colours' differences, and the number of voxels in it.
 fn half(
     geometry: &Volume,
     other: &Volume,
@@ -138,7 +140,7 @@ fn near(volume: &Volume, half_plane: u32, at: u32) -> bool {
     })
 }
 
-/// How far an eye sees.
+/// The nearest voxels that an eye sees.
 struct Map {
     camera: Camera,
     depths: Vec<f32>,

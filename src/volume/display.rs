@@ -4,7 +4,7 @@ use super::VolumeError;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::TAU;
 
-/// How far the screen turns while all its slices are shown once.
+/// The angle by which the screen turns while all its slices are shown once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Turn {
@@ -20,11 +20,11 @@ pub enum Turn {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RotatingScreen {
-    /// Of the screen, and so of the sphere that it sweeps, inches.
+    /// Radius of the screen, and so of the sphere that it sweeps, inches.
     pub radius: f64,
-    /// Pictures that are shown one after the other.
+    /// Number of pictures that are shown one after the other.
     pub slices: u32,
-    /// Their memory.
+    /// The angle for all slices.
     pub turn: Turn,
     /// Columns of a slice, and rows: the square around the screen. Even.
     pub pixels: u32,
@@ -116,10 +116,11 @@ impl RotatingScreen {
     }
 }
 
-/// A point in the grid of the voxels. A voxel has the places whose parts, rounded down, are its own.
+/// A point in the grid of the voxels. The voxel of a point has its coordinates rounded down.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Place {
-    /// Sectors from half plane 0 on, which is in the middle of its own: 0.5 in the plane itself. May be beyond the last one by less than a turn.
+    /// Sectors from half plane 0, which is in the middle of its sector: a point in that plane has 0.5. May exceed the number of sectors by
+    /// less than one turn.
     pub(super) turn: f32,
     /// Pixels from the axis.
     pub(super) out: f32,
@@ -127,13 +128,13 @@ pub(super) struct Place {
     pub(super) down: f32,
 }
 
-/// The numbers by which points become places.
+/// Constants that convert points to places.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cells {
     pub(super) half_planes: u32,
     pub(super) columns: u32,
     pub(super) rows: u32,
-    /// Pixels, of the screen's radius.
+    /// The screen's radius, pixels.
     pub(super) radius: f32,
     pub(super) pixels_per_inch: f32,
     pub(super) sectors_per_radian: f32,
@@ -161,16 +162,16 @@ impl Cells {
         }
     }
 
-    /// Whether a place is within the sphere; no number is not.
+    /// Whether a place is within the sphere; false for NaN.
     #[inline(always)]
     pub(super) fn inside(&self, place: Place) -> bool {
         let up = place.down - self.radius;
-        // What was put on the rim stays on it after rounding.
+        // Points that were clipped to the rim stay within after rounding.
         let rim = self.radius * (1.0 + 1e-5);
         place.out * place.out + up * up <= rim * rim
     }
 
-    /// Half plane and voxel of a place within the sphere; of another one any. Disabled branches.
+    /// Half plane and voxel of a place within the sphere; undefined for other places. It has no branches.
     #[inline(always)]
     pub(super) fn voxel(&self, place: Place) -> (u32, u32) {
         let column = whole(place.out).min(self.columns - 1);
@@ -182,11 +183,11 @@ impl Cells {
     }
 }
 
-/// Numbers from here on have no fraction, and neighbours have neighbouring bits.
+/// From here on single-precision numbers have no fraction, and neighbouring integers have neighbouring bits.
 const WHOLE: f32 = 8_388_608.0;
 
-/// The nearest whole number to one from 0 on that is far below [`WHOLE`], of others any number. Conversions of the language, which know what to make of
-/// those, take ten times as long where they are many.
+/// The nearest integer to a number from 0 to far below [`WHOLE`]; undefined for other numbers. The language's own conversions, which handle
+/// those, take ten times as long in loops.
 #[inline(always)]
 pub(super) fn rounded(value: f32) -> u32 {
     (value + WHOLE).to_bits().wrapping_sub(WHOLE.to_bits())
@@ -199,7 +200,7 @@ fn whole(value: f32) -> u32 {
     rounded(value).wrapping_sub(u32::from(up))
 }
 
-/// The angle from x towards z, 0 to 2π, to 1e-6. Disabled branches, so that loops of it become vectors.
+/// The angle from x towards z, 0 to 2π, to 1e-6. It has no branches, so that loops of it are vectorised.
 ///
 /// From: Abramowitz and Stegun, "Handbook of Mathematical Functions", 4.4.49.
 #[inline(always)]

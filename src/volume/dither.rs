@@ -1,11 +1,11 @@
-//! From colours to light that is on or off.
+//! From colours to voxels that are on or off.
 //!
-//! A pixel of the display has one bit for each channel, so a colour is the share of the voxels around it that are lit, and means of light are what the eye takes:
-//! shares are those of decoded sRGB. The threshold of a voxel depends on its place alone. Error diffusion passes the error of a pixel to its neighbours
-//! in the picture. In a slice a surface is a line without neighbours at its sides; they lie in other slices. Here a
-//! surface cuts through a grid of thresholds that has all of them in each of its lines: 256 neighbours along any of the three axes
-//! have each threshold once. The grid is a lattice, after Roberts' R3 sequence ("The Unreasonable Effectiveness of Quasirandom Sequences", 2018), its steps
-//! rounded to odd numbers. The channels' thresholds are a third apart, so that one of grey is not all black or all white.
+//! A pixel of the display has one bit for each channel, so a colour is the share of lit voxels around it. The eye averages light, so the shares
+//! are those of linear light, decoded from sRGB. The threshold of a voxel depends on its place alone. Error diffusion is no alternative: it passes
+//! the error of a pixel to its neighbours in the picture, but in a slice a surface is a line, whose neighbours lie in other slices. Here a
+//! surface cuts through a grid in which each line has all thresholds: 256 neighbours along any of the three axes
+//! have each threshold once. The grid is a lattice, after Roberts' R3 sequence ("The Unreasonable Effectiveness of Quasirandom Sequences", 2018),
+//! with its steps rounded to odd numbers. The channels' thresholds are a third apart, so that a grey voxel is not always black or white.
 
 use super::fragments::by_number;
 use super::{RotatingScreen, Volume};
@@ -15,7 +15,7 @@ use image::{Rgb, RgbImage};
 /// Thresholds from sector to sector, row to row, column to column and channel to channel, modulo 256.
 const STEPS: [u32; 4] = [209, 171, 141, 85];
 
-/// A voxel that shines.
+/// A lit voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lit {
     /// As in [`super::Voxel`].
@@ -55,7 +55,7 @@ impl Volume {
                             let light = light.get(usize::from(stored)).copied().unwrap_or(0.0);
                             channels |= u8::from(light > threshold(place, channel)) << channel;
                         }
-                        // Whether one shines is anything but predictable: no branch.
+                        // Whether a voxel is lit is unpredictable, so there is no branch.
                         if let Some(next) = lit.get_mut(count) {
                             let at = voxel.at;
                             *next = Lit { at, channels };
@@ -70,7 +70,7 @@ impl Volume {
     }
 }
 
-/// Above 0 and below 1.
+/// The threshold of a voxel, above 0 and below 1.
 #[inline(always)]
 fn threshold([half_plane, row, column]: [u32; 3], channel: u32) -> f32 {
     let parts = [half_plane, row, column, channel];
@@ -83,7 +83,7 @@ fn threshold([half_plane, row, column]: [u32; 3], channel: u32) -> f32 {
 }
 
 impl Slices {
-    /// Of which display.
+    /// The display of the slices.
     pub fn screen(&self) -> &RotatingScreen {
         &self.screen
     }
@@ -93,7 +93,7 @@ impl Slices {
         &self.half_planes
     }
 
-    /// A slice, as it is seen from the side from which its first half plane is on the right.
+    /// A slice, seen from the side where its first half plane is on the right.
     pub fn picture(&self, slice: u32) -> RgbImage {
         let (pixels, columns) = (self.screen.pixels, self.screen.columns());
         let mut picture = RgbImage::new(pixels, pixels);

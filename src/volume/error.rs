@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// Why there are no slices, or nothing to see of them.
+/// Why there are no slices, or no picture of them.
 #[derive(Debug, thiserror::Error)]
 pub enum VolumeError {
     /// A display that cannot be.

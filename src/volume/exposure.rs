@@ -1,4 +1,4 @@
-//! How bright a scene is shown.
+//! The brightness of a scene on the display.
 //!
 //! A voxel is on or off and shines only while the screen passes it, so the display is dark ("The reduced image brightness requires dimming the ambient
 //! lights", Popescu et al., section VII), and of a dark scene few voxels would shine at all.
@@ -6,11 +6,12 @@
 use super::Volume;
 use crate::interleave::reference::{encoded, linear};
 
-/// One voxel of so many may be brighter than white.
+/// One voxel in this many may be brighter than white.
 const ABOVE: usize = 20;
 
 impl Volume {
-    /// The same with all light multiplied, by at least 1, so that one voxel in twenty would be brighter than white, and the factor. Black voxels do not count.
+    /// The volume with all light multiplied by a factor of at least 1, so that one voxel in twenty would be brighter than white; and the
+    /// factor. Black voxels do not count.
     #[must_use]
     pub fn exposed(mut self) -> (Volume, f32) {
         let mut counts = [0_usize; 256];

@@ -12,7 +12,7 @@ use image::{Rgb, RgbImage};
 /// An eye that looks at the middle of the display, and its picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sight {
-    /// Where it is in display space, inches.
+    /// Position of the eye in display space, inches.
     pub eye: [f64; 3],
     /// Columns and rows of the picture, into which the sphere of the display fits.
     pub size: [u32; 2],
@@ -20,24 +20,24 @@ pub struct Sight {
     pub sphere: bool,
 }
 
-/// The sphere's part of the picture's smaller side.
+/// Diameter of the sphere over the picture's smaller side.
 const FITS: f64 = 0.96;
 
-/// An eye has to be at least this many radii away.
+/// Smallest distance of an eye, radii.
 const NEAREST: f64 = 1.05;
 
 /// Share of the lit pixels that are brighter than white.
 const CLIPPED: f64 = 0.01;
 
-/// Light of one voxel, in units that sums of are exact.
+/// Light of one voxel, in units whose sums are exact.
 const VOXEL: f32 = 4096.0;
 
-/// Of the lines on the sphere: degrees from one to the next, their grey, and their share of a pixel.
+/// Degrees between lines on the sphere, their grey, and their width in pixels.
 const LINES: usize = 30;
 const GREY: f32 = 90.0;
 
 impl Sight {
-    /// That of the display's viewer, in the size of the paper's pictures.
+    /// The display's viewer, with the picture size of the paper.
     pub fn of_viewer(screen: &RotatingScreen) -> Sight {
         Sight {
             eye: [0.0, 0.0, screen.viewer],
@@ -85,7 +85,7 @@ impl Sight {
         }
         let forward = [-x / far, -y / far, -z / far];
         let level = (x * x + z * z).sqrt();
-        // From above and below, what is on the viewer's side is below and above.
+        // Seen from above or below, the viewer's side of the display is at the bottom or the top.
         let up = match level > 1e-6 * far {
             true => [0.0, 1.0, 0.0],
             false => [0.0, 0.0, -y.signum()],
@@ -120,19 +120,19 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 /// A pinhole that looks at the middle of the display.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
-    /// To the right, upwards and forwards.
+    /// Unit vectors to the right, upwards and forwards.
     axes: [[f32; 3]; 3],
-    /// From the middle of the display, inches.
+    /// Distance from the middle of the display, inches.
     far: f32,
-    /// From the nearest point of the display, inches.
+    /// Distance from the nearest point of the display, inches.
     near: f32,
-    /// Pixels per inch, an inch away.
+    /// Pixels per inch at a distance of one inch.
     scale: f32,
     size: [u32; 2],
 }
 
 impl Camera {
-    /// That of a viewer; it has to be outside of the display.
+    /// The camera of a viewer outside of the display.
     pub(super) fn of(
         screen: &RotatingScreen,
         eye: [f64; 3],
@@ -142,7 +142,7 @@ impl Camera {
         Sight { eye, size, sphere }.camera(screen)
     }
 
-    /// Column and row in pixels, centres at halves, and inches forwards.
+    /// Column and row in pixels, centres at halves, and the distance forwards in inches.
     #[inline(always)]
     pub(super) fn project(&self, point: [f32; 3]) -> [f32; 3] {
         let along = |axis: [f32; 3]| {
@@ -160,12 +160,12 @@ impl Camera {
         ]
     }
 
-    /// Pixels of some inches where the display is nearest.
+    /// The size of some inches in pixels where the display is nearest.
     fn pixels(&self, inches: f64) -> f64 {
         inches * f64::from(self.scale / self.near)
     }
 
-    /// The four pixels around a place, each with its share.
+    /// The four pixels around a point, each with its share.
     #[inline(always)]
     fn around(&self, [x, y, _]: [f32; 3], mut pixel: impl FnMut(usize, f32)) {
         let [width, height] = self.size;
@@ -211,11 +211,11 @@ impl Camera {
     }
 }
 
-/// Points over a voxel, as far apart as the picture resolves: angles from its middle, radians, and pixels of the slice outwards and down.
+/// Points over a voxel, spaced by the picture's resolution: angles from its middle, radians, and pixels of the slice outwards and down.
 pub(super) struct Spread {
     /// By column.
     turns: Vec<Vec<[f32; 2]>>,
-    /// From the near and upper edges.
+    /// Offsets from the near and upper edges.
     steps: Vec<f32>,
 }
 
@@ -262,7 +262,7 @@ impl Spread {
         }
     }
 
-    /// Of each voxel in a column.
+    /// Number of points of each voxel in a column.
     fn count(&self, column: u32) -> usize {
         let turns = self.turns.get(column as usize).map_or(1, Vec::len);
         turns * self.steps.len() * self.steps.len()
@@ -275,7 +275,7 @@ pub(super) fn direction(screen: &RotatingScreen, half_plane: usize) -> [f32; 2] 
     [sin as f32, cos as f32]
 }
 
-/// By pixel, in whole parts of a voxel's light, so that the sums do not depend on their order.
+/// The light of each pixel, in whole parts of a voxel's light, so that the sums do not depend on their order.
 fn light(slices: &Slices, camera: &Camera) -> Vec<[u32; 3]> {
     let screen = slices.screen();
     let spread = Spread::of(screen, camera);

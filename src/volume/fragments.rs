@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const SUM: u32 = 18;
 const MOST: u64 = (1 << (64 - 3 * SUM)) - 1;
 
-/// Pieces of a half plane that are kept in one place.
+/// Pieces of a half plane that are stored in one block.
 const CHUNK: usize = 1024;
 
 /// Parts of the work per thread; a thread that has finished its own takes those of another.
@@ -28,7 +28,7 @@ pub(super) struct Fragments {
     pub(super) cells: Cells,
     /// By half plane: the voxel in the high half, the colour in the low one.
     pieces: Vec<Vec<u64>>,
-    /// Further pieces where those were full, by half plane, so that pieces are never moved.
+    /// Full blocks by half plane, so that pieces are never moved.
     full: Vec<Vec<Vec<u64>>>,
 }
 
@@ -43,7 +43,7 @@ impl Fragments {
         }
     }
 
-    /// A piece of a surface at a place, if that is within the sphere.
+    /// Adds a piece of a surface at a place, if that is within the sphere.
     #[inline(always)]
     pub(super) fn put(&mut self, place: Place, colour: u32) {
         if self.cells.inside(place) {
@@ -51,7 +51,7 @@ impl Fragments {
         }
     }
 
-    /// The first pieces of some.
+    /// Adds the first `count` of some pieces.
     #[inline(always)]
     pub(super) fn put_all<const N: usize>(
         &mut self,
@@ -89,7 +89,7 @@ impl Fragments {
     }
 }
 
-/// Puts pieces to those that are full.
+/// Moves a full block to the others.
 #[cold]
 fn renew(pieces: &mut Vec<u64>, full: Option<&mut Vec<Vec<u64>>>) {
     if let Some(full) = full {
@@ -97,12 +97,12 @@ fn renew(pieces: &mut Vec<u64>, full: Option<&mut Vec<Vec<u64>>>) {
     }
 }
 
-/// How many threads there are to work with.
+/// Number of threads to work with.
 pub(super) fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// Runs a function on consecutive parts of `items`, and puts its pieces into voxels.
+/// Runs a function on consecutive parts of `items` and collects its pieces in voxels.
 pub(super) fn collect<T: Sync>(
     screen: &RotatingScreen,
     items: &[T],
@@ -147,7 +147,7 @@ pub(super) fn collect<T: Sync>(
     }
 }
 
-/// The results of a function for the numbers below `end`, in order, each thread with a function of its own.
+/// The results of a function for the numbers below `end`, in order. Each thread gets a function of its own.
 pub(super) fn by_number<T: Send, F: FnMut(u32) -> T>(
     end: u32,
     with: impl Fn() -> F + Sync,
@@ -186,7 +186,7 @@ struct Sums {
     /// A bit for each element of `set` that is not 0.
     some: Vec<u64>,
     count: usize,
-    /// Sums that were full, and their voxels.
+    /// Sums that were full, with their voxels.
     full: Vec<(usize, u64)>,
 }
 
@@ -211,10 +211,10 @@ impl Sums {
         else {
             return;
         };
-        // Whether a piece is the first one of its voxel is anything but predictable: no branch.
+        // Whether a piece is the first of its voxel is unpredictable, so there is no branch.
         let had = u64::from(*set & bit != 0);
         let before = *sum & had.wrapping_neg();
-        // A full sum overflows, and is taken out below.
+        // A full sum overflows and is moved below.
         *sum = before.wrapping_add(piece);
         *set |= bit;
         self.count += 1 - had as usize;
@@ -227,7 +227,7 @@ impl Sums {
         }
     }
 
-    /// The voxels in order, with the means of their pieces; nothing is left.
+    /// The voxels in order, with the mean colours of their pieces. Resets the sums.
     fn taken(&mut self) -> Vec<Voxel> {
         let mut voxels = Vec::with_capacity(self.count);
         self.count = 0;
@@ -256,7 +256,7 @@ impl Sums {
     }
 }
 
-/// The parts of a voxel's sum, with those that were full.
+/// The parts of a voxel's sum, including sums that were full.
 #[cold]
 fn whole(full: &[(usize, u64)], at: usize, sum: u64) -> [u32; 4] {
     let mut whole = parts(sum);
@@ -268,12 +268,12 @@ fn whole(full: &[(usize, u64)], at: usize, sum: u64) -> [u32; 4] {
     whole
 }
 
-/// A sum divided by a count is a product with this, shifted by 36 bits.
+/// The factor that divides a sum by `count`, shifted by 36 bits.
 const fn part_of_one(count: u32) -> u64 {
     (1 << 36) / count as u64 + 1
 }
 
-/// Those of all counts that fit into a sum. There are as many divisions as voxels.
+/// Factors for all counts that fit into a sum: without them each voxel would cost a division.
 static PARTS_OF_ONE: [u64; MOST as usize + 1] = {
     let mut parts = [0; MOST as usize + 1];
     let mut count = 1;
@@ -306,7 +306,7 @@ fn mean([red, green, blue, count]: [u32; 4]) -> [u8; 3] {
     [red, green, blue].map(|sum| ((u64::from(sum + count / 2) * part) >> 36) as u8)
 }
 
-/// The places of the bits that are set, from the lowest.
+/// The indices of the set bits, from the lowest.
 fn bits(mut word: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let bit = word.trailing_zeros();

@@ -6,13 +6,13 @@
 //! the light, `dither` gives it one bit for each channel, and `stack` keeps it as a folder of pictures. `eye` shows the slices as an eye
 //! sees them, and `compare` measures the difference of two volumes.
 //!
-//! Voxels. A slice stands for the sector that the screen sweeps while it is shown, half a sector to either side of its plane. Its pixels are
-//! voxels: rings cut by sectors, a pixel high and a pixel deep. A surface lights each voxel that has a piece of it, anywhere in the sector. To draw only the
-//! line in which it meets the plane itself, as a slice of a solid would, loses everything between two planes, such as a whole surface that is parallel to them.
+//! A slice stands for the sector that the screen sweeps while it is shown, half a sector to either side of its plane. Its pixels are
+//! voxels: parts of rings, one sector long, a pixel high and a pixel deep. A surface lights each voxel that has a piece of it, anywhere in the sector. Drawing
+//! only the line in which it meets the plane, as in a slice of a solid, would lose everything between two planes, such as a surface parallel to them.
 //! No point of a surface is farther than a voxel from one of its pieces, in sectors, pixels outwards or pixels down: a slice has no gaps.
 #![forbid(unsafe_code)]
 
-// What the layer writes; all else is the command's.
+// The file that the layer writes; the other modules belong to the command.
 mod samples;
 
 #[cfg(feature = "cli")]

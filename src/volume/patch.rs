@@ -3,7 +3,7 @@
 use super::display::{Cells, Place, rounded};
 use super::fragments::{Fragments, packed};
 
-/// Over no more sectors than this, a surface is straight in the grid, to a fifth of a pixel.
+/// Over at most this many sectors a surface is linear in the grid, to a fifth of a pixel.
 pub(super) const BENT: f32 = 1.5;
 
 /// Up to this angle, in radians, and this relative change of the distance from the axis, steps in space are even enough.
@@ -12,10 +12,10 @@ const NARROW: f32 = 0.25;
 /// Pixels from the axis; a nearer point has no useful direction.
 const AXIS: f32 = 0.5;
 
-/// Pieces that are placed together.
+/// Pieces that are computed together.
 const LANES: usize = 8;
 
-/// Three coordinates, three channels, and two that are 0: loops over eight become vectors.
+/// Three coordinates, three channels, and two zeros: loops over eight are vectorised.
 pub(super) type Corner = [f32; 8];
 
 #[inline(always)]
@@ -24,14 +24,14 @@ pub(super) fn corner([x, y, z]: [f32; 3], colour: [u8; 3]) -> Corner {
     [x, y, z, f32::from(r), f32::from(g), f32::from(b), 0.0, 0.0]
 }
 
-/// How a surface between some corners lies in the grid of the voxels.
+/// The shape of a surface between some corners in the grid of the voxels.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Shape<const N: usize> {
-    /// As good as straight, with all corners within one turn, and its greatest extent in voxels.
+    /// Nearly linear in the grid, with all corners within one turn; and its greatest extent in voxels.
     Straight([Place; N], f32),
-    /// Straight in space only.
+    /// Linear in space only.
     Bent,
-    /// Too large for even steps, too near to the axis, or no surface.
+    /// Too large for even steps, too near to the axis, or no surface at all.
     Cut,
 }
 
@@ -43,7 +43,7 @@ impl<const N: usize> Shape<N> {
         let half = cells.half_planes as f32 / 2.0;
         let (_, mut turns) = extent(places.map(|p| p.turn));
         if turns > half {
-            // Across half plane 0.
+            // The surface crosses half plane 0.
             for place in &mut places {
                 place.turn += if place.turn < half { 2.0 * half } else { 0.0 };
             }
@@ -51,7 +51,7 @@ impl<const N: usize> Shape<N> {
         }
         let (near, out) = extent(places.map(|p| p.out));
         let (_, down) = extent(places.map(|p| p.down));
-        // Comparisons with what is no number are false.
+        // Comparisons with NaN are false.
         let even = near >= AXIS && out <= NARROW * near;
         if !(even && down <= 2.0 * cells.radius) {
             return Shape::Cut;
@@ -66,7 +66,7 @@ impl<const N: usize> Shape<N> {
     }
 }
 
-/// The least of some numbers, and the distance to the greatest.
+/// The least of some numbers, and the range up to the greatest.
 #[inline(always)]
 pub(super) fn extent<const N: usize>(values: [f32; N]) -> (f32, f32) {
     let (mut least, mut greatest) = (values[0], values[0]);
@@ -77,7 +77,7 @@ pub(super) fn extent<const N: usize>(values: [f32; N]) -> (f32, f32) {
     (least, greatest - least)
 }
 
-/// Steps of a voxel along a line that is straight in the grid.
+/// Steps of a voxel along a line that is linear in the grid.
 #[inline(always)]
 pub(super) fn steps(a: Place, b: Place) -> f32 {
     let greater = |a: f32, b: f32| if a > b { a } else { b };
@@ -85,8 +85,9 @@ pub(super) fn steps(a: Place, b: Place) -> f32 {
     greater(greater(turn, out), (a.down - b.down).abs())
 }
 
-/// Steps along a line in space. At the distance r from the axis the angle changes by h/r² from pixel to pixel, h that of the line's nearest point: faster
-/// than on average by no more than the distances of its ends differ. The distance changes with the angle as well, and in a slice the line has no gaps.
+/// Steps along a line in space. At distance r from the axis the angle changes by h/r² from pixel to pixel, with h the distance of the
+/// line's nearest point. This exceeds the average by no more than the ratio of the ends' distances. The distance changes with the angle as
+/// well, and in a slice the line has no gaps.
 #[inline(always)]
 fn steps_in_space(cells: &Cells, a: Place, b: Place) -> f32 {
     let turn = (a.turn - b.turn).abs();
@@ -96,7 +97,7 @@ fn steps_in_space(cells: &Cells, a: Place, b: Place) -> f32 {
     (turn + out.max(faster)).max((a.down - b.down).abs())
 }
 
-/// The steps along the upper edge between corners that lie like those of a picture, along the lower one, and the longer of the others.
+/// Steps along the upper edge, along the lower edge, and along the longer of the other two. Corners are in the order of a picture.
 #[inline(always)]
 fn edges([a, b, c, d]: &[Place; 4], steps: impl Fn(Place, Place) -> f32) -> [f32; 3] {
     let sides = (steps(*a, *c), steps(*b, *d));
@@ -104,7 +105,8 @@ fn edges([a, b, c, d]: &[Place; 4], steps: impl Fn(Place, Place) -> f32) -> [f32
     [steps(*a, *b), steps(*c, *d), longer]
 }
 
-/// Puts pieces over a surface that is straight in the grid, between corners that lie like those of a picture: left and right above, left and right below.
+/// Adds pieces over a surface that is linear in the grid. Corners are in the order of a picture: left and right above, left and right
+/// below.
 #[inline(always)]
 pub(super) fn fill_straight(corners: &[Corner; 4], places: &[Place; 4], fragments: &mut Fragments) {
     let mut placed = *corners;
@@ -119,7 +121,7 @@ pub(super) fn fill_straight(corners: &[Corner; 4], places: &[Place; 4], fragment
     });
 }
 
-/// The same over a surface that is straight in space; corners are in pixels.
+/// The same for a surface that is linear in space; corners are in pixels.
 #[inline(never)]
 pub(super) fn fill_in_space(corners: &[Corner; 4], places: &[Place; 4], fragments: &mut Fragments) {
     let cells = fragments.cells;
@@ -127,7 +129,7 @@ pub(super) fn fill_in_space(corners: &[Corner; 4], places: &[Place; 4], fragment
     fill(corners, edges, fragments, Cells::place);
 }
 
-/// The same over one of any size, anywhere.
+/// The same for a surface of any size, anywhere.
 pub(super) fn fill_anywhere(corners: &[Corner; 4], fragments: &mut Fragments) {
     let cells = fragments.cells;
     if outside(corners, cells.radius) {
@@ -149,10 +151,10 @@ pub(super) fn fill_anywhere(corners: &[Corner; 4], fragments: &mut Fragments) {
     }
     let large = places.iter().any(|p| p.out > 2.0 * cells.radius) || down > 2.0 * cells.radius;
     if !(on_axis || large) && turns.1 <= BENT {
-        // Within a sector or two it does not matter how even the steps are.
+        // Within a sector or two uneven steps do no harm.
         return fill_in_space(corners, &places, fragments);
     }
-    // Its height does not matter else.
+    // The height matters only in these cases.
     let high = on_axis || large;
     let length = |a: &Corner, b: &Corner| {
         let [x, y, z] = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -171,7 +173,7 @@ pub(super) fn fill_anywhere(corners: &[Corner; 4], fragments: &mut Fragments) {
     }
 }
 
-/// The same over a triangle.
+/// The same for a triangle.
 pub(super) fn fill_triangle(corners: &[Corner; 3], fragments: &mut Fragments) {
     let length = |i: usize, j: usize| {
         let parts = corners[i].iter().zip(&corners[j]).take(3);
@@ -182,7 +184,7 @@ pub(super) fn fill_triangle(corners: &[Corner; 3], fragments: &mut Fragments) {
     fill_anywhere(&[top, top, left, right], fragments);
 }
 
-/// The corners, first the one opposite the shortest edge. An edge has the number of the corner opposite to it.
+/// The corners, beginning with the one opposite the shortest edge. An edge has the index of the corner opposite to it.
 #[inline(always)]
 pub(super) fn turned(edges: [f32; 3]) -> [usize; 3] {
     match edges {
@@ -192,8 +194,8 @@ pub(super) fn turned(edges: [f32; 3]) -> [usize; 3] {
     }
 }
 
-/// Whether the two triangles between corners may lie a sector beside the even surface between them: so near to the axis that it matters that the diagonal
-/// is up to a quarter of the twist off that surface.
+/// Whether the two triangles between corners may lie a sector beside the bilinear surface: near the axis the deviation of the diagonal, up
+/// to a quarter of the twist, matters.
 pub(super) fn folded(cells: &Cells, [a, b, c, d]: &[Corner; 4]) -> bool {
     let (mut twist, mut near) = (0.0, 0.0);
     for i in [0, 2] {
@@ -207,7 +209,7 @@ pub(super) fn folded(cells: &Cells, [a, b, c, d]: &[Corner; 4]) -> bool {
     twist * sectors * sectors > near
 }
 
-/// Whether the box around corners is outside of the sphere.
+/// Whether the bounding box of the corners is outside of the sphere.
 fn outside([a, b, c, d]: &[Corner; 4], radius: f32) -> bool {
     let mut far = 0.0;
     for i in 0..3 {
@@ -218,7 +220,7 @@ fn outside([a, b, c, d]: &[Corner; 4], radius: f32) -> bool {
     far > radius * radius * 1.0001
 }
 
-/// A small surface no farther than a pixel from the axis: one piece in each sector that it is in, which is all where the axis goes through it.
+/// A small surface no farther than a pixel from the axis: one piece in each of its sectors, which are all where the axis passes through it.
 fn around_axis(corners: &[Corner; 4], (start, length): (f32, f32), fragments: &mut Fragments) {
     let cells = fragments.cells;
     let all = cells.half_planes as f32;
@@ -240,7 +242,7 @@ fn around_axis(corners: &[Corner; 4], (start, length): (f32, f32), fragments: &m
     }
 }
 
-/// Begin and length of the shortest arc over some directions, in sectors.
+/// Start and length of the shortest arc that covers some directions, in sectors.
 fn arc(all: f32, mut turns: [f32; 4]) -> (f32, f32) {
     turns.sort_by(f32::total_cmp);
     let [a, b, c, d] = turns;
@@ -254,7 +256,7 @@ fn arc(all: f32, mut turns: [f32; 4]) -> (f32, f32) {
     (widest.0, all - widest.1)
 }
 
-/// Puts pieces over the surface between corners. The numbers of steps are for the upper edge, the lower one, and the longer of the others.
+/// Adds pieces over the surface between corners. The numbers of steps are for the upper edge, the lower one, and the longer of the others.
 #[inline(always)]
 fn fill(
     corners: &[Corner; 4],
@@ -282,7 +284,7 @@ fn fill(
     }
 }
 
-/// Pieces at so many points, which are parts of the ways to the right and down.
+/// Adds pieces at some points, given as fractions of the way to the right and down.
 #[inline(always)]
 fn put(
     [a, b, c, d]: &[Corner; 4],
@@ -312,7 +314,7 @@ fn put(
     fragments.put_all(&places, &colours, count);
 }
 
-/// Whole steps, none longer than a voxel.
+/// A whole number of steps, none longer than a voxel.
 #[inline(always)]
 fn count(steps: f32) -> u32 {
     ((steps + 0.999_99) as u32).max(1)

@@ -1,4 +1,4 @@
-//! Where in the display the scene of a program stands.
+//! The place of a program's scene in the display.
 //!
 //! A program has an eye space in units of its own, and its field of view is mostly wider than the 11° of the display. So the scene is not
 //! scaled equally in all directions, but so that the display's viewer sees the program's own picture: 1/distance from the viewer is linear in
@@ -11,10 +11,10 @@
 use super::RotatingScreen;
 use crate::synthesis::Pinhole;
 
-/// Depth of the box before and behind the axis, in radii.
+/// Extent of the box before and behind the axis, in radii.
 const DEPTH: f64 = 0.5;
 
-/// One sample in so many, at the far and at the near end, does not count.
+/// One sample in this many is left out at the far and at the near end.
 const SPECKS: usize = 200;
 
 /// Least range of 1/w in the box, as a part of that in its middle, so that a flat scene stays flat.
@@ -28,9 +28,9 @@ const SIDE: f64 = 4.0;
 pub(super) struct Box {
     /// The viewer as a camera that sees the program's picture; its 1/w are in inches.
     pub(super) camera: Pinhole,
-    /// Slope and offset of 1/inches over 1/w.
+    /// Slope and offset of 1/distance (in 1/inches) over 1/w.
     line: [f64; 2],
-    /// Pixels to an inch in the plane of the axis.
+    /// Pixels per inch in the plane of the axis.
     scale: f64,
 }
 
@@ -61,7 +61,7 @@ impl Box {
         };
         let offset = match middle {
             Some(middle) => axis - slope * middle,
-            // A flat one stands in the middle.
+            // A flat scene stands in the middle.
             None => 0.5 * (before + behind - slope * (near + far)),
         };
         let [left, low, wide, high] = [left, low, wide, high].map(f64::from);
@@ -79,7 +79,7 @@ impl Box {
         })
     }
 
-    /// 1/inches from the viewer.
+    /// 1/distance from the viewer, in 1/inches.
     pub(super) fn inverse(&self, inverse: f64) -> f64 {
         self.line[0] * inverse + self.line[1]
     }

@@ -5,11 +5,11 @@ use super::samples::{Head, MAGIC, NOTHING, Picture, Samples};
 use super::{ReferenceImage, RotatingScreen, VolumeError};
 use crate::synthesis::{Reference, Vertex};
 
-/// A depth is that of a clear if it is no farther from it than this: one of 24 bits comes back with the error of one step.
+/// A depth within this distance of the clear depth is that of a clear: one of 24 bits is read back with an error of one step.
 const STEP: f32 = 1e-7;
 
-/// Neighbours are joined if they part by no more than this on the way to the farthest eye, pixels. Four, which views of the bench take, put sheets between
-/// surfaces: 2 to 14 % of the voxels of its models had none of the surface near them, with one less than 1 %.
+/// Neighbours are joined if their disparities differ by no more than this for the farthest eye, pixels. Four, as in views of the bench,
+/// joins separate surfaces by sheets: 2 to 14 % of the voxels of its models then had no surface near them, with one less than 1 %.
 const PARTED: f64 = 1.0;
 
 /// The source of slices.
@@ -22,7 +22,7 @@ pub enum Source {
 }
 
 impl Samples {
-    /// Reads a file.
+    /// Reads the samples from a file.
     pub fn read(bytes: &[u8]) -> Result<Samples, VolumeError> {
         let no = |reason: &str| VolumeError::Shown {
             reason: reason.to_owned(),
@@ -63,7 +63,7 @@ impl Samples {
         })
     }
 
-    /// 1/w at a depth; none where nothing was drawn.
+    /// 1/w at a depth; none where no draw has covered the pixel.
     fn inverse(&self, depth: f32) -> Option<f64> {
         let Head { clear, before, .. } = self.head;
         if (depth - clear).abs() < STEP {

@@ -1,7 +1,7 @@
-//! The reference image of a scene, by the mesh of its samples.
+//! A reference image of a scene, drawn as the mesh of its samples.
 //!
-//! Popescu et al., section VI: each sample is joined to its neighbours. The mesh is not built here. A sample is placed in the grid of the voxels once
-//! for all its neighbours, and four samples are one surface with straight sides there.
+//! Popescu et al., section VI: each sample is joined to its neighbours. The mesh is never stored. A sample is placed in the grid of the
+//! voxels once for all its neighbours, and each four samples form a bilinear surface there.
 
 use super::display::{Cells, Place};
 use super::fragments::{Fragments, collect, packed};
@@ -25,7 +25,7 @@ pub enum Joined {
 }
 
 impl Joined {
-    /// By neighbour.
+    /// From the two conditions.
     pub fn of(right: bool, below: bool) -> Joined {
         match (right, below) {
             (false, false) => Joined::Neither,
@@ -51,11 +51,11 @@ pub struct Sample {
     pub at: [f32; 3],
     /// Red, green and blue, sRGB.
     pub colour: [u8; 3],
-    /// To others.
+    /// The neighbours that it is joined to.
     pub joined: Joined,
 }
 
-/// A single-layer picture of what a viewer can see, from whatever camera: a depth image or that of an occlusion camera.
+/// A picture of the surfaces that a viewer can see, one sample a pixel, from any camera: a depth image or that of an occlusion camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceImage {
     pub(super) size: [u32; 2],
@@ -63,7 +63,7 @@ pub struct ReferenceImage {
 }
 
 impl ReferenceImage {
-    /// Samples in rows from the top.
+    /// `samples` are in rows from the top.
     pub fn new(
         size: [u32; 2],
         samples: Vec<Option<Sample>>,
@@ -84,12 +84,13 @@ impl ReferenceImage {
         self.size
     }
 
-    /// Rows from the top.
+    /// In rows from the top.
     pub fn samples(&self) -> &[Option<Sample>] {
         &self.samples
     }
 
-    /// The triangles of the mesh, two for each four samples that are joined all around; [`Volume::of_reference`] draws the same, faster.
+    /// The triangles of the mesh, two for each four samples that are joined all around. [`Volume::of_reference`] draws the same surfaces
+    /// faster.
     pub fn triangles(&self) -> Vec<super::Triangle> {
         let width = self.size[0] as usize;
         let rows = self.samples.chunks(width.max(1));
@@ -109,7 +110,7 @@ impl ReferenceImage {
     }
 }
 
-/// A sample and those to the right of it, below it, and across, if they are joined all around.
+/// A sample and its neighbours to the right, below and across, if the four are joined all around.
 #[inline(always)]
 fn quad(upper: &[Option<Sample>], lower: &[Option<Sample>], x: usize) -> Option<[Sample; 4]> {
     let corner = |row: &[Option<Sample>], x: usize| row.get(x).copied().flatten();
@@ -122,7 +123,7 @@ fn quad(upper: &[Option<Sample>], lower: &[Option<Sample>], x: usize) -> Option<
 }
 
 impl Volume {
-    /// The voxels that the mesh of a reference image goes through, and those of samples without a triangle.
+    /// The voxels of the mesh of a reference image, and those of samples without a triangle.
     pub fn of_reference(
         screen: &RotatingScreen,
         image: &ReferenceImage,
@@ -200,7 +201,7 @@ impl Row {
     }
 }
 
-/// The samples of two rows that the surfaces between them use.
+/// Marks the samples of two rows that belong to surfaces between the rows.
 fn mark(above: &[Option<Sample>], below: &[Option<Sample>], upper: &Row, lower: &mut Row) {
     for x in upper.filled.clone() {
         if quad(above, below, x).is_some() {
@@ -209,7 +210,7 @@ fn mark(above: &[Option<Sample>], below: &[Option<Sample>], upper: &Row, lower: 
     }
 }
 
-/// The surfaces between two rows, and the single samples of the upper one.
+/// Draws the surfaces between two rows, and the single samples of the upper one.
 fn draw_row(
     above: &[Option<Sample>],
     below: &[Option<Sample>],

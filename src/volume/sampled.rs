@@ -1,4 +1,4 @@
-//! Reference images of cameras that are known, as slices are made of them.
+//! Reference images of known cameras, as the source of slices.
 
 use super::{Joined, ReferenceImage, Sample};
 use crate::synthesis::{Pinhole, Reference};
@@ -22,7 +22,7 @@ impl ReferenceImage {
         }
     }
 
-    /// With another one of the same width below it, to which nothing of this one is joined.
+    /// Appends another image of the same width below this one, without joining the two.
     pub fn over(mut self, other: ReferenceImage) -> ReferenceImage {
         let width = self.size[0] as usize;
         let last = self.samples.len().saturating_sub(width);

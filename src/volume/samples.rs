@@ -9,20 +9,20 @@ use serde::{Deserialize, Serialize};
 /// The first line.
 pub(super) const MAGIC: &str = "manyview samples 1";
 
-/// Before the reason why there are none.
+/// Stands before the reason why there are no samples.
 pub(super) const NOTHING: &str = "nothing: ";
 
-/// How to read the planes.
+/// The description of the planes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Head {
     /// Pixels.
     pub size: [u32; 2],
-    /// Of the scene, as glViewport has it: left and lower edge, width and height.
+    /// Viewport of the scene as in glViewport: left and lower edge, width and height.
     pub viewport: [i32; 4],
     /// Slope and offset of 1/w over the depth.
     pub line: [f64; 2],
-    /// The part of the depth range before everything else, such as a weapon in the hand.
+    /// The part of the depth range in front of everything else, such as a weapon in the hand.
     pub before: Option<Before>,
     /// The depth of pixels that no draw has covered.
     pub clear: f32,
@@ -30,7 +30,7 @@ pub struct Head {
     pub focal: f64,
 }
 
-/// A part of the depths with distances of its own.
+/// A part of the depth range with distances of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Before {
@@ -43,10 +43,10 @@ pub struct Before {
 /// Red, green and blue by pixel, and depths.
 pub type Picture = (Vec<u8>, Vec<f32>);
 
-/// All of it.
+/// The samples of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
-    /// How to read the rest.
+    /// The description of the rest.
     pub head: Head,
     /// The program's own view.
     pub own: Picture,
@@ -57,7 +57,7 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// As a file.
+    /// The contents of the file.
     pub fn bytes(&self) -> Vec<u8> {
         let head = serde_json::to_string(&self.head).unwrap_or_default();
         let mut bytes = format!("{MAGIC}\n{head}\n").into_bytes();
@@ -72,7 +72,7 @@ impl Samples {
         bytes
     }
 
-    /// The file of a frame that has none.
+    /// The contents of the file for a frame without samples.
     pub fn nothing(why: &str) -> Vec<u8> {
         format!("{MAGIC}\n{NOTHING}{why}\n").into_bytes()
     }

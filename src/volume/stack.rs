@@ -35,7 +35,7 @@ fn display(folder: &Path) -> Result<RotatingScreen, String> {
 }
 
 impl Slices {
-    /// Whether a stack can be written there, before there is one.
+    /// Checks that a stack can be written there, before one is made.
     pub fn check_folder(folder: &Path) -> Result<(), VolumeError> {
         let checked = names(folder).map_err(|reason| VolumeError::Write {
             folder: folder.to_owned(),
@@ -44,7 +44,7 @@ impl Slices {
         checked.map(|_| ())
     }
 
-    /// Writes a stack: into a folder that is not there, that is empty, or that holds another stack and nothing else, which is then gone.
+    /// Writes a stack into a folder that does not exist, that is empty, or that holds only another stack, which is replaced.
     pub fn write(&self, folder: &Path) -> Result<(), VolumeError> {
         let no = |reason: String| VolumeError::Write {
             folder: folder.to_owned(),
@@ -96,7 +96,7 @@ impl Slices {
     }
 }
 
-/// The files that a stack may replace: the names in a folder that is there; none where there is no folder yet, but one for it.
+/// The names in an existing folder that a stack may replace; none where the folder does not exist but can be created.
 fn names(folder: &Path) -> Result<Option<Vec<String>>, String> {
     if !folder.exists() {
         let parent = folder.parent().filter(|parent| *parent != Path::new(""));
@@ -123,7 +123,7 @@ fn names(folder: &Path) -> Result<Option<Vec<String>>, String> {
     Ok(Some(names))
 }
 
-/// A folder that is there and holds no pictures of slices.
+/// Creates the folder, or removes the pictures of slices in it.
 fn make_room(folder: &Path) -> Result<(), String> {
     let Some(names) = names(folder)? else {
         return fs::create_dir(folder).map_err(|error| error.to_string());

@@ -1,7 +1,7 @@
-//! Any triangles.
+//! Volumes of arbitrary triangles.
 //!
-//! Nearly all triangles of a large scene are smaller than a voxel, and are a single piece. A larger triangle is filled with pieces: straight in the
-//! grid of the voxels where it is nearly straight there, else in space. Triangles near the axis, or that go far around it, are halved before.
+//! Nearly all triangles of a large scene are smaller than a voxel, and are a single piece. A larger triangle is filled with pieces: linearly in the
+//! grid of the voxels where it is nearly linear there, else in space. Triangles near the axis, or that go far around it, are halved before.
 
 use super::display::Place;
 use super::fragments::{Fragments, collect};
@@ -17,14 +17,14 @@ pub struct Vertex {
     pub colour: [u8; 3],
 }
 
-/// Three of them, in either direction.
+/// Three corners, in either order.
 pub type Triangle = [Vertex; 3];
 
 /// Triangles whose corners are placed together.
 const BLOCK: usize = 64;
 
 impl Volume {
-    /// The voxels that triangles go through. Parts outside of the sphere are cut off; corners that are no numbers make no triangle.
+    /// The voxels that triangles go through. Parts outside of the sphere are cut off; a triangle with a NaN is left out.
     pub fn of_triangles(
         screen: &RotatingScreen,
         triangles: &[Triangle],

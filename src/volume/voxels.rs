@@ -20,7 +20,7 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// Of which display.
+    /// The display of the voxels.
     pub fn screen(&self) -> &RotatingScreen {
         &self.screen
     }
@@ -30,12 +30,12 @@ impl Volume {
         &self.half_planes
     }
 
-    /// Voxels that are set.
+    /// Number of voxels.
     pub fn len(&self) -> usize {
         self.half_planes.iter().map(Vec::len).sum()
     }
 
-    /// Whether none is.
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.half_planes.iter().all(Vec::is_empty)
     }

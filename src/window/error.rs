@@ -1,4 +1,4 @@
-//! Why there is no window; every message is one sentence with the remedy.
+//! Errors of the window; every message is one sentence with the remedy.
 #![forbid(unsafe_code)]
 
 use x11rb::errors::{ConnectError, ConnectionError, ReplyError, ReplyOrIdError};
@@ -6,26 +6,26 @@ use x11rb::errors::{ConnectError, ConnectionError, ReplyError, ReplyOrIdError};
 /// Why a picture cannot be shown.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
-    /// No X server.
+    /// There is no X server.
     #[error("no window can be opened: {0}; set DISPLAY to the X server that drives the panel")]
     Connect(#[from] ConnectError),
-    /// The server or the way to it.
+    /// The X server or the connection to it failed.
     #[error("the X server has closed the window: {0}; start again")]
     Server(String),
-    /// Colours are not bytes in a pixel of four.
+    /// The screen has no 24-bit true colour in pixels of four bytes.
     #[error(
         "the X screen has no 24-bit true colour; use one that has, as the panel shows nothing right without"
     )]
     Colours,
-    /// No such monitor.
+    /// There is no such monitor.
     #[error("--monitor '{wanted}': there is no such monitor; give one of {known}")]
     Monitor {
-        /// As asked for.
+        /// As the user wrote it.
         wanted: String,
-        /// Names and sizes.
+        /// Numbers, names and sizes of the monitors that exist.
         known: String,
     },
-    /// A picture for another monitor.
+    /// The picture is larger than the monitor.
     #[error(
         "the picture is {}x{} pixels and monitor {monitor} has {}x{}; give the --monitor that is the panel, or its --size",
         picture.0, picture.1, size.0, size.1

@@ -1,7 +1,7 @@
-//! A window of our own that covers a monitor and shows a picture, pixel by pixel; and the keys that are pressed in it.
+//! A window that covers a monitor and shows a picture pixel by pixel, and reports the keys that are pressed in it.
 //!
-//! Plain X11 without a toolkit: pixels have to reach the panel as they are. The picture is the window's background, so the server
-//! draws it again by itself where it was covered.
+//! It uses plain X11 without a toolkit, because pixels have to reach the panel unchanged. The picture is the window's background, so the
+//! server itself redraws parts that were covered.
 #![forbid(unsafe_code)]
 
 mod error;
@@ -24,7 +24,7 @@ use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
 
 x11rb::atom_manager! {
-    /// Names that window managers know.
+    /// Names of the protocols with window managers.
     Atoms: AtomsCookie {
         WM_PROTOCOLS,
         WM_DELETE_WINDOW,
@@ -40,12 +40,12 @@ x11rb::atom_manager! {
 
 const DEPTH: u8 = 24;
 
-/// What happens to a window.
+/// An event of the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// A key goes down: its keysym without Shift, and whether Shift is held.
+    /// A key was pressed: its keysym without Shift, and whether Shift is held.
     Key(u32, bool),
-    /// The user closes the window.
+    /// The window was closed.
     Close,
 }
 
@@ -62,7 +62,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// Opens a black window over a monitor: the one that is wanted, else that of the panel's size, else the primary one.
+    /// Opens a black window over a monitor: the `wanted` one by name or number, else one of the panel's size, else the primary one.
     pub fn open(
         title: &str,
         wanted: Option<&str>,
@@ -116,7 +116,7 @@ impl Window {
         Ok(window)
     }
 
-    /// Tells a window manager what the window is to be: the whole monitor, undecorated, and not drawn by way of a compositor.
+    /// Asks the window manager for a window over the whole monitor, without decorations and without a compositor.
     fn introduce(&self, title: &str) -> Result<(), WindowError> {
         let (c, id, atoms) = (&self.connection, self.id, &self.atoms);
         let string = AtomEnum::STRING;
@@ -145,13 +145,13 @@ impl Window {
                 AtomEnum::CARDINAL.into(),
                 vec![1],
             ),
-            // Flags: the decorations are given, and there are none.
+            // The flag says that the decorations field is given, which asks for none.
             (
                 atoms._MOTIF_WM_HINTS,
                 atoms._MOTIF_WM_HINTS,
                 vec![2, 0, 0, 0, 0],
             ),
-            // Size hints with the user's own place: the window manager looks for no better one.
+            // USPosition: the user has placed the window, so the window manager does not move it.
             (
                 AtomEnum::WM_NORMAL_HINTS.into(),
                 AtomEnum::WM_SIZE_HINTS.into(),
@@ -168,7 +168,7 @@ impl Window {
         Ok(())
     }
 
-    /// Without a window manager nobody else gives the window the keys.
+    /// Takes the keyboard focus where there is no window manager to give it.
     fn focus(&self, root: Id) -> Result<(), WindowError> {
         let c = &self.connection;
         let check = self.atoms._NET_SUPPORTING_WM_CHECK;
@@ -180,12 +180,12 @@ impl Window {
         Ok(())
     }
 
-    /// Where the window is.
+    /// The monitor that the window covers.
     pub fn monitor(&self) -> &Monitor {
         &self.monitor
     }
 
-    /// Refuses a picture that is larger than the monitor.
+    /// [`WindowError::TooLarge`] for a picture that is larger than the monitor.
     pub fn check(&self, picture: (u32, u32)) -> Result<(), WindowError> {
         let (monitor, size) = (self.monitor.name.clone(), self.monitor.size);
         if picture.0 > size.0 || picture.1 > size.1 {
@@ -198,7 +198,7 @@ impl Window {
         Ok(())
     }
 
-    /// Shows a picture from the left top corner of the monitor on; the rest is black. What reaches beyond is not seen.
+    /// Shows a picture at the top left corner of the monitor. The rest of the window is black; a larger picture is clipped.
     pub fn show(&mut self, picture: &RgbImage) -> Result<(), WindowError> {
         let (width, height) = self.monitor.size;
         let mut data = vec![0; width as usize * height as usize * 4];
@@ -219,7 +219,7 @@ impl Window {
             ImageOrder::LsbFirst,
             Cow::Owned(data),
         );
-        // A screen whose pixels are not four bytes each.
+        // This fails on a screen whose pixels are not four bytes each.
         let image = image.map_err(|_| WindowError::Colours)?;
         let image = image.native(c.setup()).map_err(|_| WindowError::Colours)?;
         let pixmap = c.generate_id()?;
@@ -228,13 +228,13 @@ impl Window {
         let background = ChangeWindowAttributesAux::new().background_pixmap(pixmap);
         c.change_window_attributes(id, &background)?;
         c.clear_area(false, id, 0, 0, 0, 0)?;
-        // The window keeps it.
+        // The window keeps a reference of its own.
         c.free_pixmap(pixmap)?;
         c.sync()?;
         Ok(())
     }
 
-    /// Waits for the next thing that happens.
+    /// Waits for the next event.
     pub fn wait(&mut self) -> Result<Event, WindowError> {
         loop {
             match self.connection.wait_for_event()? {

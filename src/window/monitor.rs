@@ -9,17 +9,17 @@ use x11rb::protocol::xproto::{ConnectionExt as _, Screen};
 /// A monitor of an X screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Monitor {
-    /// As `xrandr --listmonitors` says it.
+    /// The name that `xrandr --listmonitors` prints.
     pub name: String,
-    /// Left top corner on the X screen.
+    /// Top left corner on the X screen, in pixels.
     pub at: (i16, i16),
-    /// Pixels.
+    /// Width and height in pixels.
     pub size: (u32, u32),
-    /// The one that the user calls primary.
+    /// The user has made it the primary monitor.
     pub primary: bool,
 }
 
-/// All monitors; the whole screen where the server knows of none.
+/// All monitors. Where the server reports none, the whole screen counts as one.
 pub(super) fn all(
     connection: &impl Connection,
     screen: &Screen,
@@ -55,7 +55,7 @@ pub(super) fn all(
     Ok(found)
 }
 
-/// The monitor that is asked for by name or number from 0; else the one of the panel's size, the primary one, the first.
+/// The monitor with the `wanted` name or number from 0. Without `wanted`, the first of the panel's size, else the primary one, else the first.
 pub(super) fn choose(
     mut monitors: Vec<Monitor>,
     wanted: Option<&str>,

@@ -1,5 +1,5 @@
-//! A camera before a panel with a lens sheet, sharing no code with the library: it follows rays from the sensor through
-//! a bent lens to the sheet, and from there to a subpixel.
+//! A camera before a panel with a lens sheet, sharing no code with the library: it follows rays from the sensor through a distorting camera
+//! lens to the sheet, and from there to a subpixel.
 //!
 //! Millimetres, from the middle of the panel: x right, y down, z towards the camera. The pixels are at z = 0, the lenses
 //! at z = gap.
@@ -13,11 +13,11 @@ use std::f64::consts::TAU;
 pub(crate) const PIXEL: f64 = 0.25;
 /// Bezel around the panel, mm.
 const BEZEL: f64 = 12.0;
-/// Rays per pixel of the photo, and subpixels looked at per ray.
+/// Rays per pixel of the photo (squared), and subpixels sampled per ray.
 const RAYS: usize = 2;
 const TAPS: usize = 3;
 
-/// The sheet as it really is; lengths in subpixels as in the display file.
+/// The sheet's true geometry; lengths in subpixels as in the display file.
 #[derive(Clone, Debug)]
 pub(crate) struct Sheet {
     pub(crate) size: (u32, u32),
@@ -33,7 +33,7 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
-    /// Phase at a place of the panel in pixels from its top left corner, in lenses, not taken modulo 1.
+    /// Phase at a point of the panel in pixels from its top left corner, in lenses, not taken modulo 1.
     pub(crate) fn phase(&self, x: f64, y: f64) -> f64 {
         let plane = 3.0 * x - 0.5 + self.slant * (y - 0.5) + self.offset;
         (plane + self.bias_at(x, y)) / self.pitch
@@ -48,7 +48,7 @@ impl Sheet {
         row(j) * (1.0 - fv) + row(j + 1) * fv
     }
 
-    /// mm: a lens as wide as the pitch spreads it over the cone.
+    /// Distance of the lenses from the pixels, mm: a lens as wide as the pitch spreads it over the cone.
     pub(crate) fn gap(&self) -> f64 {
         self.pitch / 3.0 * PIXEL / 2.0 / (self.cone / 2.0).to_radians().tan()
     }
@@ -61,23 +61,23 @@ pub(crate) struct Shot {
     pub(crate) size: (u32, u32),
     /// mm from the middle of the panel.
     pub(crate) eye: [f64; 3],
-    /// Radians: yaw, pitch and roll after looking straight at the middle of the panel.
+    /// Yaw, pitch and roll in radians; all 0 look straight at the middle of the panel.
     pub(crate) aim: [f64; 3],
     /// Pixels.
     pub(crate) focal: f64,
     /// Optical axis from the middle of the photo, pixels.
     pub(crate) axis: [f64; 2],
-    /// Brown's k1 over the half diagonal, from straight to bent.
+    /// Brown's k1 for the half diagonal, from ideal to distorted.
     pub k1: f64,
     /// Light lost at the corner of the photo, 0 to 1.
     pub(crate) vignette: f64,
     /// Standard deviation, pixels.
     pub(crate) blur: f64,
-    /// What white becomes in R, G, B.
+    /// The R, G and B of white in the photo.
     pub(crate) white: [f64; 3],
     /// Light that goes to the neighbouring views, 0 to 1.
     pub(crate) crosstalk: f64,
-    /// Centre (panel pixels), radius and strength of the mirror image of a lamp.
+    /// Centre (panel pixels), radius and strength of a lamp's reflection.
     pub(crate) lamp: Option<[f64; 4]>,
     /// Light of the wall behind the panel.
     pub(crate) wall: f64,
@@ -106,7 +106,7 @@ fn unit(a: V) -> V {
     a.map(|v| v / length)
 }
 
-/// Columns: where the camera's right, down and forward point.
+/// The camera's axes as columns: right, down and forward.
 fn axes(shot: &Shot) -> [V; 3] {
     let forward = unit(shot.eye.map(|v| -v));
     // With y down and z towards the camera, the axes are left-handed.
@@ -141,7 +141,7 @@ pub(crate) fn expose(
     let gap = sheet.gap();
     let mut light = vec![[0.0f32; 3]; (width * height) as usize];
     let (mut sum, mut square, mut count) = (0.0, 0.0, 0.0);
-    // Perpendicular to the lenses, per turn of phase, in pixels.
+    // Distance in pixels, at a right angle to the lenses, per turn of phase.
     let norm = (9.0 + sheet.slant * sheet.slant) / sheet.pitch;
     let across = [3.0 / norm, sheet.slant / norm];
     for (i, out) in light.iter_mut().enumerate() {
@@ -170,7 +170,7 @@ pub(crate) fn expose(
                 bent[1] * scale * half / shot.focal,
             );
             let d = [0, 1, 2].map(|k: usize| axes[0][k] * cx + axes[1][k] * cy + axes[2][k]);
-            // On the sheet, in pixels of the panel.
+            // The point on the sheet, in pixels of the panel.
             let steps = (gap - shot.eye[2]) / d[2];
             let qx = (shot.eye[0] + d[0] * steps) / PIXEL + panel.0 / 2.0;
             let qy = (shot.eye[1] + d[1] * steps) / PIXEL + panel.1 / 2.0;
@@ -193,7 +193,7 @@ pub(crate) fn expose(
             let sideways = turned(straight[0] - qx, straight[1] - qy);
             let wanted = sheet.phase(qx, qy).floor() + 0.5 + sideways;
             for tap in 0..TAPS {
-                // A spot of two subpixels, and its neighbours one view to either side.
+                // A spot of two subpixels, with crosstalk from one view to either side.
                 let spread = ((tap as f64 + random.unit()) / TAPS as f64 - 0.5) * 2.0 / sheet.pitch;
                 let leak = random.unit();
                 let leak = if leak < shot.crosstalk / 2.0 {
@@ -279,7 +279,7 @@ fn blurred(light: &[[f32; 3]], (width, height): (u32, u32), sigma: f64) -> Vec<[
 }
 
 impl Exposure {
-    /// The JPEG file: noise so many dB below the variation over the panel, sRGB, 8 bits, JPEG of a quality.
+    /// The JPEG file: sRGB, 8 bits, at a quality, with noise `snr` dB below the variation over the panel.
     pub(crate) fn jpeg(&self, snr: f64, quality: u8, random: &mut Random) -> Vec<u8> {
         let sigma = self.signal * 10f64.powf(-snr / 20.0);
         let table: Vec<f32> = (0..1 << 15)
@@ -304,7 +304,7 @@ impl Exposure {
     }
 }
 
-/// sRGB.
+/// The sRGB transfer function.
 fn encoded(v: f64) -> u8 {
     let v = if v <= 0.003_130_8 {
         12.92 * v

@@ -1,4 +1,4 @@
-//! The panel of docs/gallery.md that is described wrongly, and two photos of it.
+//! The panel of docs/gallery.md with a wrong description, and two photos of it.
 
 use super::camera::{Sheet, expose};
 use super::random::Random;
@@ -7,7 +7,7 @@ use super::{QUALITY, support};
 use manyview::calibrate::{Setup, pattern};
 use std::fs;
 
-/// What somebody believes of the panel: 0.4 % off in the pitch, as sheets come from a factory.
+/// The owner's assumption about the pitch: 0.4 % off, as sheets vary in production.
 const PITCH: f64 = 8.0;
 const SLANT: f64 = 0.66;
 
@@ -40,7 +40,7 @@ fn gallery_photos() {
         fs::write(folder.join(name), photo).expect("written");
     }
     let sheet = &scene.sheet;
-    // The phase of the photos counts from the middle of subpixels, as that of displays does.
+    // The phase of the photos counts from the middle of subpixels, like that of displays.
     let truth = description("true", sheet.pitch, sheet.slant, sheet.offset);
     fs::write(folder.join("true.toml"), truth).expect("written");
     fs::write(

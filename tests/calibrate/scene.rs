@@ -1,4 +1,4 @@
-//! Random displays and photographers.
+//! Random displays and cameras.
 
 use super::camera::{PIXEL, Sheet, Shot};
 use super::random::Random;
@@ -8,12 +8,12 @@ use manyview::calibrate::Setup;
 pub(crate) const PANEL: (u32, u32) = (960, 540);
 const PHOTO: (u32, u32) = (1200, 800);
 
-/// A display, what its owner knows of it, and three photos.
+/// A display, its owner's knowledge of it, and three photos.
 pub(crate) struct Scene {
     pub(crate) sheet: Sheet,
     pub(crate) setup: Setup,
     pub(crate) shots: Vec<Shot>,
-    /// What EXIF says.
+    /// Focal length from EXIF, as for 35 mm film.
     pub(crate) equivalent: Option<f64>,
 }
 

@@ -13,7 +13,7 @@ use tempfile::TempDir;
 
 pub(crate) const LIMIT: Duration = Duration::from_secs(60);
 
-/// Equal pixel by pixel.
+/// Checks that two pictures are equal pixel by pixel.
 #[track_caller]
 pub(crate) fn same(left: &RgbImage, right: &RgbImage, what: &str) {
     assert_eq!(left.dimensions(), right.dimensions(), "{what}");
@@ -21,7 +21,7 @@ pub(crate) fn same(left: &RgbImage, right: &RgbImage, what: &str) {
     assert_eq!(differ.count(), 0, "{what}: pixels that differ");
 }
 
-/// Waits until something is there.
+/// Waits until `look` finds something.
 #[track_caller]
 pub(crate) fn until<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let limit = Instant::now() + LIMIT;
@@ -38,10 +38,10 @@ pub(crate) fn stays() -> PathBuf {
     compiled("stays", Compiled::Program, &["-lGL", "-lX11"])
 }
 
-/// A program that draws until its end is asked for.
+/// A program that draws until it is asked to end.
 pub(crate) struct Running {
     child: Option<Child>,
-    /// XDG_RUNTIME_DIR of the program and of `ctl`; other files are here too.
+    /// XDG_RUNTIME_DIR of the program and of `ctl`, and the folder of other files.
     pub(crate) folder: TempDir,
 }
 
@@ -54,7 +54,7 @@ impl Running {
         )
     }
 
-    /// With the files `stop` and `shoot` in the folder.
+    /// Starts a program that takes the paths of the files `stop` and `shoot` in the folder.
     pub(crate) fn start_in(folder: TempDir, screen: &Screen, command: &mut Command) -> Self {
         command
             .arg(folder.path().join("stop"))
@@ -95,7 +95,7 @@ impl Running {
         stream
     }
 
-    /// Sends a line and reads one.
+    /// Sends a line and reads the answer.
     pub(crate) fn say(&self, line: &str) -> serde_json::Value {
         let mut stream = self.connect();
         writeln!(stream, "{line}").expect("sent");
@@ -116,7 +116,7 @@ impl Running {
         stdout
     }
 
-    /// What the next frame holds.
+    /// A capture of the next frame.
     #[track_caller]
     pub(crate) fn capture(&self, what: &str) -> RgbImage {
         let path = self.path("captured.png");
@@ -126,7 +126,7 @@ impl Running {
         picture
     }
 
-    /// What the window shows, seen by X.
+    /// The picture of the window, read through X.
     #[track_caller]
     pub(crate) fn window(&self) -> RgbImage {
         let shot = self.path("shot.ppm");
@@ -137,7 +137,7 @@ impl Running {
         picture
     }
 
-    /// Ends the program by its own way; answers its status and what it said.
+    /// Asks the program to end; returns its status and its stderr.
     pub(crate) fn end(&mut self) -> (Option<i32>, String) {
         std::fs::write(self.path("stop"), "").expect("written");
         let output = self.child.take().expect("it runs").wait_with_output();
@@ -163,7 +163,7 @@ pub(crate) fn ctl(folder: &Path) -> Command {
 }
 
 impl Running {
-    /// The window, when two pictures in a row are the same: X has nothing in the way any more.
+    /// The picture of the window once two in a row are the same: X has no drawing queued any more.
     pub(crate) fn steady_window(&self) -> RgbImage {
         let mut last = self.window();
         until("a steady picture", || {

@@ -10,9 +10,9 @@ use manyview::fixed::{
 
 /// One draw with its state.
 pub(crate) struct Case {
-    /// What the generator gets.
+    /// The generator's input.
     pub(crate) key: FixedKey,
-    /// What `ffcheck` gets, but for the patches.
+    /// `ffcheck`'s input, except for the patches.
     pub(crate) text: String,
     /// The mode of the program, for the table of results.
     pub(crate) mode: &'static str,
@@ -20,7 +20,7 @@ pub(crate) struct Case {
     pub(crate) views: u8,
 }
 
-/// Modes of the program, what they are drawn as through a geometry shader, and what that is fed.
+/// Modes of the program, the mode that is drawn in its place through a geometry shader, and the shader's input.
 const MODES: [(&str, &str, Primitive); 11] = [
     ("GL_POINTS", "GL_POINTS", Primitive::Points),
     ("GL_LINES", "GL_LINES", Primitive::Lines),
@@ -62,7 +62,7 @@ pub(crate) fn case(number: usize) -> Case {
     w.say("modelview", floats(&IDENTITY));
     let (projection, modelview) = matrices(&mut w.random);
     w.say("projection", floats(&projection));
-    // Positions and planes are stored under the modelview matrix of the time.
+    // Positions and planes are transformed by the modelview matrix of the time when they are set.
     let early = w.random.chance(50);
     if !early {
         w.say("modelview", floats(&modelview));
@@ -151,17 +151,17 @@ fn write_target(w: &mut Writer, number: usize) -> (&'static str, u8) {
         w.say("provoking", "GL_FIRST_VERTEX_CONVENTION");
     }
     if primitive == Primitive::Quads && instanced && !first && !w.key.flat {
-        // Cut in one way or the other by what else is clipped, here and in the reference: see `Diagonal`.
+        // Other clipping decides which diagonal cuts the quad, here and in the reference: see `Diagonal`.
         w.key.flat = true;
         w.say("shade", "GL_FLAT");
     }
-    // llvmpipe: quads do not follow the convention, so `Provoking::First` would be wrong for them.
+    // llvmpipe: quads ignore the convention, so `Provoking::First` would be wrong for them.
     w.key.provoking = Provoking::Last;
     write_diagonal(w, primitive, first);
     (mode, views)
 }
 
-/// See [`Diagonal`] for what llvmpipe does.
+/// The diagonal of quads; see [`Diagonal`] for llvmpipe's choice.
 fn write_diagonal(w: &mut Writer, primitive: Primitive, first: bool) {
     if primitive == Primitive::QuadStrip {
         w.key.target.diagonal = Diagonal::ZeroTwo;
@@ -170,7 +170,7 @@ fn write_diagonal(w: &mut Writer, primitive: Primitive, first: bool) {
         && !first
         && w.key.target.amplifier != Amplifier::Instanced
     {
-        // The driver's choice is not ours to know, so the reference is two triangles.
+        // The driver's choice is not known, so the reference draws two triangles.
         let (diagonal, cut) = w
             .random
             .pick(&[(Diagonal::OneThree, 13), (Diagonal::ZeroTwo, 2)]);
@@ -249,7 +249,7 @@ fn write_light(w: &mut Writer, index: usize) -> Light {
         "light",
         format!("{index} GL_POSITION {} {fourth}", floats(&position)),
     );
-    // A light set twice has the state of the second time.
+    // The second setting of a light replaces the first.
     let spot = if light.spot {
         w.random.float(25.0, 80.0)
     } else {
@@ -322,7 +322,7 @@ fn write_material(w: &mut Writer, lighting: &mut Lighting) {
             (MaterialMode::Specular, "GL_SPECULAR"),
             (MaterialMode::AmbientAndDiffuse, "GL_AMBIENT_AND_DIFFUSE"),
         ]);
-        // Refused for Mesa as well.
+        // Refused for Mesa as well (`Unsupported::DriverQuirk`).
         let lit = lighting.lights.iter().any(Option::is_some);
         let back_product = face == MaterialFace::Back && mode != MaterialMode::Emission;
         if lighting.two_side && lit && back_product || mode == MaterialMode::Specular && any_dull {
@@ -346,7 +346,7 @@ fn write_planes(w: &mut Writer) {
             "clip_plane",
             format!("{plane} {} {}", floats(&[a, b, c]), d),
         );
-        // The headers of fixed function have names for six.
+        // The headers of fixed function define names for six planes only.
         const CLIP_PLANE0: usize = 0x3000;
         w.say("enable", (CLIP_PLANE0 + plane).to_string());
         w.key.clip_planes |= 1 << plane;
@@ -405,7 +405,7 @@ fn write_points(w: &mut Writer) {
     }
     w.key.point = PointSize::Constant;
     if w.key.target.tiles != Tiles::Layer {
-        // Larger ones leak out of clipped tiles: `Unsupported::WidePoints`.
+        // Larger points leak out of clipped tiles: `Unsupported::WidePoints`.
         return;
     }
     let size = w.random.float(1.0, 12.0);
@@ -467,7 +467,7 @@ fn write_units(w: &mut Writer) {
             let mut m: Matrix = std::array::from_fn(|_| w.random.float(-0.3, 0.3));
             for part in 0..4 {
                 m[5 * part] += 1.0;
-                // Away from q = 0, where everything is infinitely steep.
+                // Keeps away from q = 0, where coordinates diverge.
                 m[4 * part + 3] *= 0.1;
             }
             w.say("texture_matrix", format!("{unit} {}", floats(&m)));

@@ -1,9 +1,9 @@
-//! Runs `ffcheck` and reads what it says.
+//! Runs `ffcheck` and parses its output.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// One line of `ffcheck`.
+/// The result of one case: a line of `ffcheck`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Difference {
     pub(crate) worst: u64,
@@ -52,7 +52,7 @@ impl Difference {
     }
 }
 
-/// Builds `ffcheck`, anew when its source is younger.
+/// Builds `ffcheck`, again when its source is newer.
 fn build() -> PathBuf {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixed/ffcheck.c");
     let binary = Path::new(env!("CARGO_TARGET_TMPDIR")).join("ffcheck");
@@ -75,7 +75,7 @@ fn build() -> PathBuf {
     binary
 }
 
-/// Draws the first `count` cases of a folder; its lines by number of the case, and what it says of the driver.
+/// Draws the first `count` cases of a folder; returns the results by number of the case, and `ffcheck`'s line about the driver.
 pub(crate) fn run(folder: &Path, count: usize) -> (Vec<(usize, Difference)>, String) {
     let mut command = Command::new(build());
     command.arg(folder).arg(count.to_string());

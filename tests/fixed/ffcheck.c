@@ -99,12 +99,12 @@ static void to_floats(const double *from, int count, float *to)
         to[i] = (float)from[i];
 }
 
-/* Textures of the case, deleted after it. */
+/* Textures of the case, which are deleted after it. */
 static GLuint images[UNITS];
 static int image_count;
 
-/* UNIT TARGET FORMAT SIZE MINFILTER LEVELS BIAS: a wavy texture, each of its levels in a tint of its own, bound. Fewer
- * levels than a filter with mipmaps needs make it incomplete. */
+/* UNIT TARGET FORMAT SIZE MINFILTER LEVELS BIAS: makes and binds a smooth texture, each level in a tint of its own. With fewer levels than a
+ * filter with mipmaps needs it is incomplete. */
 static void make_image(const double *a)
 {
     enum { S = 256 };
@@ -137,7 +137,7 @@ static void make_image(const double *a)
     }
 }
 
-/* Everything that a case can say. GL state is set at once; the state of the draw is kept in `c`. */
+/* Runs one verb. GL state is set at once; the state of the draw is kept in `c`. */
 static void run_line(const char *verb, const double *a, int n)
 {
     float f[MAX_ARGS];
@@ -237,7 +237,7 @@ static void run_case(char *text)
     }
 }
 
-/* Back to the state of a new context, as far as the verbs change it and glPushAttrib does not save it. */
+/* Restores the state of a new context, as far as the verbs change it and glPushAttrib does not save it. */
 static void begin_case(void)
 {
     memset(&c, 0, sizeof c);
@@ -393,7 +393,7 @@ static void push_floor(void)
     end_part(0);
 }
 
-/* Vertices and parts (one glBegin each) for a mode. `reindexed`: quad strips as lists of four. `cut`: see above. */
+/* Builds vertices and parts (one glBegin each) for a mode. `reindexed`: quad strips as lists of four. `cut`: as in the case. */
 static void build(GLenum mode, int reindexed, int cut)
 {
     static const int whole[] = { 0, 1, 2, 3 }, cut13[] = { 0, 1, 3, 1, 2, 3 }, cut02[] = { 0, 1, 2, 0, 2, 3 };
@@ -593,7 +593,7 @@ static void clear(void)
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-/* A window of which the picture takes every `spacing`th column. */
+/* Draws a window, every `spacing`th column of which is copied to the picture. */
 static void draw_window(void)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, tiles_fbo);
@@ -704,7 +704,7 @@ static void draw_program(GLuint program)
         glGetFloatv(GL_MODELVIEW_MATRIX, m);
         for (int k = 0; k < 4; k++)
             first_rows[view][k] = q[0] * m[4 * k] + q[4] * m[4 * k + 1] + q[8] * m[4 * k + 2] + q[12] * m[4 * k + 3];
-        /* The middle of column i is that of the window's column spacing * i + offset. */
+        /* The centre of column i is that of the window's column spacing * i + offset. */
         double shift = c.spacing ? 0.5 - (c.offset + 0.5) / c.spacing : 0;
         places[view][0] = (float)((2.0 * (tile_x(view) + p[0] + shift) + p[2]) / width - 1);
         places[view][1] = (float)((2.0 * (tile_y(view) + p[1]) + p[3]) / height - 1);
@@ -743,7 +743,7 @@ static void draw_program(GLuint program)
     read_views(&program_picture);
 }
 
-/* ---- textures: smooth, so that a coordinate's last bit does not show ---- */
+/* ---- textures: smooth, so that rounding of coordinates does not show ---- */
 
 static void make_textures(void)
 {
@@ -776,7 +776,7 @@ static void make_textures(void)
                     glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + (GLenum)face, 0, GL_RGB8, S, S, 0, GL_RGB,
                                  GL_UNSIGNED_BYTE, texels[4 * face]);
         }
-        /* The first unit multiplies, the others mix, so that no unit drowns in the others. */
+        /* The first unit multiplies and the others mix, so that every unit stays visible. */
         static const float part[4] = { 0.35f, 0.35f, 0.35f, 0.35f };
         if (unit) {
             glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);

@@ -13,11 +13,11 @@ const USED: usize = 4;
 
 /// One draw with its state.
 pub(crate) struct Fragments {
-    /// What the generator of the vertex stage gets.
+    /// Input of the generator of the vertex stage.
     pub(crate) vertex: FixedKey,
-    /// What the generator of the fragment stage gets.
+    /// Input of the generator of the fragment stage.
     pub(crate) key: FragmentKey,
-    /// What `ffcheck` gets, but for the patches.
+    /// `ffcheck`'s input, except for the patches.
     pub(crate) text: String,
 }
 
@@ -96,7 +96,7 @@ pub(crate) fn case(number: usize) -> Fragments {
     }
 }
 
-/// Three views side by side with nothing but the fragment stage to keep them apart, by instances or a geometry shader.
+/// Three views side by side that only the fragment stage keeps apart, by instances or a geometry shader.
 pub(crate) fn discarding(number: usize) -> Fragments {
     let mut w = Writer {
         random: Random(number as u64 * 3001 + 7),
@@ -139,8 +139,7 @@ pub(crate) fn discarding(number: usize) -> Fragments {
     }
 }
 
-/// A floor that runs away from the eye under a texture with all its levels; the tile has every `spacing`th column of
-/// the window.
+/// A receding floor under a texture with all its levels; the tile has every `spacing`th column of the window.
 pub(crate) fn floor(number: usize, spacing: u32, filter: &str) -> Fragments {
     let mut w = Writer {
         random: Random(number as u64 * 911 + 5),
@@ -163,11 +162,11 @@ pub(crate) fn floor(number: usize, spacing: u32, filter: &str) -> Fragments {
         environment: Environment::Replace,
     });
     let mut projection = IDENTITY;
-    // The window's pixels are square, so the picture is a flat band of it.
+    // The window's pixels are square, so the picture is a wide strip of it.
     let tall = 0.9 * f64::from(spacing);
     (projection[0], projection[5], projection[10]) = (0.9, tall, -1.05);
     (projection[11], projection[14], projection[15]) = (-1.0, -2.05, 0.0);
-    // Looks down onto the floor, and is banked a little: no row has one level of detail.
+    // Looks down onto the floor with a small roll, so that the level of detail varies along each row.
     let (down, bank) = (w.random.float(0.25, 0.6), w.random.float(-0.2, 0.2));
     let modelview = crate::matrices::multiply(
         &crate::matrices::turn(2, bank),
@@ -251,7 +250,7 @@ fn write_unit(w: &mut Writer, unit: usize) -> Option<FragmentUnit> {
     ]);
     let (format, internal) = w.random.pick(&FORMATS);
     let (size, filter) = match target {
-        // Coordinates of the mesh are about 1: texels of a rectangle as large as a few pixels.
+        // Coordinates of the mesh are about 1, so a texel of a rectangle covers as much as a few pixels.
         TextureTarget::Rectangle => (4, "GL_LINEAR"),
         TextureTarget::ThreeD => (32, "GL_LINEAR_MIPMAP_LINEAR"),
         _ => (
@@ -307,7 +306,7 @@ fn write_environment(w: &mut Writer, unit: usize, format: BaseFormat) -> Environ
         w.say("env", format!("{unit} GL_TEXTURE_ENV_MODE GL_COMBINE"));
         return Environment::Combine(combine);
     }
-    // A decal of another format is undefined.
+    // A decal of any other format is undefined.
     let defined = matches!(format, BaseFormat::Rgb | BaseFormat::Rgba);
     let (mode, name) = w.random.pick(&modes[..if defined { 5 } else { 4 }]);
     w.say("env", format!("{unit} GL_TEXTURE_ENV_MODE {name}"));

@@ -13,7 +13,7 @@ pub(crate) fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| (0..4).map(|k| a[4 * k + i % 4] * b[4 * (i / 4) + k]).sum())
 }
 
-/// Turn about one axis (0 to 2), radians.
+/// Rotation about one axis (0 to 2), radians.
 pub(crate) fn turn(axis: usize, angle: f64) -> Matrix {
     let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut m = IDENTITY;

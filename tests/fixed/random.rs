@@ -12,7 +12,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// In [low, high), with few digits so that the text holds it exactly enough.
+    /// A number in [low, high), with so few digits that the text holds it exactly.
     pub(crate) fn float(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 40) as f64 / (1u64 << 24) as f64;
         ((low + (high - low) * unit) * 10_000.0).round() / 10_000.0

@@ -1,6 +1,6 @@
-/* Ways in which programs come by OpenGL and use its contexts:
+/* Ways in which programs load OpenGL and use its contexts:
  *
- *   host draws PLUGIN HOW   the context is made here, the plugin draws
+ *   host draws PLUGIN HOW   the host makes the context, the plugin draws
  *   host all PLUGIN HOW     the plugin does everything
  *   host threads            one context, made current by two threads in turn
  *   host windows            two windows with a context each, in turn
@@ -9,7 +9,7 @@
  *
  * HOW: "local" for RTLD_LOCAL, "deep" for RTLD_DEEPBIND too, "lazy" for that and RTLD_LAZY.
  *
- * Prints what each frame reads back. */
+ * Prints a hash of each frame that is read back. */
 #include "scene.h"
 #include "window.h"
 #include <EGL/egl.h>
@@ -135,7 +135,7 @@ static void moved(void)
         pthread_t other;
         pthread_create(&other, NULL, move, &w.window);
         pthread_join(other, NULL);
-        /* Drivers take the new size with the next frame. */
+        /* Drivers apply the new size with the next frame. */
         glClear(GL_COLOR_BUFFER_BIT);
         glXSwapBuffers(w.display, w.window);
         scene("moved", frame_now, WIDTH - 16 * frame_now, HEIGHT - 8 * frame_now);

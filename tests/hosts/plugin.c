@@ -1,4 +1,4 @@
-/* A library that is opened at run time and is linked with libGL: it draws in its host's context, or all by itself. */
+/* A library that is opened at run time and linked with libGL: it draws in its host's context, or in one of its own. */
 #include "scene.h"
 #include "window.h"
 

@@ -1,4 +1,4 @@
-/* A small scene, and a hash of what is read back of it. Compiled into the host and into its plugin. */
+/* A small scene, and a hash of its pixels. Compiled into the host and into its plugin. */
 #include "scene.h"
 #include <GL/gl.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* A GLX window of one thread, on a connection of its own. */
+/* A GLX window of one thread, which has a connection of its own. */
 #include <GL/glx.h>
 #include <X11/Xlib.h>
 

@@ -1,30 +1,30 @@
-//! The demos in the forms that are compared.
+//! The demos, each with the arguments that are compared.
 
-/// One demo in one of its forms.
+/// One demo with one set of arguments.
 pub(crate) struct Scene {
     pub(crate) demo: &'static str,
     /// Further arguments of the demo.
     pub(crate) arguments: &'static [&'static str],
-    /// Frames that are compared. More than one where the frames draw by different means; few, because a long history of
-    /// immediate mode crosses the end of Mesa's 512 KiB vertex buffer, and a primitive that is split there may differ by 1 LSB.
+    /// Frames that are compared. More than one where the frames draw by different means. Few, because a long history of immediate mode
+    /// crosses the end of Mesa's 512 KiB vertex buffer, and a primitive that is split there may differ by 1 LSB.
     pub(crate) frames: u32,
-    /// The oracle's picture is what the window shows, not what the demo reads back.
+    /// The oracle's picture is that of the window, not the one that the demo reads back.
     pub(crate) window: bool,
 }
 
 impl Scene {
-    /// Its programs place vertices themselves: a variant shifts them after the program's own product, the oracle before it.
+    /// Its programs transform vertices themselves: a variant shifts them after the program's own product, the oracle before it.
     pub(crate) fn has_shaders(&self) -> bool {
         ["shade", "passes", "crowd", "relief"].contains(&self.demo)
     }
 
-    /// A geometry shader makes grass.
+    /// A geometry shader creates grass.
     pub(crate) fn has_blades(&self) -> bool {
         self.demo == "relief" && !self.arguments.contains(&"core")
     }
 }
 
-/// The forms that are tested. What each exercises: `examples/README.md`.
+/// The scene of this name. `examples/README.md` says what each exercises.
 pub(crate) fn scene(name: &str) -> Scene {
     let scene = |demo, arguments, frames| Scene {
         demo,
@@ -45,14 +45,14 @@ pub(crate) fn scene(name: &str) -> Scene {
         "blur" => scene("blur", &[], 3),
         "teapot" => scene("teapot", &[], 1),
         "room" => scene("room", &[], 1),
-        // One fog mode a frame.
+        // One fog mode per frame.
         "fogtexgen" => scene("fogtexgen", &[], 3),
         "points" => scene("points", &[], 1),
         "clip" => scene("clip", &[], 1),
         "mirror" => scene("mirror", &[], 1),
         "mesh" => scene("mesh", &["--triangles", "10000"], 1),
         "mesh_vbo" => scene("mesh", &["--triangles", "10000", "--vbo"], 1),
-        // Enough calls for a list to be made of them.
+        // Enough calls for the layer to compile them into a list.
         "mesh_immediate" => scene("mesh", &["--triangles", "1000", "--immediate"], 1),
         "mesh_list" => scene("mesh", &["--triangles", "10000", "--list"], 1),
         "fill" => scene("fill", &["--overdraw", "6", "--textured"], 1),
@@ -96,9 +96,9 @@ pub(crate) fn scene(name: &str) -> Scene {
         "relief_geometry" => scene("relief", &["--geometry"], 1),
         "relief_both" => scene("relief", &["--both"], 1),
         "relief_points" => scene("relief", &["--points", "--profile", "core"], 1),
-        // With the scene.
+        // Long enough to reach its scene.
         "menu" => scene("menu", &[], 14),
-        // Errors at the end of the first frame are found in the second.
+        // Errors at the end of the first frame show in the second.
         "gears_unread" => scene("gears", &["--unread"], 2),
         "gears_samples_unread" => Scene {
             demo: "gears",

@@ -1,4 +1,4 @@
-//! `--auto-depth` on games: the disparities of every frame, as the report tells them (tests/comfort.rs checks what it tells).
+//! `--auto-depth` on games: the disparities of every frame, from the report (tests/comfort.rs tests the report).
 
 use crate::repeat::{Repeat, record, repeat};
 use crate::support::{Screen, scratch};
@@ -9,7 +9,7 @@ use std::fs;
 /// Games that write depths: trails in an arena, a ball on a track, towers.
 pub(crate) const GAMES: [&str; 3] = ["gltron", "antigrav", "criticalmass"];
 
-/// Repeats a game in 8 views and answers what is wrong; a game that is not installed has nothing wrong.
+/// Repeats a game in 8 views and returns its failures; a game that is not installed has none.
 pub(crate) fn judge(program: &Program, screen: &Screen) -> Option<String> {
     let name = &program.name;
     let folder = scratch("programs").join(name);
@@ -48,7 +48,7 @@ pub(crate) fn judge(program: &Program, screen: &Screen) -> Option<String> {
         about["px"],
         about["change_px"]
     );
-    // No frames and no figures are wrong as well.
+    // A run without frames or figures fails as well.
     let good = frames >= 300.0 && over == 0.0 && number(&about["change_px"]["p95"]) <= 0.1;
     (!good).then(|| format!("{name}: {over} of {frames} frames, {about}"))
 }

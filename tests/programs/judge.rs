@@ -1,4 +1,4 @@
-//! What is asked of one program.
+//! The checks of one program.
 
 use crate::repeat::{Repeat, Repeated, errors, frames, live, record, repeat, trim};
 use crate::row::{Cell, Row};
@@ -11,12 +11,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Pictures are compared in the first frames of a trace only, they take long; but in all of it where input leads out of a menu.
+/// Pictures are compared in the first frames of a trace only, because this is slow; in all of it where input leads out of a menu.
 const COMPARED: u64 = 120;
-/// At least; else as long as it is recorded.
+/// Least duration of a live run; otherwise as long as the recording.
 const LIVE_SECONDS: u64 = 5;
 
-/// Runs all checks. Whatever goes wrong is in the row.
+/// Runs all checks. Every failure is in the row.
 pub(crate) fn judge(program: &Program, screen: &Screen, folder: &Path) -> Row {
     let mut row = Row::default();
     let trace = match record(program, screen, folder) {
@@ -52,7 +52,7 @@ pub(crate) fn judge(program: &Program, screen: &Screen, folder: &Path) -> Row {
     };
     trim(&bench.trace, &bench.short, bench.compared).expect("a shorter trace");
     bench.all_frames(&mut row);
-    // Between the columns of the runs and of GL errors.
+    // The picture columns come between those of the runs and of GL errors.
     row.cells.splice(1..1, bench.pictures());
     row.cells.push(bench.live());
     for trace in ["short.trace", "fewer.trace"] {
@@ -61,7 +61,7 @@ pub(crate) fn judge(program: &Program, screen: &Screen, folder: &Path) -> Row {
     row
 }
 
-/// A quick look at many programs: fewer frames than are recorded.
+/// Limits the frames, for a quick look at many programs.
 fn most_frames() -> Option<u64> {
     wish("MANYVIEW_PROGRAMS_FRAMES").map(|n| n.parse().expect("a number of frames"))
 }
@@ -87,7 +87,7 @@ impl Bench<'_> {
         )
     }
 
-    /// A path below this program's folder, for a variable.
+    /// A path below this program's folder, as the value of a variable.
     pub(crate) fn path(&self, name: &str) -> String {
         self.folder.join(name).display().to_string()
     }
@@ -103,7 +103,7 @@ impl Bench<'_> {
         ["replay", "auto", "geometry"].into_iter().chain(instanced)
     }
 
-    /// All frames in 8 views: first the cell of the runs, then the one of GL errors.
+    /// Repeats all frames in 8 views; adds the cell of the runs, then the one of GL errors.
     fn all_frames(&self, row: &mut Row) {
         let bare = self.repeat(&self.trace, &Repeat::default(), "bare");
         let expected = errors(&bare.ended.said);
@@ -118,7 +118,7 @@ impl Bench<'_> {
                 ("VIEWS", "8".to_owned()),
                 ("STRATEGY", strategy.to_owned()),
                 ("REPORT", self.path(&format!("{name}/report.json"))),
-                // For a person to look at; with it the report is written when the last frame is shown.
+                // A picture for a person to look at; with it the report is written when the last frame is shown.
                 ("OUTPUT", "quilt".to_owned()),
                 ("CAPTURE_OUT", self.path(&format!("{name}/quilt.png"))),
                 ("CAPTURE_FRAMES", self.count.to_string()),
@@ -146,7 +146,7 @@ impl Bench<'_> {
                 raised.push(format!("{strategy}: {own} of the layer's own"));
             }
             let sum: u64 = numbers(&report["draws"]).map(|(_, n)| n).sum();
-            // The last report of a program with several contexts may be some frames old.
+            // The last report of a program with several contexts may lag some frames behind.
             if report["frames"]
                 .as_u64()
                 .is_some_and(|n| n + 1 >= self.count)

@@ -1,15 +1,15 @@
-//! Whether the views of a scene differ at all: one that is silently the same in all of them would pass every comparison.
+//! Checks that the views of a scene differ: a scene that is wrongly the same in all views would pass every comparison.
 
 use crate::row::Cell;
 use crate::tally::{ODD, tile};
 use image::RgbImage;
 use manyview::metric::{OUTLIER_LSB, pixels_over};
 
-/// Share of pixels that has to differ between the own view and each outer one. Rounding does not count: pixels differ that are off
-/// by more than [`OUTLIER_LSB`].
+/// Fraction of pixels that has to differ between the own view and each outer one. Rounding is excluded: only pixels that are off by more
+/// than [`OUTLIER_LSB`] count.
 const LEAST: f64 = 0.0005;
 
-/// Pictures of [`ODD`] views each. Every one has to show a scene with depth.
+/// The cell for pictures of [`ODD`] views each. Every picture has to show a scene with depth.
 pub(crate) fn cell(pictures: impl Iterator<Item = RgbImage>) -> Cell {
     let mut shares = Vec::new();
     for picture in pictures {
@@ -42,7 +42,7 @@ fn views_that_do_not_differ_fail() {
     assert!(!failed(&[1, 2]));
     assert!(failed(&[0]) && failed(&[]));
     assert!(failed(&[1, 0]), "in one frame");
-    // Of the outer views only one differs.
+    // Only one of the outer views differs.
     let mut half = picture(0);
     image::imageops::replace(
         &mut half,
@@ -51,7 +51,7 @@ fn views_that_do_not_differ_fail() {
         0,
     );
     assert!(cell([half].into_iter()).failed);
-    // What float rounding does.
+    // A difference as small as rounding.
     let mut rounded = picture(0);
     for pixel in rounded.pixels_mut().take(40 * 3) {
         pixel.0[1] += OUTLIER_LSB;

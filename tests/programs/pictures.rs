@@ -1,4 +1,4 @@
-//! Pictures of a program's views: against the program's own, between strategies, between views.
+//! Comparisons of a program's views: with the program's own picture, between strategies, between views.
 
 use crate::judge::Bench;
 use crate::parallax;
@@ -12,15 +12,15 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-/// Pictures of them, spread evenly.
+/// Number of pictures, spread evenly over the compared frames.
 const PICTURES: u64 = 10;
-/// Frames of which the outer views are compared: the last of [`COMPARED`].
+/// Number of frames whose outer views are compared: the last of [`COMPARED`].
 const OUTER: u64 = 5;
-/// The folder of the views that the outer ones are compared with.
+/// The folder of the views that outer views are compared with.
 const LAYERS: &str = "7-layers";
 
 impl Bench<'_> {
-    /// Middle views by strategy, the outer ones, and whether they differ.
+    /// The cells of the middle views by strategy, of the outer views, and of the parallax between them.
     pub(crate) fn pictures(&self) -> Vec<Cell> {
         let interval = (self.compared / PICTURES).max(1);
         let bare = Repeat {
@@ -28,7 +28,7 @@ impl Bench<'_> {
             interval,
         };
         let mut expected = self.repeat(&self.short, &bare, "pictures").pictures;
-        // What varies without the layer, such as an undefined first frame, says nothing.
+        // Frames that vary without the layer, such as an undefined first frame, are left out.
         let again = self.repeat(&self.short, &bare, "pictures-again").pictures;
         expected.retain(|name, path| again.get(name).is_some_and(|other| same_bytes(path, other)));
         if let Some(first) = again.keys().next() {
@@ -40,7 +40,7 @@ impl Bench<'_> {
             let mut cell = self.middle(strategy, &expected, &run);
             let drawn = |report: Value| report["draws"][strategy].as_u64().unwrap_or(0) > 0;
             if strategy == "instanced" && !self.report("8-instanced").is_some_and(drawn) {
-                // Then it says no more than the column of replay.
+                // The result then repeats that of replay.
                 cell.text.push_str(", none by instances");
             }
             cells.push(cell);
@@ -48,7 +48,7 @@ impl Bench<'_> {
         if !self.program.own_shaders() {
             cells.push(Cell::unasked());
         }
-        // The others draw to layers. Every view is then at the origin, and float rounding moves with the place.
+        // The other strategies draw into layers, where every view is at the origin, and float rounding depends on the place.
         self.seven("replay", &[("ATLAS", "layers".to_owned())], 0, LAYERS);
         cells.push(self.outer());
         cells.push(match self.program.parallax {
@@ -58,7 +58,7 @@ impl Bench<'_> {
         cells
     }
 
-    /// The first frames in 7 views: the middle one as the program reads it back, all of the last frames as captured.
+    /// The first frames in 7 views: the middle view as the program reads it back, and all views of the last frames as captured.
     fn seven(
         &self,
         strategy: &str,
@@ -66,7 +66,7 @@ impl Bench<'_> {
         interval: u64,
         name: &str,
     ) -> Repeated {
-        // The first one may be from before the scene is loaded.
+        // The first frame may be from before the scene is loaded.
         let first = (self.compared + 1).saturating_sub(OUTER).max(2);
         let mut layer = vec![
             ("VIEWS", ODD.to_string()),
@@ -114,7 +114,7 @@ impl Bench<'_> {
         tally.cell()
     }
 
-    /// Pictures of all views, as captured.
+    /// Captures of all views.
     fn captured(&self, name: &str) -> BTreeMap<String, PathBuf> {
         let entries = fs::read_dir(self.folder.join(name)).expect("a folder");
         let entries = entries.flatten().map(|entry| {
@@ -124,7 +124,7 @@ impl Bench<'_> {
         entries.filter(|(name, _)| name.ends_with(".png")).collect()
     }
 
-    /// Outer views of the strategies that do not replay.
+    /// Compares the outer views of the strategies that do not replay.
     fn outer(&self) -> Cell {
         let expected = self.captured(LAYERS);
         if expected.is_empty() {

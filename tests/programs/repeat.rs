@@ -1,4 +1,4 @@
-//! Recording a program and repeating its trace.
+//! Records programs and repeats their traces.
 
 use crate::support::{Screen, bare, layered};
 use crate::table::Program;
@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A trace that is not repeated after this time hangs: the slowest programs of the table show 2 frames a second in 8 views.
+/// A trace that takes longer hangs: the slowest programs of the table show 2 frames a second in 8 views.
 const PATIENCE: Duration = Duration::from_secs(1200);
 
-/// How a command ended.
+/// The end of a command.
 pub(crate) struct Ended {
-    /// Empty if all is well, else the status in words.
+    /// The status in words; `None` after success.
     pub(crate) wrong: Option<String>,
     /// Its stderr.
     pub(crate) said: String,
@@ -23,8 +23,8 @@ pub(crate) struct Ended {
 
 /// Runs a command in a process group of its own and ends the whole group after a time.
 ///
-/// `endless`: the program is not expected to end by itself, and no failure if it has to be ended. `meanwhile` is called some
-/// fifty times a second with the time since the start.
+/// `endless`: the program is not expected to end by itself, so ending it is no failure. `meanwhile` is called some fifty times a second
+/// with the time since the start.
 fn run(
     command: &mut Command,
     limit: Duration,
@@ -64,14 +64,14 @@ fn run(
         None => Some(format!("not done after {} s", limit.as_secs())),
     };
     if status.is_none() {
-        // Asked first: apitrace writes the rest of its trace then.
+        // Ask politely first: apitrace then writes the rest of its trace.
         let _ = kill_process_group(group, Signal::INT);
         let asked = Instant::now();
         while asked.elapsed() < Duration::from_secs(3) && matches!(child.try_wait(), Ok(None)) {
             std::thread::sleep(Duration::from_millis(20));
         }
     }
-    // What it started may still be there, also if it is not.
+    // Its children may still run, even where it does not.
     let _ = kill_process_group(group, Signal::KILL);
     let _ = child.wait();
     let bytes = fs::read(log).unwrap_or_default();
@@ -81,7 +81,7 @@ fn run(
     }
 }
 
-/// A program, ready to start, with the variables of the table.
+/// A program, ready to start, with the variables of its entry in the table.
 fn prepared<'a>(command: &'a mut Command, program: &Program, screen: &Screen) -> &'a mut Command {
     screen
         .give(command)
@@ -91,20 +91,20 @@ fn prepared<'a>(command: &'a mut Command, program: &Program, screen: &Screen) ->
         .envs(&program.env)
 }
 
-/// Gives the program its input when its time has come. There is no window manager: the window under the pointer has the keys.
+/// Sends the program its input at the given times. There is no window manager: the window under the pointer has the keys.
 fn play<'a>(program: &'a Program, screen: &'a Screen) -> impl FnMut(Duration) + 'a {
     let mut inputs = program.input.iter().peekable();
     move |time| {
         if let Some(input) = inputs.next_if(|input| time.as_secs_f64() >= input.after) {
             let mut command = bare("xdotool");
             screen.give(&mut command).args(input.xdotool.split(' '));
-            // Without the tool the program stays in its menu, which the pictures show.
+            // Without the tool the program stays in its menu, as the pictures show.
             let _ = command.stderr(Stdio::null()).status();
         }
     }
 }
 
-/// Records the first frames of a program, unless that was done before.
+/// Records the first frames of a program, unless a trace is already there.
 pub(crate) fn record(program: &Program, screen: &Screen, folder: &Path) -> Result<PathBuf, String> {
     let trace = folder.join("program.trace");
     if trace.is_file() {
@@ -130,7 +130,7 @@ pub(crate) fn record(program: &Program, screen: &Screen, folder: &Path) -> Resul
     Ok(trace)
 }
 
-/// The first frames of a trace.
+/// Cuts a trace to its first frames.
 pub(crate) fn trim(from: &Path, to: &Path, frames: u64) -> Result<(), String> {
     let mut command = bare("apitrace");
     command
@@ -144,7 +144,7 @@ pub(crate) fn trim(from: &Path, to: &Path, frames: u64) -> Result<(), String> {
     }
 }
 
-/// How many frames a trace has.
+/// The number of frames in a trace.
 pub(crate) fn frames(trace: &Path) -> Option<u64> {
     let output = bare("apitrace").arg("info").arg(trace).output().ok()?;
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).ok()?;
@@ -154,20 +154,20 @@ pub(crate) fn frames(trace: &Path) -> Option<u64> {
 /// How a trace is repeated.
 #[derive(Default)]
 pub(crate) struct Repeat<'a> {
-    /// The layer's variables; none: it is not preloaded.
+    /// The layer's variables; `None`: it is not preloaded.
     pub(crate) layer: Option<Vec<(&'a str, String)>>,
-    /// Pictures of every so manieth frame, as the program would read them back; 0 for none.
+    /// Every how many frames a picture is taken, as the program would read it back; 0 for none.
     pub(crate) interval: u64,
 }
 
-/// What came of it.
+/// The outcome of a repetition.
 pub(crate) struct Repeated {
     pub(crate) ended: Ended,
-    /// By the name of their file.
+    /// By file name.
     pub(crate) pictures: BTreeMap<String, PathBuf>,
 }
 
-/// Repeats a trace; what it leaves is in a folder of its own.
+/// Repeats a trace; its files are in a folder of its own.
 pub(crate) fn repeat(
     program: &Program,
     trace: &Path,
@@ -191,7 +191,7 @@ pub(crate) fn repeat(
     let shots = folder.join("shots");
     fs::create_dir(&shots).expect("a folder");
     if how.interval > 0 {
-        // Ends with a separator: the prefix is a folder.
+        // A path that ends with a separator: the prefix is a folder.
         command.args([
             "-S".to_owned(),
             "*/frame".to_owned(),
@@ -238,11 +238,11 @@ pub(crate) fn live(
     )
 }
 
-/// Messages about GL errors, and how often each is there.
+/// Messages about GL errors, and how often each occurs.
 pub(crate) fn errors(said: &str) -> BTreeMap<String, u64> {
     let mut found = BTreeMap::new();
     for line in said.lines().filter(|line| line.contains("glGetError")) {
-        // Before the colon is the number of the call.
+        // The number of the call stands before the colon.
         let text = line.split_once(": ").map_or(line, |(_, text)| text);
         *found.entry(text.to_owned()).or_default() += 1;
     }

@@ -1,10 +1,10 @@
-//! One row of docs/compatibility.md, and the document.
+//! A row of docs/compatibility.md, and the page.
 
 use crate::table::Program;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// What one check came to.
+/// The result of one check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Cell {
     pub(crate) failed: bool,
@@ -26,12 +26,12 @@ impl Cell {
         }
     }
 
-    /// A check that this program is not asked for.
+    /// The result of a check that does not apply to this program.
     pub(crate) fn unasked() -> Self {
         Self::good("–")
     }
 
-    /// As in the document, where bars part the columns.
+    /// The cell as it is written on the page, where bars part the columns.
     fn written(&self) -> String {
         let text = self.text.replace('|', "/");
         match self.failed {
@@ -52,13 +52,13 @@ impl Cell {
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) frames: u64,
-    /// Draws by strategy with [`Program::fast`] asked for, and why others were replayed.
+    /// Draws by strategy with [`Program::fast`], and why others were replayed.
     pub(crate) draws: String,
-    /// One for each of [`CHECKS`]; fewer if it did not come so far.
+    /// One for each of [`CHECKS`]; fewer if a check could not be reached.
     pub(crate) cells: Vec<Cell>,
 }
 
-/// The checks, in order, as the table's head has them.
+/// The checks, in the order of the table's head.
 pub(crate) const CHECKS: [&str; 9] = [
     "8 views",
     "replay",
@@ -72,7 +72,7 @@ pub(crate) const CHECKS: [&str; 9] = [
 ];
 
 impl Row {
-    /// What was asked when it was run may not be what is asked now.
+    /// Applies the table of today to results of an earlier run, whose checks may have been others.
     pub(crate) fn adapt(&mut self, program: &Program) {
         for (cell, check) in self.cells.iter_mut().zip(CHECKS) {
             match program.asks(check) {
@@ -102,7 +102,7 @@ impl Row {
     }
 }
 
-/// The rows of a document by program, so that those that are not run again stay.
+/// The rows of a page by program, so that those that are not run again stay.
 pub(crate) fn rows(document: &str) -> BTreeMap<String, Row> {
     let mut lines = document.lines().filter_map(|line| {
         let line = line.strip_prefix("| ")?.strip_suffix('|')?;
@@ -211,7 +211,7 @@ fn rows_are_kept_by_the_document() {
     let kept = |text: &str| rows(text).remove(&program.name).expect("a row");
     let text = document(&[(program, &row)]);
     assert_eq!(kept(&text), row);
-    // A column that the document did not have.
+    // A column that the page does not have.
     let mut before = kept(&text.replace("| parallax ", "| another "));
     assert_eq!(before.cells[6], Cell::unasked());
     before.adapt(program);

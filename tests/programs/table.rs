@@ -1,4 +1,4 @@
-//! Which programs: programs.toml.
+//! The programs of programs.toml.
 
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Program {
-    /// Also of its folder in target/programs.
+    /// The program's name, and that of its folder in target/programs.
     pub(crate) name: String,
     /// Debian package.
     pub(crate) package: String,
@@ -15,21 +15,21 @@ pub(crate) struct Program {
     pub(crate) command: Vec<String>,
     #[serde(default)]
     pub(crate) api: Api,
-    /// What it draws with, in the words of the zoo.
+    /// The means by which it draws, in the words of the page.
     pub(crate) draws: String,
-    /// How long it is recorded.
+    /// Seconds of the recording.
     #[serde(default = "seconds")]
     pub(crate) seconds: u64,
-    /// At most so many frames.
+    /// Largest number of frames.
     #[serde(default = "frames")]
     pub(crate) frames: u64,
-    /// From the menu into the game.
+    /// Input that leads from the menu into the game.
     #[serde(default)]
     pub(crate) input: Vec<Input>,
-    /// Variables.
+    /// Variables of its environment.
     #[serde(default)]
     pub(crate) env: BTreeMap<String, String>,
-    /// Whether it shows a scene with depth in the frames that are compared, so that its views have to differ.
+    /// Whether the compared frames show a scene with depth, so that the views have to differ.
     #[serde(default)]
     pub(crate) parallax: bool,
     /// Why it fails, if it does.
@@ -37,12 +37,12 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// Whether it brings shaders, which `geometry` leaves to replay and `instanced` draws.
+    /// Whether it has shaders of its own, which `geometry` leaves to replay and `instanced` draws.
     pub(crate) fn own_shaders(&self) -> bool {
         self.draws.contains("GLSL")
     }
 
-    /// Whether a check of `row::CHECKS` is made.
+    /// Whether a check of `row::CHECKS` applies.
     pub(crate) fn asks(&self, check: &str) -> bool {
         match check {
             "instanced" => self.own_shaders(),
@@ -60,7 +60,7 @@ impl Program {
     }
 }
 
-/// What a player does while the program runs.
+/// An input while the program runs.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Input {
@@ -70,7 +70,7 @@ pub(crate) struct Input {
     pub(crate) xdotool: String,
 }
 
-/// Where the context comes from.
+/// The API that the context comes from.
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(crate) enum Api {
@@ -87,7 +87,7 @@ impl Api {
         }
     }
 
-    /// apitrace's name of it.
+    /// apitrace's name of the API.
     pub(crate) fn traced(self) -> &'static str {
         match self {
             Self::Glx => "gl",
@@ -95,7 +95,7 @@ impl Api {
         }
     }
 
-    /// What repeats a trace of it.
+    /// The command that repeats a trace of it.
     pub(crate) fn retrace(self) -> &'static str {
         match self {
             Self::Glx => "glretrace",

@@ -1,4 +1,4 @@
-//! Comparisons of pictures, summed up to a cell.
+//! Comparisons of pictures, summed up in a cell.
 
 use crate::row::Cell;
 use crate::support::scratch;
@@ -7,7 +7,7 @@ use manyview::metric::{Comparison, Gate, triptych};
 use std::fs;
 use std::path::Path;
 
-/// Views where the middle one is the program's own.
+/// An odd number of views, whose middle one is the program's own.
 pub(crate) const ODD: u32 = 7;
 
 /// Comparisons of one column.
@@ -15,7 +15,7 @@ pub(crate) const ODD: u32 = 7;
 pub(crate) struct Tally {
     pictures: u64,
     failed: u64,
-    /// Of all pictures, the largest fraction of pixels that differ.
+    /// Largest fraction of pixels that differ, over all pictures.
     most: f64,
     first: Option<String>,
 }
@@ -31,7 +31,7 @@ impl Tally {
         self.fail(format!("no picture {name}"));
     }
 
-    /// The first that fails is kept as a triptych in target/programs.
+    /// Compares two pictures. The first failure is kept as a triptych in target/programs.
     pub(crate) fn compare(
         &mut self,
         expected: &RgbImage,
@@ -80,7 +80,7 @@ pub(crate) fn same_bytes(a: &Path, b: &Path) -> bool {
     fs::read(a).expect("a picture") == fs::read(b).expect("a picture")
 }
 
-/// One view of a picture of all, which stand in one row.
+/// One view of a picture that has all views in one row.
 pub(crate) fn tile(all: &RgbImage, view: u32) -> RgbImage {
     let width = all.width() / ODD;
     image::imageops::crop_imm(all, view * width, 0, width, all.height()).to_image()

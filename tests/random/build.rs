@@ -1,9 +1,9 @@
-//! Builds the program of random calls.
+//! Builds the program that makes random calls.
 
 use crate::support::{Compiled, built};
 use std::path::{Path, PathBuf};
 
-/// With EGL and GLX, or with OSMesa.
+/// The program with EGL and GLX, or with OSMesa.
 pub(crate) fn program(osmesa: bool) -> PathBuf {
     let (name, window, more): (_, &[&str], &[&str]) = if osmesa {
         (

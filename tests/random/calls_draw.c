@@ -2,7 +2,7 @@
 #include "random.h"
 #include <string.h>
 
-/* What arrays point at: VERTICES vertices at up to 64 bytes, in the program's memory and the same in buffers. */
+/* The data of all arrays: VERTICES vertices at up to 64 bytes, the same in the program's memory and in buffers. */
 static struct {
     GLfloat floats[VERTICES * 16 + 16];
     GLdouble doubles[VERTICES * 8 + 16];
@@ -58,8 +58,8 @@ static void vertex(void)
     }
 }
 
-/* Colours and coordinates always have four numbers: Mesa 22.3 at times forgets the fourth of a vertex when a later one has three,
- * and whether it does depends on what it has flushed. */
+/* Colours and coordinates always have four components: Mesa 22.3 sometimes drops the fourth of a vertex when a later one has three, depending
+ * on its flushes. */
 static void attribute(void)
 {
     float a = within(0, 1), b = within(0, 1), c = within(0, 1), d = within(0.3f, 1);
@@ -121,12 +121,12 @@ void vertex_calls(int n)
             n--;
         }
     }
-    /* What a list sets after its last vertex Mesa 22.3 forgets, or takes from where nothing was written. */
+    /* Mesa 22.3 forgets attributes that a list sets after its last vertex, or takes them from uninitialised memory. */
     if (R->list)
         CALL(glVertex4f, 0.5f, 0.25f, 0.0f, 1.0f);
 }
 
-/* With GL_COMPILE_AND_EXECUTE Mesa 22.3 has not sent all vertices at glEnd, so that a question right after it is an error; the next
+/* With GL_COMPILE_AND_EXECUTE Mesa 22.3 has not sent all vertices at glEnd, so that a query right after it is an error. The next change of
  * state sends them. */
 void after_primitive(void)
 {
@@ -138,12 +138,12 @@ static void primitive(void)
 {
     GLenum mode = PICK(GL_POINTS, GL_LINES, GL_LINE_STRIP, GL_LINE_LOOP, GL_TRIANGLES, GL_TRIANGLES, GL_TRIANGLE_STRIP,
                        GL_TRIANGLE_FAN, GL_QUADS, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON);
-    /* Mesa 22.3 may crash at the end of a list with wrong calls of this kind. */
+    /* Mesa 22.3 may crash at the end of a list that has errors of this kind. */
     if (!R->list && !(O.without >> ERRORS & 1) && chance(1))
         mode = 0x123;
     CALL(glBegin, mode);
     R->begin = 1;
-    /* Mesa 22.3 loses edges of a loop in which something is set for the first time since it has sent vertices: nothing is set. */
+    /* In a loop Mesa 22.3 loses edges where an attribute is set for the first time since its last flush, so none is set. */
     R->loop = mode == GL_LINE_LOOP;
     int n = chance(5) || mode == 0x123 ? 0 : (int)below(14); /* a vertex outside is undefined */
     int inside = !R->list && !R->loop && !(O.without >> IN_BEGIN & 1) && chance(8);
@@ -163,7 +163,7 @@ static void primitive(void)
     after_primitive();
 }
 
-/* Lists that are called between glBegin and glEnd belong to lists. */
+/* Calls lists between glBegin and glEnd. */
 static void primitive_of_lists(void)
 {
     if (R->executes)
@@ -200,7 +200,7 @@ void array_pointers(void)
 
 static void pointer(void)
 {
-    /* A buffer has floats. */
+    /* Buffers hold floats. */
     int buffer = bound(GL_ARRAY_BUFFER_BINDING) != 0;
     int stride = PICK(0, 0, 16, 32, 64, 24), offset = (int)below(4) * 4;
     const void *f = buffer ? (const void *)(uintptr_t)offset : (const char *)data.floats + offset;
@@ -287,7 +287,7 @@ static void rectangle(void)
     after_primitive();
 }
 
-/* No colours and normals: what is current after an evaluator has set them is Mesa's guess. */
+/* No colours and normals: Mesa does not define the current value after an evaluator has set them. */
 static void maps(void)
 {
     int order = chance(95) ? 1 + (int)below(4) : 99;
@@ -335,7 +335,7 @@ static void accumulation(void)
 
 static void draw_buffer(void)
 {
-    /* Within an inner level that has not saved them (whole_mask()) Mesa 22.3 forgets that they have changed. */
+    /* Mesa 22.3 forgets that they have changed within an inner level that has not saved them (whole_mask()). */
     if (bound(GL_ATTRIB_STACK_DEPTH) > 1)
         return;
     if (chance(60))

@@ -1,8 +1,8 @@
 /* Display lists. */
 #include "random.h"
 
-/* With --apart a list is compiled in pieces with something invisible between them, and then as one that calls them: to a program
- * that is the same. */
+/* With --apart a list is compiled in pieces with invisible calls between them, and then as one list that calls the pieces: a program cannot
+ * tell the two apart. */
 static __thread struct {
     GLuint name, pieces;
     GLenum mode;
@@ -43,7 +43,7 @@ static void close_list(void)
     glEndList();
 }
 
-/* Lists 1 to 8 call only lower ones, at most two in each; 101 to 112 call none: so no list is endless, whatever the base. */
+/* Lists 1 to 8 call only lower ones, at most two each, and 101 to 112 call none: so no list is endless, whatever the base. */
 static void define(GLuint name, int parts, int may_call)
 {
     GLenum mode = chance(97) ? PICK(GL_COMPILE, GL_COMPILE, GL_COMPILE_AND_EXECUTE) : GL_RGBA;
@@ -63,7 +63,7 @@ static void define(GLuint name, int parts, int may_call)
     GLuint other = 1 + below(name > 1 && name <= 8 ? name - 1 : 1);
     GLint base = 0;
     glGetIntegerv(GL_LIST_BASE, &base);
-    /* Mesa 22.3 may crash at the end of a list that calls one that is not there. */
+    /* Mesa 22.3 may crash at the end of a list that calls one that does not exist. */
     if (may_call && name > 1 && !dropped() && glIsList(other) && glIsList(other + (GLuint)base)) {
         const GLubyte names[2] = {(GLubyte)other, (GLubyte)other};
         if (chance(50))
@@ -84,7 +84,7 @@ static void new_list(void)
     define(name, (int)below(10), name <= 8);
 }
 
-/* Only what may stand between glBegin and glEnd. */
+/* A list of commands that are legal between glBegin and glEnd. */
 static void vertex_list(void)
 {
     if (R->list || R->begin)
@@ -97,7 +97,7 @@ static void vertex_list(void)
     CALL0(glEndList);
 }
 
-/* The lists of programs: one object, some state around it. */
+/* A list as programs make them: one object with some state around it. */
 static void object_list(void)
 {
     if (R->list || R->begin)

@@ -21,7 +21,7 @@ static void framebuffer(void)
     case 0: case 1: case 2: CALL(glBindFramebuffer, GL_FRAMEBUFFER, 0u); break;
     case 3: CALL(glBindFramebuffer, target, 0u); break;
     case 4: case 5: {
-        /* A whole one: a texture of its own, so that nothing is sampled that is drawn to. */
+        /* A complete one with a texture of its own, so that no draw samples its own target. */
         GLint before = 0;
         if (R->begin || bound(GL_ATTRIB_STACK_DEPTH)) /* see whole_mask() */
             break;
@@ -57,7 +57,7 @@ static void framebuffer(void)
             CALL(glDeleteFramebuffers, 1, (const GLuint *)&c->framebuffers[i]);
             CALL(glGenFramebuffers, 1, &c->framebuffers[i]);
         } else {
-            /* An overlap is undefined. */
+            /* Overlapping rectangles are undefined. */
             CALL(glBlitFramebuffer, 0, 0, (int)below(17), (int)below(33), 17 + (int)below(20), (int)below(20), 40, 30,
                  PICK(GL_COLOR_BUFFER_BIT, GL_COLOR_BUFFER_BIT, GL_DEPTH_BUFFER_BIT), PICK(GL_NEAREST, GL_LINEAR));
         }

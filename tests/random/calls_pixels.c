@@ -43,7 +43,7 @@ static void raster_position(void)
     }
 }
 
-/* Mesa 22.3 takes the texture coordinates of pictures from what the last draw had, or from nowhere (--disturb): no textures. */
+/* Mesa 22.3 takes the texture coordinates of pictures from the last draw, or from uninitialised memory (--disturb): no textures. */
 static void without_textures(void)
 {
     static const GLenum units[3] = {GL_TEXTURE3, GL_TEXTURE1, GL_TEXTURE0};
@@ -75,7 +75,7 @@ static void drawn_pixels(void)
 
 static void copied_pixels(void)
 {
-    /* Not outside, and from the left part of the frame to the right one: an overlap comes out differently by the driver's mood. */
+    /* Within the frame, and from its left part to its right one: Mesa's result is nondeterministic for overlaps. */
     int width = (int)below(16), height = (int)below(16);
     without_textures();
     if (chance(70)) {
@@ -110,7 +110,7 @@ static GLenum texture_target(void) { return ENUM(GL_TEXTURE_2D, GL_TEXTURE_2D, G
 
 static void bind_texture(void)
 {
-    /* The first four are 2D, one is 1D, one 3D; names may be odd with the target. */
+    /* The first four are 2D, one is 1D, one 3D; some calls use a name with another target. */
     static const GLenum targets[TEXTURES] = {GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_1D, GL_TEXTURE_3D};
     uint32_t i = below(TEXTURES);
     switch (below(6)) {
@@ -160,7 +160,7 @@ static void texture_state(void)
     case 4: CALL(glTexParameteri, target, GL_GENERATE_MIPMAP, (int)below(2)); break;
     case 5: {
         GLuint name = R->now->textures[below(TEXTURES)];
-        /* Elsewhere it may be bound: what is then drawn is defined, when it goes is not. */
+        /* Other contexts may have it bound: their draws are then defined, the time of its deletion is not. */
         if (!R->now->share && R->context_count == 1 && chance(30))
             CALL(glDeleteTextures, 1, &name);
         else
@@ -171,7 +171,7 @@ static void texture_state(void)
     }
 }
 
-/* A texture as programs make them, so that something is seen. */
+/* A complete texture, as programs make them, so that draws are visible. */
 static void whole_texture(void)
 {
     CALL(glBindTexture, GL_TEXTURE_2D, R->now->textures[below(4)]);

@@ -27,7 +27,7 @@ static void matrix(void)
     }
 }
 
-/* As programs do it: a whole new projection, the mode left at the model view. */
+/* A whole new projection, as programs set it; the matrix mode ends as model view. */
 static void projection(void)
 {
     CALL(glMatrixMode, GL_PROJECTION);
@@ -91,7 +91,7 @@ static void raster_state(void)
         GLint bound = 0;
         if (!R->begin)
             glGetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &bound);
-        /* Pixel storage applies: the source has to be long enough for it. */
+        /* Pixel storage applies, so the source has to be long enough for it. */
         CALL(glPolygonStipple, bound || chance(50) ? (const GLubyte *)pixel_source() : stipple);
         break;
     }
@@ -166,16 +166,16 @@ static void fog_and_planes(void)
 
 static void current_values(void) { vertex_calls(-1); }
 
-/* Within another level all of it: Mesa 22.3 forgets at glPopAttrib what has changed since the outer glPushAttrib, and does not put
- * back there what the inner one has not. But no buffers that may be another framebuffer's at glPopAttrib: it puts them back, or
- * says that they are wrong, only where something of the kind has changed in between, and what counts as that is its own affair. */
+/* Within another level everything is pushed: at glPopAttrib Mesa 22.3 forgets changes since the outer glPushAttrib, and does not restore there
+ * what the inner one did not save. Buffer state is left out, because another framebuffer may be bound at glPopAttrib: Mesa restores it, or
+ * reports an error, only where it believes that buffer state has changed in between. */
 GLbitfield whole_mask(void)
 {
     return R->list || framebuffer_bound() ? GL_ALL_ATTRIB_BITS & ~(GLbitfield)(GL_COLOR_BUFFER_BIT | GL_PIXEL_MODE_BIT) : GL_ALL_ATTRIB_BITS;
 }
 
-/* Mesa 22.3 forgets at an inner glPushAttrib that current values have changed which no drawing or question has made it send, so that
- * the outer glPopAttrib does not put them back: asked for first. */
+/* At an inner glPushAttrib Mesa 22.3 forgets changes of current values that no draw or query has flushed, so that the outer glPopAttrib does
+ * not restore them: a query comes first. */
 static void before_push(void)
 {
     float color[4];
@@ -243,7 +243,7 @@ static void get_value(void)
     tell(&R->answers, "%d.%d enabled %d", R->step, R->part, CALL(glIsEnabled, capability()));
 }
 
-/* Calls that are wrong with any state. */
+/* Calls that are errors in every state. */
 static void wrong(void)
 {
     switch (below(9)) {

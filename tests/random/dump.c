@@ -1,4 +1,4 @@
-/* Everything that a context can be asked, as lines; then its pixels. */
+/* All queries of a context, as lines; then its pixels. */
 #include "random.h"
 #include <string.h>
 
@@ -82,7 +82,7 @@ static void line(const char *what, GLenum a, GLenum b, const float *f)
     tell(&R->state, "%s 0x%x 0x%x: %.9g %.9g %.9g %.9g", what, a, b, f[0], f[1], f[2], f[3]);
 }
 
-/* Names of GL's choice, as the program's own numbers. */
+/* Names that GL chose, as the program's own numbers. */
 static int number(const GLuint *names, int n, GLuint name)
 {
     for (int i = 0; i < n; i++)
@@ -226,7 +226,7 @@ static void picture(const char *what, GLenum format, GLenum type, size_t bytes)
     }
 }
 
-/* What belongs to a class of calls that is left out. */
+/* Whether a state belongs to a class of calls that is left out. */
 static int left_out(GLenum what)
 {
     return O.without >> ACCUM & 1 && what >= GL_ACCUM_RED_BITS && what <= GL_ACCUM_ALPHA_BITS;

@@ -1,16 +1,16 @@
-/* random: makes seeded sequences of legal and illegal GL calls and prints what a program can know after each of them.
+/* random: makes seeded sequences of legal and illegal GL calls and prints all that a program can read back after each.
  *
  *   random [--api egl|glx|osmesa] [--seed S] [--count N] [--steps K] [--without CLASS,…] [--drop 3,5.2,…]
  *          [--verbose] [--rows] [--trace] [--disturb] [--apart] [--list-classes]
  *
  * prints one line per sequence and thread: hashes of the answers in between, of the state and of the pixels. Two runs, one of
- * them under something that must not be noticed, are compared line by line. For one seed: --verbose prints what was hashed,
+ * them under a layer that must not be noticed, are compared line by line. For one seed: --verbose prints what was hashed,
  * --rows each row of pixels as well, --trace the calls, and --drop leaves out steps (3) or parts of steps (5.2; 5.2.0 is not
  * needed), each of which has random numbers of its own, so that the rest stays as it is. --disturb adds a glFlush and a culled
  * triangle after each step, --apart compiles lists in pieces: what differs by that is Mesa's doing. tests/random/reduce.py reduces a seed with these.
  *
- * Every sequence has contexts of its own. What GL leaves undefined is not done: no reads outside the framebuffer or of
- * textures without content, no memory that is not there, no infinite lists, no other context on the same drawable.
+ * Every sequence has contexts of its own. It avoids undefined behaviour of GL: no reads outside the framebuffer or of
+ * textures without content, no invalid memory, no infinite lists, no other context on the same drawable.
  */
 #include "random.h"
 #include <pthread.h>
@@ -176,7 +176,7 @@ static void switch_context(struct context *to)
     W->current(to->handle, to->drawable);
 }
 
-/* Nothing that a program could see: a flush, each attribute group and the current colour touched, a triangle culled. */
+/* Changes that no program could notice: a flush, each attribute group and the current colour touched, a culled triangle. */
 void disturb(void)
 {
     static const GLenum caps[] = {GL_DITHER, GL_DEPTH_TEST, GL_MAP1_INDEX, GL_FOG, GL_LIGHTING, GL_LINE_STIPPLE, GL_POINT_SMOOTH,
@@ -230,7 +230,7 @@ static void take_context(struct context *c, int number, struct context *share)
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT);
     array_pointers();
-    /* Names of the program's own or of GL: a share group has the same. */
+    /* Names are the program's own or GL's choice, the same within a share group. */
     if (share) {
         memcpy(c->textures, share->textures, sizeof c->textures);
     } else if (R->seed % 2 || R->context_count > 1) {

@@ -1,4 +1,4 @@
-/* Random sequences of GL calls: what the files share. main.c says what the program does. */
+/* Random sequences of GL calls: declarations that the files share. main.c describes the program. */
 #ifndef RANDOM_H
 #define RANDOM_H
 
@@ -17,7 +17,7 @@ enum class {
     READS, FRAMEBUFFERS, BUFFERS, QUERIES, SWAPS, CONTEXTS_, THREADS, ERRORS, FRONT, COPIES, CLASSES
 };
 
-/* One context of a sequence, as the sequence knows it. */
+/* One context of a sequence, and its state as far as the sequence tracks it. */
 struct context {
     void *handle;
     int drawable;
@@ -58,16 +58,16 @@ uint32_t below(uint32_t n);               /* 0 to n - 1 */
 float within(float a, float b);
 int chance(int percent);
 _Noreturn void fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* A line of what the program was told; where it counts is one of &R->answers, &R->state, &R->pixels. */
+/* Prints a line about a result and hashes it into `where`: one of &R->answers, &R->state, &R->pixels. */
 void tell(uint64_t *where, const char *format, ...) __attribute__((format(printf, 2, 3)));
 uint64_t hash(const void *data, size_t bytes);
 
 #define PICK(...) ((const GLenum[]){__VA_ARGS__}[below(sizeof((const GLenum[]){__VA_ARGS__}) / sizeof(GLenum))])
-/* As PICK, but at times something that is no value of the kind. */
+/* Like PICK, but sometimes a value that is illegal here. */
 #define ENUM(...) odd(PICK(__VA_ARGS__))
 GLenum odd(GLenum value);
 
-/* ---- calls, printed when asked to: CALL(glEnable, cap) ---- */
+/* ---- calls, which --trace prints: CALL(glEnable, cap) ---- */
 void print_int(int v);
 void print_unsigned(unsigned v);
 void print_double(double v);
@@ -117,7 +117,7 @@ void trace_end(void);
     if (O.trace) { trace_name(#f); JOIN(P, COUNT(__VA_ARGS__)) trace_end(); } \
     f(JOIN(A, COUNT(__VA_ARGS__))); })
 #define CALL0(f) __extension__({ if (O.trace) { trace_name(#f); trace_end(); } f(); })
-/* An array of random numbers that is printed. */
+/* An array of random numbers, which --trace prints. */
 const float *floats(int n, float a, float b);
 const double *doubles(int n, float a, float b);
 const int *ints(int n, int bound);

@@ -26,7 +26,7 @@ static void glx_open(int drawables)
     Window root = RootWindow(display, screen);
     XSetWindowAttributes a = {.colormap = XCreateColormap(display, root, visual->visual, AllocNone)};
     for (int i = 0; i < drawables; i++) {
-        /* Beside each other: what lies under another window is undefined. */
+        /* Side by side: pixels under another window are undefined. */
         windows[i] = XCreateWindow(display, root, i * WIDTH, 0, WIDTH, HEIGHT, 0, visual->depth, InputOutput, visual->visual,
                                    CWColormap | CWBorderPixel | CWOverrideRedirect, &a);
         XMapWindow(display, windows[i]);

@@ -1,4 +1,4 @@
-/* Into memory, with an accumulation buffer. A frame ends with glFinish. */
+/* Draws into memory, with an accumulation buffer. A frame ends with glFinish. */
 #include "random.h"
 #include <GL/osmesa.h>
 

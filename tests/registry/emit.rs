@@ -140,7 +140,7 @@ fn record(c: &Command) -> String {
     o
 }
 
-/// What a recorded call does to the current values (see `manyview::state::Immediate`).
+/// The effect of a recorded call on the current values (see `manyview::state::Immediate`).
 fn effect(name: &str) -> &'static str {
     let n = name.strip_prefix("gl").unwrap_or(name);
     let table = [
@@ -240,7 +240,7 @@ pub fn entry(commands: &[Command]) -> String {
         match class {
             "imm" => {
                 let writes = record(c);
-                // The driver refuses a wrong one at once, as it does between the program's own glBegin and glEnd.
+                // The driver rejects a wrong one at once, as between the program's own glBegin and glEnd.
                 let (not, end) = if name.starts_with("glMaterial") {
                     ("!(imm::is_material(face, pname)\n        && ", ")")
                 } else {

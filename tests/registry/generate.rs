@@ -1,6 +1,5 @@
-//! Generates `src/gl/table.rs` and `shim/src/entry.rs` from the Khronos registry and `src/gl/commands.list`, and fails
-//! when the committed files are not what comes out. `BLESS=1 cargo test -p manyview-registry` writes them.
-//! The registry is Debian's package `khronos-api`.
+//! Generates `src/gl/table.rs` and `shim/src/entry.rs` from the Khronos registry and `src/gl/commands.list`, and fails when the committed
+//! files differ from the output. `BLESS=1 cargo test -p manyview-registry` writes them. The registry is Debian's package `khronos-api`.
 
 #![cfg(test)]
 
@@ -49,7 +48,7 @@ fn scalar(c: &str) -> &'static str {
         "GLuint64" | "GLuint64EXT" => "u64",
         "void" => "()",
         "GLvdpauSurfaceNV" => "isize",
-        // Vendor types of commands that are not listed; rustc says so if one ever is.
+        // Vendor types of commands that are not in the list; a listed one would fail to compile.
         _ => "UnknownType",
     }
 }
@@ -174,7 +173,7 @@ fn listed(registry: &BTreeMap<String, Command>) -> Vec<Command> {
             for base in hits {
                 take(base, class, &base.name);
                 if class != "call" {
-                    // Some aliases point along a chain; the base of the family is what counts.
+                    // Aliases may form a chain; the base of the family counts.
                     for alias in registry.values().filter(|c| {
                         c.base == base.name
                             || c.name == base.base
@@ -215,7 +214,7 @@ fn signature(sig: &str) -> Command {
     }
 }
 
-/// The few constructs of regular expressions that the list uses: classes, groups of alternatives, `?`.
+/// The constructs of regular expressions that the list uses: classes, groups of alternatives, `?`.
 struct Pattern(Vec<String>);
 
 impl Pattern {

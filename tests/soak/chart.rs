@@ -1,4 +1,4 @@
-//! Memory over time as an SVG.
+//! An SVG of memory over time.
 
 use crate::judge::Sample;
 use std::fmt::Write;
@@ -9,7 +9,7 @@ const LEFT: f64 = 64.0;
 const RIGHT: f64 = 24.0;
 const BELOW: f64 = 40.0;
 
-/// Round numbers from 0 to `most`, five or so.
+/// About five round numbers from 0 to `most`.
 fn ticks(most: f64) -> impl Iterator<Item = f64> {
     let rough = most / 5.0;
     let power = 10f64.powf(rough.log10().floor());

@@ -1,4 +1,4 @@
-//! Whether memory grows: a line through what was measured after the start, and how sure it is.
+//! Whether memory grows: a line through the samples after the start, and its standard error.
 
 /// Kinds of names in a sample, in the order of its numbers; as in the report.
 pub(crate) const NAMES: [&str; 7] = [
@@ -11,7 +11,7 @@ pub(crate) const NAMES: [&str; 7] = [
     "lists",
 ];
 
-/// What was seen of one program at one time.
+/// One sample of one program.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sample {
     /// Hours since the start.
@@ -33,18 +33,18 @@ pub(crate) struct Growth {
     pub(crate) error: f64,
 }
 
-/// Loading a level is a saw-tooth over many samples, so neighbours are no independent measurements; the means of a dozen
-/// stretches nearly are.
+/// Loading a level makes a saw-tooth over many samples, so neighbours are no independent measurements; the means of a dozen stretches
+/// nearly are.
 const STRETCHES: usize = 12;
 
-/// What the layer may grow by an hour beyond what the program does by itself, in MiB. At 10 frames a second it is 116 bytes a
-/// frame: less than the smallest thing that is made for each draw would leave.
+/// Growth that the layer may add to that of the program itself, in MiB an hour. At 10 frames a second it is 116 bytes a frame: less than
+/// the smallest allocation per draw would leak.
 pub(crate) const TOLERANCE: f64 = 4.0;
 
-/// Standard errors that are no proof of growth.
+/// Growth of fewer standard errors is no proof of growth.
 const ERRORS: f64 = 3.0;
 
-/// The samples after the first quarter: until then levels, shaders and caches are loaded for the first time.
+/// The samples after the first quarter: before that, levels, shaders and caches are loaded for the first time.
 pub(crate) fn settled(samples: &[Sample]) -> &[Sample] {
     &samples[samples.len() / 4..]
 }
@@ -80,7 +80,7 @@ pub(crate) fn growth(samples: &[Sample]) -> Growth {
     }
 }
 
-/// What is wrong, and what was measured. `bare` is the program without the layer at the same time.
+/// The failures, and a line with the measurements. `bare` is the program without the layer at the same time.
 pub(crate) fn judge(bare: &[Sample], layer: &[Sample]) -> (Vec<String>, String) {
     let (bare, layer) = (settled(bare), settled(layer));
     let (without, with) = (growth(bare), growth(layer));
@@ -129,7 +129,7 @@ fn median(values: impl Iterator<Item = u64>) -> u64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(0)
 }
 
-/// An hour and a half of a program that loads a level every five minutes and has `leak` MiB an hour more each hour.
+/// An hour and a half of a program that loads a level every five minutes and leaks `leak` MiB and `textures` textures an hour.
 fn made_up(leak: f64, textures: f64) -> Vec<Sample> {
     (0..1080)
         .map(|at| {

@@ -1,4 +1,4 @@
-//! What the tests share: where the binaries are, a screen, demos bare and under the layer, pictures.
+//! Shared by the tests: paths of the binaries, a screen, demos bare and under the layer, pictures.
 #![forbid(unsafe_code)]
 #![allow(dead_code, reason = "each test file uses its part")]
 
@@ -47,7 +47,7 @@ pub(crate) fn demo(name: &str) -> PathBuf {
     path
 }
 
-/// The command, with nothing of the caller's own settings.
+/// The command without the caller's own settings.
 pub(crate) fn manyview() -> Command {
     without_layer(Command::new(env!("CARGO_BIN_EXE_manyview")))
 }
@@ -77,12 +77,12 @@ pub(crate) fn refused(arguments: &[&str], status: i32, part: &str) {
     assert_eq!(stdout, "", "nothing on stdout");
 }
 
-/// Any program, with nothing of the caller's own settings.
+/// A program without the caller's own settings.
 pub(crate) fn bare(program: impl AsRef<std::ffi::OsStr>) -> Command {
     without_layer(Command::new(program))
 }
 
-/// A program with the layer preloaded, by variables only. Pairs are names without `MANYVIEW_` and values.
+/// A program with the layer preloaded, by variables only. `options` are names without `MANYVIEW_` and values.
 pub(crate) fn layered(program: impl AsRef<std::ffi::OsStr>, options: &[(&str, &str)]) -> Command {
     let mut command = bare(program);
     command.env("LD_PRELOAD", library());
@@ -99,15 +99,15 @@ fn without_layer(mut command: Command) -> Command {
         .env_remove("LD_PRELOAD")
         .env_remove("MANYVIEW_DISABLE")
         .env_remove("MANYVIEW_LIBRARY")
-        // Tests run side by side, and Mesa 22.3's llvmpipe may free a fence while the thread that signals it still unlocks it: the
-        // heap is then damaged, with or without the layer.
+        // Tests run side by side, and llvmpipe of Mesa 22.3 may free a fence while the thread that signals it still unlocks it: this
+        // damages the heap, with or without the layer.
         .env("LP_NUM_THREADS", "0");
     for spec in OPTIONS {
         for name in spec.variables() {
             command.env_remove(name);
         }
     }
-    // `auto` would try others, and keep for the user what it finds; tests/auto.rs asks for it.
+    // `auto` would try strategies and keep the outcome for the user; tests/auto.rs asks for it.
     command.env("MANYVIEW_STRATEGY", "replay");
     command
 }
@@ -134,7 +134,7 @@ pub(crate) fn screen() -> Screen {
     }
 }
 
-/// Adds a screen that nothing else is drawn on: the picture of a window is undefined where another one covers it.
+/// Adds a screen of its own: the picture of a window is undefined where another one covers it.
 pub(crate) fn own_screen() -> Screen {
     let server = Xvfb::start().expect("Xvfb; `make packages` installs it");
     Screen {
@@ -153,14 +153,14 @@ struct Shared {
     server: Option<Xvfb>,
 }
 
-/// A share in the screen of this process. The last one to go ends the server: statics are never dropped.
+/// A share in the screen of this process. The last share to be dropped ends the server: statics are never dropped.
 pub(crate) struct Screen {
     display: String,
     own: Option<Xvfb>,
 }
 
 impl Screen {
-    /// As `DISPLAY` says it.
+    /// The value of `DISPLAY`.
     pub(crate) fn display(&self) -> &str {
         &self.display
     }
@@ -188,7 +188,7 @@ impl Drop for Screen {
     }
 }
 
-/// Runs a command to its end; anything but status 0 fails the test with what the command said.
+/// Runs a command to its end; any status but 0 fails the test with the command's output.
 #[track_caller]
 pub(crate) fn succeed(command: &mut Command) -> Output {
     let output = command
@@ -213,7 +213,7 @@ pub(crate) fn read_png(path: &Path) -> Picture {
         .into_rgba8()
 }
 
-/// Runs `demo ARGUMENTS --dump PNG` without the layer and reads what it drew.
+/// Runs `demo ARGUMENTS --dump PNG` without the layer and reads its picture.
 #[track_caller]
 pub(crate) fn dump(demo_name: &str, arguments: &[&str]) -> Picture {
     let folder = tempfile::tempdir().expect("a folder");
@@ -256,13 +256,13 @@ pub(crate) fn rgb(path: &Path) -> RgbImage {
         .into_rgb8()
 }
 
-/// What a program without a screen prints.
+/// The stdout of a program that runs without a screen.
 pub(crate) fn lines(command: &mut Command) -> String {
     let output = succeed(command.env_remove("DISPLAY"));
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// The first and the last column of one colour in the middle row of a view, of several side by side.
+/// The first and the last column of one colour in the middle row of a view; `all` has `views` of them side by side.
 pub(crate) fn extent(all: &RgbImage, views: u32, view: u32, colour: [u8; 3]) -> [f64; 2] {
     let width = all.width() / views;
     let at = |x: u32| all.get_pixel(view * width + x, all.height() / 2).0;
@@ -271,14 +271,14 @@ pub(crate) fn extent(all: &RgbImage, views: u32, view: u32, colour: [u8; 3]) -> 
     [left, lit.next_back().unwrap_or(left)].map(f64::from)
 }
 
-/// A folder in `target/` for what a person may want to look at after a test; made if need be.
+/// A folder in `target/` for files that a person may look at after a test; created if need be.
 pub(crate) fn scratch(name: &str) -> PathBuf {
     let path = target_folder().with_file_name(name);
     std::fs::create_dir_all(&path).expect("a folder in target");
     path
 }
 
-/// Builds `tests/support/c/NAME.c` with the C compiler that the demos need as well; a library to preload, or a program.
+/// Builds `tests/support/c/NAME.c`, a library to preload or a program, with the C compiler that builds the demos.
 pub(crate) fn compiled(name: &str, kind: Compiled, libraries: &[&str]) -> PathBuf {
     let source = Path::new("tests/support/c").join(name).with_extension("c");
     built(name, &[source.as_path()], kind, libraries)
@@ -309,23 +309,23 @@ pub(crate) fn built(name: &str, sources: &[&Path], kind: Compiled, more: &[&str]
     out
 }
 
-/// What [`compiled`] makes.
+/// The output of [`compiled`].
 #[derive(Clone, Copy)]
 pub(crate) enum Compiled {
     Library,
     Program,
 }
 
-/// Lets a command write what its X window really shows after a swap (from 1), to be read by [`window_picture`].
+/// Makes a command write the pixels of its X window after a swap (counted from 1), to be read by [`window_picture`].
 ///
-/// That is the picture itself, without any glReadPixels: Mesa's answers those of multisampled windows unresolved.
+/// This avoids glReadPixels, which Mesa answers unresolved for multisampled windows.
 pub(crate) fn watch_window(command: &mut Command, library: &Path, frame: u32, out: &Path) {
     let before = command
         .get_envs()
         .find(|(name, _)| *name == "LD_PRELOAD")
         .and_then(|(_, value)| value)
         .map(|value| value.to_os_string());
-    // In front, so that it is called before the layer and looks after it.
+    // First in the list, so that its swap is called before the layer's and reads the window after it.
     let mut preload = library.as_os_str().to_os_string();
     if let Some(before) = before {
         preload.push(":");
@@ -342,7 +342,7 @@ pub(crate) fn window_library() -> PathBuf {
     compiled("window", Compiled::Library, &["-lX11", "-ldl"])
 }
 
-/// Reads what [`watch_window`] had written: a binary PPM.
+/// Reads the picture that [`watch_window`] had written: a binary PPM.
 #[track_caller]
 pub(crate) fn window_picture(path: &Path) -> RgbImage {
     let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -360,7 +360,7 @@ pub(crate) fn window_picture(path: &Path) -> RgbImage {
     .expect("all pixels")
 }
 
-/// Whether a program of an optional package is there; says what is left out if not.
+/// Whether a program of an optional package is installed; prints a line if not.
 pub(crate) fn has(program: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let found = std::env::split_paths(&path).any(|folder| folder.join(program).is_file());
@@ -370,7 +370,7 @@ pub(crate) fn has(program: &str) -> bool {
     found
 }
 
-/// Starts a program that never ends by itself, waits until a file is there, and ends exactly this program.
+/// Starts a program that never ends by itself, waits until a file is there, and ends only this program.
 #[track_caller]
 pub(crate) fn run_until(command: &mut Command, file: &Path) {
     let mut child = command
@@ -391,7 +391,7 @@ pub(crate) fn run_until(command: &mut Command, file: &Path) {
     );
 }
 
-/// Records what a program calls with apitrace, cut to the frames 0 to 30. The program is interrupted after some seconds.
+/// Records the calls of a program with apitrace, cut to the frames 0 to 30. The program is interrupted after some seconds.
 pub(crate) fn record(
     screen: &Screen,
     program: &[&str],
@@ -410,7 +410,7 @@ pub(crate) fn record(
         .env("SDL_AUDIODRIVER", "dummy")
         .stdout(Stdio::null())
         .stderr(Stdio::null());
-    // Interrupted, so its status says nothing; the trace does.
+    // The program is interrupted, so only the trace shows whether this worked.
     let _ = screen.give(&mut command).status().expect("timeout");
     let mut trim = bare("apitrace");
     trim.args(["trim", "--frames=0-30", "-o"])
@@ -420,7 +420,7 @@ pub(crate) fn record(
     cut
 }
 
-/// The triangles of a model, as the volumetric display takes them.
+/// The triangles of a model, in the form that the volumetric display takes.
 pub(crate) fn geometry(scene: &[Surface]) -> Vec<Triangle> {
     let vertex = |corner: Corner| Vertex {
         at: corner.at,

@@ -1,8 +1,8 @@
-//! Pictures that may be a pixel apart at silhouettes.
+//! Comparison of pictures that may be a pixel apart at silhouettes.
 
 use image::RgbImage;
 
-/// Whether a pixel is more than 8 steps beyond all that is within a pixel of it.
+/// Whether a pixel of `made` is more than 8 steps beyond the range of `exact` within a pixel of it.
 pub(crate) fn beyond(exact: &RgbImage, made: &RgbImage, x: u32, y: u32) -> bool {
     let (width, height) = exact.dimensions();
     let around = (y.saturating_sub(1)..height.min(y + 2))

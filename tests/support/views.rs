@@ -1,25 +1,25 @@
-//! Programs in three views: what they print, and the picture of all views of one frame.
+//! Programs in three views: their output, and the picture of all views of one frame.
 #![forbid(unsafe_code)]
 
 use super::{extent, lines, rgb};
 use image::RgbImage;
 use std::process::Command;
 
-/// As many as [`Views::shown`] asks for.
+/// The number of views that [`Views::shown`] asks for.
 pub(crate) const VIEWS: u32 = 3;
 
-/// How the views are drawn, and the frame that is kept.
+/// The strategy and atlas of the views, and the frame that is kept.
 #[derive(Clone, Copy)]
 pub(crate) struct Views<'a> {
     pub(crate) atlas: &'a str,
     pub(crate) strategy: &'a str,
     pub(crate) separation: f64,
     pub(crate) convergence: f64,
-    /// From 1.
+    /// Counted from 1.
     pub(crate) frame: u32,
 }
 
-/// Of the first frame, as most tests have it.
+/// The first frame by replay, for most tests.
 pub(crate) const REPLAYED: Views = Views {
     atlas: "side-by-side",
     strategy: "replay",
@@ -29,7 +29,7 @@ pub(crate) const REPLAYED: Views = Views {
 };
 
 impl Views<'_> {
-    /// What a program without a screen prints, and its atlas: the views side by side. The command is one of
+    /// The output of a program that runs without a screen, and its atlas: the views side by side. The command is one of
     /// [`layered`](super::layered).
     pub(crate) fn shown(self, command: &mut Command) -> (String, RgbImage) {
         let folder = tempfile::tempdir().expect("a folder");

@@ -1,4 +1,4 @@
-//! A user at an X server: keys that are pressed, windows that are looked at.
+//! A user at an X server, who presses keys and looks at windows.
 #![forbid(unsafe_code)]
 #![allow(dead_code, reason = "each test file uses its part")]
 
@@ -45,7 +45,7 @@ impl User {
         self.connection.setup().min_keycode + at as u8
     }
 
-    /// Keys down in their order and up again.
+    /// Presses keys in their order and releases them.
     pub(crate) fn press(&self, keys: &[u32]) {
         let codes: Vec<_> = keys.iter().map(|&key| self.code(key)).collect();
         let down = codes.iter().map(|&code| (KEY_PRESS_EVENT, code));
@@ -59,13 +59,13 @@ impl User {
         self.connection.sync().expect("a server");
     }
 
-    /// The windows of the root.
+    /// The children of the root window.
     pub(crate) fn windows(&self) -> Vec<Window> {
         let tree = self.connection.query_tree(self.root).expect("sent").reply();
         tree.expect("a tree").children
     }
 
-    /// A window in another one, mapped.
+    /// Opens a window in another one and maps it.
     pub(crate) fn open(&self, parent: Window) -> Window {
         let id = self.connection.generate_id().expect("an id");
         let about = CreateWindowAux::new().override_redirect(1);
@@ -82,7 +82,7 @@ impl User {
         id
     }
 
-    /// Gives a window the keys.
+    /// Gives a window the keyboard focus.
     pub(crate) fn focus(&self, window: Window) {
         let given =
             self.connection
@@ -90,7 +90,7 @@ impl User {
         given.expect("sent").check().expect("focus");
     }
 
-    /// A window of the root by its name.
+    /// The child of the root window with this name.
     pub(crate) fn window(&self, name: &str) -> Option<Window> {
         let named = |window: &Window| {
             let property = (AtomEnum::WM_NAME, AtomEnum::STRING);
@@ -103,7 +103,7 @@ impl User {
         self.windows().into_iter().find(named)
     }
 
-    /// What a window shows.
+    /// The pixels of a window.
     pub(crate) fn picture(&self, window: Window) -> RgbImage {
         let about = self
             .connection

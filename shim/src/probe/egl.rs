@@ -1,4 +1,4 @@
-//! A context for a pbuffer, on the display EGL offers or on none. Signatures: EGL/egl.h, EGL/eglext.h.
+//! An EGL context for a pbuffer, on the default display or without any. Signatures: EGL/egl.h, EGL/eglext.h.
 
 use crate::Context;
 use crate::library::{function, load, symbol};
@@ -16,7 +16,7 @@ const EGL_PROFILE_MASK: c_int = 0x30FD;
 const EGL_PLATFORM_SURFACELESS_MESA: c_uint = 0x31DD;
 /// EGL_SURFACE_TYPE: EGL_PBUFFER_BIT; EGL_RENDERABLE_TYPE: EGL_OPENGL_BIT; EGL_DEPTH_SIZE: 1
 const CONFIG: [c_int; 7] = [0x3033, 1, 0x3040, 8, 0x3025, 1, EGL_NONE];
-/// The same with EGL_OPENGL_ES2_BIT
+/// The same with EGL_OPENGL_ES2_BIT.
 const ES_CONFIG: [c_int; 7] = [0x3033, 1, 0x3040, 4, 0x3025, 1, EGL_NONE];
 /// EGL_WIDTH and EGL_HEIGHT: 1
 const PBUFFER: [c_int; 5] = [0x3057, 1, 0x3056, 1, EGL_NONE];
@@ -33,7 +33,7 @@ type MakeCurrent = unsafe extern "C" fn(Ptr, Ptr, Ptr, Ptr) -> c_uint;
 
 struct Source {
     get: GetProcAddress,
-    /// For drivers whose eglGetProcAddress knows extensions only.
+    /// The library of GL, for drivers whose eglGetProcAddress knows only extensions.
     gl: Option<&'static Library>,
 }
 
@@ -55,10 +55,10 @@ pub(crate) fn find(name: &CStr) -> Ptr {
     }
 }
 
-/// An API and profile to ask a context of.
+/// The API and profile of a context.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// As programs get it that ask for nothing.
+    /// The context of a program that asks for no version.
     Legacy,
     Compatibility,
     Core,
@@ -73,7 +73,7 @@ impl Kind {
         }
     }
 
-    /// Lists of attributes, the best first.
+    /// Lists of attributes to try, the newest version first.
     fn attributes(self) -> Vec<Vec<c_int>> {
         let versions: &[(c_int, c_int)] = match self {
             Kind::Legacy => return vec![vec![EGL_NONE]],
@@ -99,7 +99,7 @@ pub(crate) fn context() -> Result<Context, String> {
     make(Kind::Legacy)
 }
 
-/// Makes a new context current with a pbuffer of one pixel; a context that was current before is given up.
+/// Makes a new context current with a pbuffer of one pixel. A context that was current before is not destroyed.
 pub(crate) fn make(kind: Kind) -> Result<Context, String> {
     let egl = load("libEGL.so.1")?;
     let get = function!(egl, c"eglGetProcAddress", GetProcAddress);
@@ -144,7 +144,7 @@ pub(crate) fn make(kind: Kind) -> Result<Context, String> {
     })
 }
 
-/// The default display, or Mesa's without any screen.
+/// The default display, or Mesa's surfaceless one.
 fn display(egl: &Library, get: GetProcAddress) -> Result<Ptr, String> {
     let get_display = function!(egl, c"eglGetDisplay", GetDisplay);
     let initialize = function!(egl, c"eglInitialize", Initialize);

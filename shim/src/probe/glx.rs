@@ -1,4 +1,4 @@
-//! A context for a window that is never shown. Signatures: X11/Xlib.h, X11/Xutil.h, GL/glx.h.
+//! A GLX context for a window that is never shown. Signatures: X11/Xlib.h, X11/Xutil.h, GL/glx.h.
 
 use crate::Context;
 use crate::library::{function, load, symbol};

@@ -1,4 +1,4 @@
-//! What the interleave pass costs, at the sizes of panels.
+//! Measures the cost of the interleave pass, at the sizes of panels.
 
 use crate::egl;
 use manyview_core::config::{Config, Settings};
@@ -13,7 +13,7 @@ const SIZES: [(u32, u32); 3] = [(1920, 1080), (3840, 2160), (7680, 4320)];
 const VIEWS: [u32; 7] = [2, 4, 8, 16, 32, 45, 64];
 const ROUNDS: usize = 9;
 
-/// Prints a line for each size, number of views and panel; those that do not fit are named on stderr.
+/// Prints a line for each size, number of views and panel. Cases that cannot be measured are named on stderr.
 pub(crate) fn run() -> ExitCode {
     let mut words = std::env::args().skip(2);
     let size = words.next().map(|word| {
@@ -68,7 +68,7 @@ fn every(sizes: &[(u32, u32)], views: &[u32]) -> Result<(), String> {
     Ok(())
 }
 
-/// One whose mask repeats after a few pixels, and a lens sheet as it is measured, whose mask does not.
+/// A panel whose mask repeats after a few pixels, and a lens sheet with measured numbers, whose mask does not repeat.
 fn panels() -> [Display; 2] {
     let measured = |text| Number::parse(text).unwrap_or(Number::whole(0));
     let sheet = Slanted {

@@ -1,4 +1,4 @@
-//! Libraries by name, and functions out of them.
+//! Loads libraries by name, and finds functions in them.
 
 use core::ffi::{CStr, c_void};
 use libloading::Library;
@@ -13,14 +13,14 @@ pub(crate) fn load(name: &str) -> Result<&'static Library, String> {
     }
 }
 
-/// A function of a library, null if it has none of that name.
+/// The address of a function of a library, null if it has none of that name.
 pub(crate) fn symbol(library: &Library, name: &CStr) -> Ptr {
     // SAFETY: the address is only kept, not called, as a pointer.
     unsafe { library.get::<*mut c_void>(name.to_bytes_with_nul()) }
         .map_or(core::ptr::null_mut(), |symbol| *symbol)
 }
 
-/// Whether an address lies in a file of that name.
+/// Whether an address lies in a library with this file name.
 pub(crate) fn lies_in(address: Ptr, file: &str) -> bool {
     // SAFETY: all-zero is a valid Dl_info.
     let mut info: libc::Dl_info = unsafe { core::mem::zeroed() };
@@ -34,7 +34,7 @@ pub(crate) fn lies_in(address: Ptr, file: &str) -> bool {
     path.rsplit(|&byte| byte == b'/').next() == Some(file.as_bytes())
 }
 
-/// A function of a library by name, with its type; `Err` names both.
+/// A function of a library by name, with its type. If the library has none, the enclosing function returns an `Err` that names it.
 macro_rules! function {
     ($library:expr, $name:literal, $type:ty) => {{
         let pointer = $crate::library::symbol($library, $name);

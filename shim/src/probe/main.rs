@@ -1,12 +1,12 @@
-//! `manyview-probe glx|egl|osmesa`: makes one legacy OpenGL context and says, as one line of JSON, what the layer can do in
-//! it. `manyview doctor` runs it with the layer preloaded; it works without as well. Libraries are loaded by name, as many
+//! `manyview-probe glx|egl|osmesa` makes one legacy OpenGL context and prints, as one line of JSON, what the layer can do in
+//! it. `manyview doctor` runs it with the layer preloaded; it also works without. It loads libraries by name, as many
 //! programs do.
 //!
-//! `manyview-probe interleave [WIDTHxHEIGHT [VIEWS]]`: what the interleave pass costs in an EGL context, one line of JSON for each
-//! size, number of views and panel.
+//! `manyview-probe interleave [WIDTHxHEIGHT [VIEWS]]` measures the cost of the interleave pass in an EGL context, and prints one line
+//! of JSON for each size, number of views and panel.
 //!
-//! `manyview-probe rewrite FILE…`: real shaders rewritten, and what the driver says of them before and after; one line of JSON for each shader
-//! and each program.
+//! `manyview-probe rewrite FILE…` rewrites real shaders and gives them to the driver before and after. It prints one line of JSON for each
+//! shader and each program.
 
 mod egl;
 mod glx;
@@ -20,10 +20,10 @@ use manyview_core::interleave::Interleaver;
 use manyview_core::layer::support::{Probe, Support};
 use std::process::ExitCode;
 
-/// The functions of the context that was made. One API per process, so one table.
+/// A context that was made current. A process uses one API, so there is one table of functions.
 pub(crate) struct Context {
     real: &'static Real,
-    /// A function that the layer hooks, as this process got it.
+    /// The address of a hooked function, as this process got it.
     sample: Ptr,
 }
 
@@ -55,7 +55,7 @@ fn main() -> ExitCode {
         Ok(line) => println!("{line}"),
         Err(_) => return ExitCode::FAILURE,
     }
-    // The system takes context, window and connection back with the process.
+    // The system frees context, window and connection with the process.
     ExitCode::SUCCESS
 }
 

@@ -1,4 +1,4 @@
-//! A context that draws to memory. Signatures: GL/osmesa.h.
+//! An OSMesa context, which draws to memory. Signatures: GL/osmesa.h.
 
 use crate::Context;
 use crate::library::{function, load, symbol};
@@ -23,7 +23,7 @@ fn find(name: &CStr) -> Ptr {
 type Create = unsafe extern "C" fn(c_uint, c_int, c_int, c_int, Ptr) -> Ptr;
 type MakeCurrent = unsafe extern "C" fn(Ptr, Ptr, c_uint, c_int, c_int) -> u8;
 
-/// Makes a context current that draws to one pixel.
+/// Makes a context current that draws to a single pixel.
 pub(crate) fn context() -> Result<Context, String> {
     let library = NAMES.iter().find_map(|name| load(name).ok());
     let library = library.ok_or_else(|| format!("{} is not installed", NAMES[0]))?;

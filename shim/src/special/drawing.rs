@@ -1,4 +1,4 @@
-//! Immediate mode, arrays, pixels, display lists.
+//! Immediate mode, vertex arrays, pixels and display lists.
 
 use crate::context::{Inside, enter, inside, peek, peek_inside, real, recording, set_inside};
 use crate::hooks::{ask, compile, imm};
@@ -23,7 +23,8 @@ pub(crate) unsafe fn glBegin(mode: u32) {
             mode
         }
     };
-    // SAFETY: the program's own call. Where calls are recorded, the driver has an empty primitive: it answers for what is wrong here.
+    // Where calls are recorded, the driver has an empty primitive, so that it reports errors of the program.
+    // SAFETY: the program's own call.
     unsafe { real().glBegin(own) };
 }
 
@@ -37,7 +38,7 @@ pub(crate) unsafe fn glEnd() {
     }
 }
 
-/// After lists that may have begun or ended a primitive: the driver and the hooks stand where the program does.
+/// After lists that may have begun or ended a primitive: brings the driver and the hooks to the same side of glBegin as the program.
 fn after_lists() {
     match peek(|l| l.primitive()).unwrap_or(Primitive::None) {
         Primitive::Recorded { empty } => {
@@ -208,7 +209,7 @@ pub(crate) unsafe fn glCallList(list: u32) {
     after_lists();
 }
 
-/// Asks the driver something while calls are recorded: its own primitive is empty, so it can end and begin again.
+/// Asks the driver something while calls are recorded. The driver's own primitive is empty, so it can be ended and begun again.
 fn outside<R>(ask: impl FnOnce() -> R) -> R {
     let primitive = peek_inside(|l| l.primitive());
     // SAFETY: the driver is between glBegin and glEnd.
@@ -287,13 +288,13 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
     let names = unsafe { list_names(n, type_, lists) };
     if recording() {
         let Some(names) = names else {
-            // A wrong call: the driver, which is between glBegin and glEnd as well, says so.
+            // The call is wrong, and the driver, which is between glBegin and glEnd as well, reports that.
             // SAFETY: the program's own call.
             return unsafe { real().glCallLists(n, type_, lists) };
         };
         let base = outside(list_base);
         let names = names.into_iter();
-        // One of them may end the primitive.
+        // The lists are called one by one, because one of them may end the primitive.
         // SAFETY: the program's own call, list by list.
         return names.for_each(|n| unsafe { glCallList(n.wrapping_add(base)) });
     }

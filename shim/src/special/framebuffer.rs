@@ -91,7 +91,7 @@ pub(crate) unsafe fn glGenerateTextureMipmap(texture: u32) {
     copied(|gl, l| l.mipmaps_of(gl, texture, call));
 }
 
-/// A choice of buffers: ours for framebuffer 0, else the driver's. In a display list the translated name is compiled.
+/// A call that chooses buffers. `ours` handles framebuffer 0; the driver handles the others, and names that `ours` does not know.
 fn choose(
     zero: impl Fn(&Layer) -> bool,
     ours: impl FnOnce(&Gl, &mut Layer) -> Option<()>,
@@ -113,7 +113,7 @@ fn choose(
     }
 }
 
-/// As [`choose`], of the buffers that the bound framebuffer is drawn to; `several`: by glDrawBuffers.
+/// As [`choose`], for the draw buffers of the bound framebuffer. `several` is true for glDrawBuffers.
 fn choose_draw(names: Option<&[u32]>, several: bool, call: &mut dyn FnMut()) {
     let done = enter(|gl, l| {
         if !l.draws_to_zero() {
@@ -159,7 +159,7 @@ pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
     // SAFETY: the program's array.
     let names = unsafe { buffers(n, bufs) };
     if compile(Command::Of(Run::DrawBuffers), Touch::NONE) {
-        // What has no names is wrong with any framebuffer.
+        // A call without valid names is an error with any framebuffer.
         let mut compiled = vec![1];
         compiled.extend_from_slice(names.as_deref().unwrap_or(&[u32::MAX]));
         enter(|_, l| l.compiled_names(&compiled));
@@ -175,7 +175,8 @@ pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
 }
 
 pub(crate) unsafe fn glReadBufferNV(mode: u32) {
-    // SAFETY: the same command for contexts older than those that have it under its plain name.
+    // The extension has the same command, for contexts that lack the plain name.
+    // SAFETY: the program's own argument.
     unsafe { glReadBuffer(mode) };
 }
 
@@ -269,7 +270,8 @@ pub(crate) unsafe fn glBlitFramebufferANGLE(
     mask: u32,
     filter: u32,
 ) {
-    // SAFETY: the same command; what it refuses of more, no program does.
+    // The extension has the same command with more restrictions, on which no program relies.
+    // SAFETY: the program's own arguments.
     unsafe {
         glBlitFramebuffer(
             srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter,
@@ -401,7 +403,7 @@ fn clear_zero(framebuffer: u32, call: &mut dyn FnMut()) -> bool {
         .is_some()
 }
 
-/// A hook of glClearNamedFramebuffer*: `zero` is the same clear of what is bound.
+/// A hook of glClearNamedFramebuffer*; `zero` is the same clear of the bound framebuffer.
 macro_rules! clear_named {
     ($name:ident, $zero:ident, $($arg:ident: $kind:ty),+) => {
         pub(crate) unsafe fn $name(framebuffer: u32, buffer: u32, drawbuffer: i32, $($arg: $kind),+) {

@@ -1,4 +1,4 @@
-//! Hooks written by hand, each under its command's own name.
+//! Hooks that are written by hand, each under the name of its command.
 #![allow(
     non_snake_case,
     clippy::missing_safety_doc,

@@ -1,4 +1,4 @@
-//! The programs' own GLSL programs.
+//! The program's own GLSL programs.
 
 use crate::context::{enter, peek, real};
 use crate::hooks::{Touch, ask, touch};
@@ -13,7 +13,7 @@ pub(crate) unsafe fn glLinkProgram(program: u32) {
 
 pub(crate) unsafe fn glProgramBinary(program: u32, format: u32, binary: Ptr, length: i32) {
     ask();
-    // Such as the driver has none of: it says what is wrong, and the program links its texts.
+    // The driver knows no format 0 and refuses it, so the program links its sources instead.
     let refused = peek(|l| l.refuses_binaries()) == Some(true);
     let format = if refused { 0 } else { format };
     // SAFETY: the program's own call.

@@ -1,4 +1,4 @@
-//! Queries that count what is drawn, in one view instead of in all.
+//! Queries that count samples or primitives. They count those of one view instead of all.
 
 use crate::context::{enter, peek, real};
 use crate::hooks::{ask, compile};
@@ -8,7 +8,7 @@ use manyview_core::gl::consts::CURRENT_QUERY;
 use manyview_core::layer::Answer;
 use manyview_core::state::{Command, Run, Touch};
 
-/// The beginning and the end of a query, under the names of OpenGL and of OpenGL ES's extension.
+/// Hooks of the commands that begin and end a query, under the names of OpenGL and of the extension of OpenGL ES.
 macro_rules! counted {
     ($begin:ident, $end:ident) => {
         pub(crate) unsafe fn $begin(target: u32, id: u32) {
@@ -45,7 +45,7 @@ pub(crate) unsafe fn glDeleteQueries(n: i32, ids: Ptr) {
     enter(|_, l| l.deleted_queries(&names));
 }
 
-/// A question about a target of queries.
+/// A hook of glGetQuery*, which returns the program's query where one of ours is active.
 macro_rules! query_target {
     ($name:ident) => {
         pub(crate) unsafe fn $name(target: u32, pname: u32, params: Ptr) {

@@ -1,4 +1,4 @@
-//! State that the layer follows call by call, and what the program asks about.
+//! State that the layer follows call by call, and queries of the program.
 
 use crate::context::{draws_to_memory, enter, frame, peek, real, viewport_set, write_back_shared};
 use crate::hooks::{ask, compile, touch};
@@ -46,7 +46,7 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
         enter(|gl, l| l.yield_names(gl));
     }
     enter(|gl, l| l.deleted_textures(gl, names));
-    // A bound texture that is deleted is bound no more.
+    // Deleting a bound texture unbinds it.
     peek(|l| l.touch(Touch::TEXTURE));
     // SAFETY: the program's own call.
     unsafe { real().glDeleteTextures(n, textures) };
@@ -103,14 +103,14 @@ pub(crate) unsafe fn glEndTransformFeedback() {
     peek(|l| l.transform_feedback(false));
 }
 
-/// What is special about framebuffer 0 in an answer of glGet.
+/// The answer to glGet where it differs from the driver's because the program's framebuffer 0 is the atlas.
 fn answer(name: u32) -> Option<i64> {
     ask();
     peek(|l| l.answer(name)).flatten()
 }
 
 pub(crate) unsafe fn glGetIntegerv(pname: u32, data: Ptr) {
-    // A list of none.
+    // The list of binary formats is empty.
     if pname == PROGRAM_BINARY_FORMATS && peek(|l| l.refuses_binaries()) == Some(true) {
         return;
     }
@@ -161,7 +161,7 @@ pub(crate) unsafe fn glGetInteger64v(pname: u32, data: Ptr) {
 pub(crate) unsafe fn glGetError() -> u32 {
     ask();
     if let Some(Some(e)) = peek(|l| l.take_error()) {
-        // As long as it had been in the driver's queue, the driver would have recorded no other.
+        // While this error was pending, the driver would have recorded no other, so the driver's is dropped.
         // SAFETY: no arguments.
         unsafe { real().glGetError() };
         return e;
@@ -188,7 +188,7 @@ pub(crate) unsafe fn glFinish() {
     // SAFETY: the program's own call.
     let finish = || unsafe { real().glFinish() };
     let memory = draws_to_memory();
-    // Without windows glFinish is where OSMesa has its picture in the program's memory: the end of a frame.
+    // OSMesa has no swap: at glFinish its picture is in the program's memory, which is the end of a frame.
     if memory || enter(|_, l| l.shows_on_flush()) == Some(true) {
         frame(None, finish)
     } else {

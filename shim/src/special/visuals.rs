@@ -1,4 +1,4 @@
-//! What a program asks of its window, under GLX: one with a left and a right buffer too, where the output shows both.
+//! The choice of visuals under GLX: where the output needs a left and a right buffer, the driver is asked for a stereo window.
 
 use crate::context::guarded;
 use crate::provider::Provider;
@@ -7,7 +7,7 @@ use manyview_core::config::Output;
 use manyview_core::gl::Ptr;
 use manyview_core::present::Attributes;
 
-/// The program's list with a stereo window asked for as well, where that changes something.
+/// The program's attributes with stereo added. None where the output needs no stereo, or the list cannot be extended.
 ///
 /// # Safety
 /// A list as GLX takes it, or null.
@@ -17,7 +17,7 @@ unsafe fn with_stereo(kind: Attributes, attribs: Ptr) -> Option<Vec<i32>> {
         return None;
     }
     if attribs.is_null() {
-        // glXChooseFBConfig takes that for an empty list, glXChooseVisual has to be asked.
+        // glXChooseFBConfig takes null for an empty list; with glXChooseVisual it is an error, which is left to the driver.
         return (kind == Attributes::Config)
             .then(|| kind.with_stereo([]))
             .flatten();
@@ -27,7 +27,7 @@ unsafe fn with_stereo(kind: Attributes, attribs: Ptr) -> Option<Vec<i32>> {
     kind.with_stereo((0..).map(|i| unsafe { list.add(i).read() }))
 }
 
-/// Asks the driver for a stereo window, and where it has none for what the program wants.
+/// A hook that asks the driver for a stereo window, and if there is none, for the window that the program wants.
 macro_rules! choose {
     ($name:ident($($count:ident)?), $kind:expr) => {
         pub(crate) unsafe fn $name(dpy: Ptr, screen: i32, attribs: Ptr $(, $count: Ptr)?) -> Ptr {

@@ -1,4 +1,4 @@
-//! GLX, EGL and OSMesa: contexts, swaps, addresses.
+//! GLX, EGL and OSMesa: contexts, swaps and function addresses.
 
 use crate::context::{destroyed, finish_memory_frame, frame, guarded, is_current, made_current};
 use crate::dl::proc_address;
@@ -37,7 +37,7 @@ pub(crate) unsafe fn glXSwapBuffersMscOML(
     })
 }
 
-/// A hook of a command that creates a context: `share` names the argument that says with which it shares.
+/// A hook of a command that creates a context; `share` names the argument with the context to share objects with.
 macro_rules! create {
     ($name:ident($($arg:ident: $kind:ty),+), $share:ident, $provider:ident, $real:ident) => {
         pub(crate) unsafe fn $name($($arg: $kind),+) -> Ptr {
@@ -142,7 +142,7 @@ pub(crate) unsafe fn eglSwapBuffers(dpy: Ptr, surface: Ptr) -> u32 {
     })
 }
 
-/// A swap with damage: the rectangles are left out, because the whole panel changes when a part of the scene does.
+/// A hook of a swap with damage. The rectangles are dropped, because a change in a part of the scene changes the whole panel.
 macro_rules! swap_with_damage {
     ($name:ident) => {
         pub(crate) unsafe fn $name(dpy: Ptr, surface: Ptr, _rects: Ptr, _n: i32) -> u32 {
@@ -192,7 +192,7 @@ pub(crate) unsafe fn eglGetDisplay(native: Ptr) -> Ptr {
     display
 }
 
-/// As eglGetDisplay, of a platform that the program names.
+/// A hook as that of eglGetDisplay, for a platform that the program names.
 macro_rules! platform_display {
     ($name:ident) => {
         pub(crate) unsafe fn $name(platform: u32, native: Ptr, attribs: Ptr) -> Ptr {
@@ -207,7 +207,7 @@ macro_rules! platform_display {
 platform_display!(eglGetPlatformDisplay);
 platform_display!(eglGetPlatformDisplayEXT);
 
-/// A surface of a window, which is given as such or by its address.
+/// A hook of a command that creates a surface for a window, which is given by its number or by the address of that.
 macro_rules! window_surface {
     ($name:ident, $address:literal) => {
         pub(crate) unsafe fn $name(dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr {

@@ -15,38 +15,38 @@ pub struct Frame {
     pub samples: usize,
     /// By pixel: the sample of the truth is missing in the frame.
     pub missing: Vec<bool>,
-    /// Samples that are not at their own pixel; those at silhouettes that lie a pixel off are among them.
+    /// Samples that are not at their own pixel, including those of silhouettes that lie a pixel off.
     pub displaced: usize,
     /// Pixels where the true picture shows the scene and the frame nothing, %.
     pub holes_percent: f64,
-    /// The whole picture, holes black.
+    /// The error of the whole picture, holes black.
     pub all: Comparison,
-    /// With the missing samples taken from the truth.
+    /// The error with the missing samples taken from the truth.
     pub present: Comparison,
-    /// Of all pixels where both show the scene.
+    /// The error of all pixels where both show the scene.
     pub disparity: Disparity,
-    /// As it is.
+    /// The frame itself.
     pub picture: RgbImage,
 }
 
-/// Disparity errors of a frame on the way to the farthest viewpoint, pixels. Pixels that show another surface count.
+/// Disparity errors of a frame, seen from the farthest viewpoint, pixels. Pixels that show another surface count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disparity {
-    /// Half of the pixels have no more.
+    /// Half of the pixels have no larger error.
     pub median: f64,
-    /// 95 % of them have no more.
+    /// 95 % of the pixels have no larger error.
     pub most: f64,
-    /// Of the worst.
+    /// The largest error.
     pub worst: f64,
-    /// Pixels that have more than [`Disparity::ASKED`], %.
+    /// Pixels with a larger error than [`Disparity::ASKED`], %.
     pub over_percent: f64,
 }
 
 impl Disparity {
-    /// The error that a pixel may have, in pixels.
+    /// The bound on a pixel's error, in pixels.
     pub const ASKED: f64 = 0.5;
 
-    /// Of such pixels; none are without error.
+    /// Statistics of the pixels' errors; all 0 without pixels.
     #[must_use]
     pub fn of(mut parted: Vec<f64>) -> Disparity {
         parted.sort_by(f64::total_cmp);
@@ -101,7 +101,7 @@ impl Frame {
         })
     }
 
-    /// How many samples are missing.
+    /// Number of missing samples.
     #[must_use]
     pub fn count(&self) -> usize {
         self.missing.iter().filter(|missing| **missing).count()
@@ -121,8 +121,9 @@ impl Frame {
     }
 }
 
-/// By pixel: the truth has a sample there, and the frame has none of its depth at that pixel or one of the eight around it. Both pictures are
-/// sampled at pixels, so the same silhouette may lie a pixel off; a hole has to be wider than that to be seen. Depths are 1/w, 0 where nothing is.
+/// By pixel: the truth has a sample there, and the frame has no sample of its depth at that pixel or one of the eight around it. Both
+/// pictures are sampled at pixels, so the same silhouette may lie a pixel off; only wider holes are seen. Depths are 1/w, 0 for the
+/// background.
 #[must_use]
 pub fn missing([w, h]: [u32; 2], truth: &[f32], frame: &[f32], tolerance: f64) -> Vec<bool> {
     let [w, h] = [w as usize, h as usize];

@@ -18,12 +18,12 @@ use crate::model::{Surface, project, triangles};
 use crate::synthesis::{Distortions, Edges, Pinhole, Reference, Splats, Triangle};
 use std::time::{Duration, Instant};
 
-/// Share of a depth image's missing samples that is left in the paper, on average of its scenes, %.
+/// The paper's share of a depth image's missing samples that stay missing, averaged over its scenes, %.
 pub const PAPER: f64 = 4.5;
 /// The sources of the frames. The last is the occlusion camera's reference image in twice as many columns and rows.
 pub const IMAGES: [&str; 3] = ["depth image", "occlusion camera", "twice as fine"];
-/// The pictures that are compared with the truth: a frame of each of those, and the truth itself, sampled half a pixel aside. Two pictures of samples part by as much
-/// as that without either being wrong.
+/// The pictures that are compared with the truth: a frame of each source, and the truth itself, sampled half a pixel aside. Two sampled pictures may
+/// differ as much as this without either being wrong.
 pub const FRAMES: [&str; 4] = [IMAGES[0], IMAGES[1], IMAGES[2], "truth, aside"];
 /// "The decrease in resolution can be alleviated by increasing the resolution of the reference image" (section IV.C, Figure 15).
 const FINER: u32 = 2;
@@ -46,26 +46,26 @@ const ASYMMETRY: f64 = 4.0;
 const MORE: f64 = 1.1;
 /// A depth discontinuity opens a hole wider than this at the farthest viewpoint, pixels. Smaller steps are joined.
 const STEP: f64 = 4.0;
-/// Rays are distorted where one of this opens.
+/// Rays are distorted where a hole this wide opens, pixels.
 const EDGE: f64 = 3.5;
-/// Two samples differ if they part by more than this on the way to the farthest viewpoint, pixels.
+/// Two samples differ if their disparities for the farthest viewpoint differ by more than this, pixels.
 const TOLERANCE: f64 = 1.0;
 
-/// How it is measured.
+/// The parameters of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Experiment {
-    /// Of every picture, pixels.
+    /// Columns and rows of every picture.
     pub size: [u32; 2],
 }
 
 /// The source of a frame.
 #[derive(Clone, Debug)]
 pub struct Images {
-    /// As [`IMAGES`] has them.
+    /// In the order of [`IMAGES`].
     pub all: [Reference; 3],
-    /// To draw one view of the geometry.
+    /// Time to draw one view of the geometry.
     pub single: Duration,
-    /// To find the edges, make the map and draw the reference image, for each of those. The depths of the single view are there already.
+    /// Time to find the edges, make the map and draw the reference image, for each of the two. The depths of the single view exist already.
     pub construction: [Duration; 2],
 }
 
@@ -93,7 +93,7 @@ impl Experiment {
         TOLERANCE / self.parallax()
     }
 
-    /// At the reference viewpoint, or so many inches from it. All look through the same window in the middle of the display.
+    /// The camera at an offset in inches from the reference viewpoint. All look through the same window in the middle of the display.
     #[must_use]
     pub fn camera(&self, [x, y, z]: [f64; 3]) -> Pinhole {
         Pinhole::through(self.size, self.scale(), [x, y, DISTANCE + z])
@@ -111,7 +111,7 @@ impl Experiment {
         self.draw_moved(camera, scene, 0.5)
     }
 
-    /// The same, so many pixels to the right in the picture.
+    /// The same, moved by `by` pixels to the right in the picture.
     fn draw_moved(&self, camera: &Pinhole, scene: &[Surface], by: f64) -> Reference {
         let mut drawn = Reference::new(self.size);
         let moved = |mut triangle: Triangle| {
@@ -161,7 +161,7 @@ impl Experiment {
         }
     }
 
-    /// The view of an image from so many inches beside the reference viewpoint.
+    /// The view of an image at an offset in inches from the reference viewpoint.
     #[must_use]
     pub fn seen(&self, image: &Reference, offset: [f64; 3]) -> Reference {
         let own = Experiment { size: image.size() };
@@ -170,7 +170,7 @@ impl Experiment {
     }
 }
 
-/// Inches from the reference viewpoint: in the middle of equal parts of the 12 edges of the cube.
+/// The viewpoints in inches from the reference viewpoint: in the middle of equal parts of the 12 edges of the cube.
 #[must_use]
 pub fn viewpoints() -> Vec<[f64; 3]> {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];

@@ -13,9 +13,9 @@ use std::time::Duration;
 pub struct Outcome {
     /// When it began: RFC 3339, UTC.
     pub date: String,
-    /// As it was typed.
+    /// The command line.
     pub command: Vec<String>,
-    /// Of `--preset`.
+    /// The name for `--preset`.
     pub preset: &'static str,
     /// One for each scene.
     pub scenes: Vec<Scene>,
@@ -47,9 +47,9 @@ pub struct Scene {
 pub struct Made {
     /// Of [`IMAGES`].
     pub image: &'static str,
-    /// To make it, without the depths that it begins with, ms.
+    /// Time to make it, ms, without the depths that it starts from.
     pub construction_ms: f64,
-    /// Its missing samples over the depth image's, of all viewpoints together, %. None where nothing is missing.
+    /// Its missing samples over the depth image's, of all viewpoints together, %. None where no sample is missing.
     pub left_percent: Option<f64>,
 }
 
@@ -72,7 +72,7 @@ pub struct View {
     pub missing: usize,
     /// Samples that are not at their own pixel.
     pub displaced: usize,
-    /// Of the samples, %: pixels with nothing.
+    /// Pixels with nothing, in per cent of the samples.
     pub holes_percent: f64,
     /// dB; none for equal pictures, where it is infinite.
     pub psnr: Option<f64>,
@@ -84,7 +84,7 @@ pub struct View {
     pub present_ssim: f64,
     /// Disparity error of pixels that are no holes, the median, pixels.
     pub disparity_median: f64,
-    /// 95 % of it no more than this.
+    /// The 95 % quantile.
     pub disparity_95: f64,
     /// The worst.
     pub disparity_max: f64,
@@ -156,7 +156,7 @@ impl Scene {
     }
 }
 
-/// The viewpoint where most is missing of an image.
+/// The viewpoint with the most missing samples of an image.
 #[must_use]
 pub(super) fn worst<'a>(views: &'a [View], scene: &str, image: &str) -> Option<&'a View> {
     let own = views

@@ -1,12 +1,12 @@
-//! The pictures that one would rather look at.
+//! A sheet of pictures to look at.
 
 use super::outcome::worst;
 use super::{Experiment, Frame, IMAGES, Images, View};
 use crate::model::Surface;
 use image::{RgbImage, imageops};
 
-/// Of one scene, from left to right: [`IMAGES`] in the size of the picture, the frame of each at the viewpoint where the occlusion camera misses most,
-/// with the missing samples in white, and the truth there.
+/// One scene, from left to right: [`IMAGES`] in the size of the picture, the frame of each at the worst viewpoint of the occlusion camera, with
+/// the missing samples in white, and the truth there.
 #[must_use]
 pub fn sheet(
     experiment: &Experiment,

@@ -3,7 +3,7 @@
 use super::*;
 use crate::model::MODELS;
 
-/// Small, so that tests take no time.
+/// A small picture, to keep the tests fast.
 const EXPERIMENT: Experiment = Experiment { size: [180, 120] };
 
 /// A rectangle in the plane z.
@@ -55,7 +55,7 @@ fn a_depth_image_lacks_what_the_column_has_hidden() {
             (count - expected).abs() <= 1.5 * height,
             "{count} of {expected}"
         );
-        // All of them but the two columns at its sides are holes.
+        // All missing samples are holes, except for the two pixel columns at the sides.
         assert!(depth.holes_percent * depth.samples as f64 / 100.0 >= count);
         for reference in [&reference, &finer] {
             let occlusion = frame(&scene, reference, [right, 0.0, 0.0]);
@@ -82,7 +82,7 @@ fn a_sample_may_be_a_pixel_off_and_not_two() {
             .count()
     };
     assert_eq!([off(0), off(1), off(2)], [0, 0, 1]);
-    // One of another depth does not count.
+    // A sample of another depth does not count.
     assert_eq!(
         missing(size, &truth, &[0.25; 6], 0.01)
             .iter()
@@ -103,7 +103,7 @@ fn a_disparity_leaves_out_nothing_but_holes() {
         over_percent: 10_000.0 / 101.0,
     };
     assert_eq!(disparity, expected);
-    // A column that the frame has not shows the wall, which parts by far more than a sample may.
+    // Where the frame lacks the column it shows the wall, whose depth differs far more than a sample's may.
     let scene = column();
     let wall = EXPERIMENT.draw(&EXPERIMENT.camera([0.0; 3]), &scene[..1]);
     let frame = frame(&scene, &wall, [0.0; 3]);

@@ -388,7 +388,7 @@ pub const CASES: &[Case] = &[
     ),
 ];
 
-/// Of views that the shader moves beside each other.
+/// The configurations whose shader moves the views side by side.
 const CLIPPED: &[&str] = &[
     "instanced-distances",
     "geometry-distances",
@@ -398,7 +398,7 @@ const CLIPPED: &[&str] = &[
     "geometry-cut",
 ];
 
-/// The cases that miss their bound, with the reason. A case that no longer does has to leave this list.
+/// The cases that miss their bound, with the reason. A case that meets its bound again has to leave this list.
 pub const MISSES: &[Miss] = &[
     Miss {
         case: "texture",

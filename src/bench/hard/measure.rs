@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 /// A marker of a scene and where it is in the program's own picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
-    /// Of all its pixels and of no other.
+    /// The colour of all its pixels and of no other.
     pub colour: [u8; 3],
     /// Pixel column of its centre.
     pub x: f64,
-    /// Eye-space distance; infinite too.
+    /// Eye-space distance, may be infinite.
     pub depth: f64,
 }
 
@@ -40,8 +40,8 @@ fn marker(colour: &str, x: &str, depth: &str) -> Option<Marker> {
     })
 }
 
-/// How far the farthest of the markers is from its place in the picture of a camera moved by `eye` along its x axis and sheared about
-/// `focal`, pixels; infinite if one is not to be seen.
+/// The largest distance of a marker from its place in the picture of a camera that is moved by `eye` along its x axis and sheared about
+/// `focal`, pixels; infinite if a marker is not found.
 #[must_use]
 pub fn place(
     picture: &RgbImage,
@@ -55,11 +55,11 @@ pub fn place(
         centre(picture, marker.colour)
             .map_or(f64::INFINITY, |found| (found - marker.x - shift).abs())
     });
-    // No marker at all is no answer either.
+    // Without any marker the measurement fails.
     worst.reduce(f64::max).unwrap_or(f64::INFINITY)
 }
 
-/// Mean column of the pixels of a colour; a pixel's own place is its middle.
+/// Mean column of the pixels of a colour; a pixel's position is its centre.
 fn centre(picture: &RgbImage, colour: [u8; 3]) -> Option<f64> {
     let (mut sum, mut count) = (0.0, 0.0);
     for (x, _, pixel) in picture.enumerate_pixels() {
@@ -130,15 +130,15 @@ pub fn area(picture: &RgbImage, colour: [u8; 3]) -> f64 {
     picture.pixels().filter(|pixel| pixel.0 == colour).count() as f64
 }
 
-/// How far the share of the picture that has a colour is from the expected one, %.
+/// The difference between a colour's share of the picture and the expected share, %.
 #[must_use]
 pub fn area_error(expected: &RgbImage, actual: &RgbImage, colour: [u8; 3]) -> f64 {
     let share = |picture: &RgbImage| area(picture, colour) / picture.pixels().len() as f64;
     100.0 * (share(actual) / share(expected) - 1.0).abs()
 }
 
-/// How far the edges of areas of one colour have moved: for each colour its pixels too many or too few over the rows that have it, the
-/// worst colour. Areas are cut by a few rows at least.
+/// How far the edges of areas of one colour have moved: the surplus or deficit of the colour's pixels over the rows that have it, for the
+/// worst colour. An area has to cross several rows.
 #[must_use]
 pub fn edge(expected: &RgbImage, actual: &RgbImage) -> f64 {
     if expected.dimensions() != actual.dimensions() {
@@ -164,8 +164,8 @@ pub fn edge(expected: &RgbImage, actual: &RgbImage) -> f64 {
 /// Grey of one level of detail.
 const LEVEL: f64 = 24.0;
 
-/// How far the level of detail is from the expected one at the same place of the window; the picture may have fewer pixels. Only where the
-/// level is smooth: at edges there is none, and tiles of lenses have a column more than the window shows.
+/// How far the level of detail is from the expected one at the same place of the window; the picture may have fewer pixels. Only smooth
+/// regions count: there is no level at edges, and tiles of lenses have one column more than the window shows.
 #[must_use]
 pub fn level(expected: &RgbImage, actual: &RgbImage) -> f64 {
     let (width, height) = expected.dimensions();

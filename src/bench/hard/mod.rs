@@ -1,4 +1,4 @@
-//! The hard cases: scenes that several views at once are most likely to spoil, each with a bound on how far they may be off.
+//! The hard cases: scenes that are most likely to go wrong in several views, each with a bound on the error.
 //!
 //! Pure: the table, the measurements of pictures, the verdicts. The command draws, and `tests/hard.rs` asserts the verdicts.
 
@@ -16,13 +16,13 @@ pub use outcome::{Outcome, Verdict, text, write_csv};
 pub struct Case {
     /// For `--case`.
     pub name: &'static str,
-    /// What is hard about it.
+    /// Why it is hard.
     pub about: &'static str,
     /// What is drawn.
     pub subject: Subject,
     /// The bound.
     pub bounds: &'static [Bound],
-    /// Where the number comes from.
+    /// The source of the number.
     pub source: &'static str,
 }
 
@@ -37,12 +37,12 @@ pub enum Subject {
         views: u32,
         /// κ and ξ.
         cameras: [&'static str; 2],
-        /// Further options of the layer.
+        /// More options of the layer.
         options: &'static [(OptionId, &'static str)],
     },
-    /// The mask of a panel of 7680 x 4320 pixels: no strategy has a part in it.
+    /// The mask of a panel of 7680 x 4320 pixels, without any strategy.
     Mask,
-    /// Nothing yet, and why.
+    /// Not measured yet, and why.
     NotYet(&'static str),
 }
 
@@ -53,11 +53,11 @@ pub struct Miss {
     pub case: &'static str,
     /// Names of the configurations.
     pub strategies: &'static [&'static str],
-    /// In words.
+    /// The reason.
     pub why: &'static str,
 }
 
-/// Why a bound is missed, where that is known.
+/// The reason for a missed bound, where it is known.
 #[must_use]
 pub fn why(case: &str, strategy: &str) -> Option<&'static str> {
     let miss = MISSES
@@ -71,36 +71,36 @@ pub fn why(case: &str, strategy: &str) -> Option<&'static str> {
 pub struct Bound {
     /// The measured value, the worst of all views.
     pub measure: Measure,
-    /// Inclusive. Replay into layers makes the program's own calls: where pictures are compared it has to have 0.
+    /// Inclusive. Replay into layers makes the program's own calls, so its pictures have to be equal (0).
     pub most: f64,
-    /// The same where views lie beside each other, so that their vertices are rounded at another place.
+    /// The same where views lie side by side, so that their vertices round at another place.
     pub beside: f64,
 }
 
-/// A quantity. The oracle is the scene drawing the view itself, by fixed function, at the place where the layer's view lies.
+/// A quantity. The oracle is the scene's own picture of the view in fixed function, drawn at the place of the layer's view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Pixels that differ from the oracle's, %.
     Differing,
     /// Steps of 255 by which a pixel is off every pixel of the oracle's within one pixel of it: edges may be rounded, colours may not.
     Steps,
-    /// Pixels that are more than 8 steps off every one of the oracle's within one pixel: leaks and wrong draws.
+    /// Pixels that are more than 8 steps off every pixel of the oracle's within one pixel: leaks and wrong draws.
     Foreign,
-    /// How far the centre of a marker is from where the equation of the cameras puts it, pixels.
+    /// Distance of the centre of a marker from its place by the equation of the cameras, pixels.
     Place,
-    /// How far the edges of areas of one colour are from the oracle's on average, pixels.
+    /// Mean distance of the edges of areas of one colour from the oracle's, pixels.
     Edge,
     /// Pixels that differ from the bare program's own picture, %.
     Same,
     /// Pixels that a second pass has missed: they are still red.
     Missed,
-    /// How far the green area is from the oracle's, %.
+    /// Difference of the green area from the oracle's, %.
     Area,
-    /// How far the level of detail is from the window's.
+    /// Difference of the level of detail from the window's.
     Level,
     /// Lines of answers that differ from the bare program's.
     Answers,
-    /// Subpixels of the mask whose view is not that of whole numbers, %.
+    /// Subpixels of the mask whose view differs from that of integer arithmetic, %.
     Mask,
 }
 
@@ -123,7 +123,7 @@ impl Measure {
         }
     }
 
-    /// Against the picture that the program draws itself, which replay has to give bit by bit.
+    /// Whether it compares with the program's own picture of the view, which replay has to equal bit by bit.
     fn of_oracle(self) -> bool {
         matches!(
             self,
@@ -156,7 +156,7 @@ fn replays(configuration: &Configuration) -> bool {
     value(configuration, OptionId::Strategy) == Some("replay")
 }
 
-/// Whether the views lie beside each other: replay's do unless it is told otherwise, those that are drawn at once where that is asked for.
+/// Whether the views lie side by side: by default with replay, and on request with strategies that draw all views at once.
 #[must_use]
 pub fn beside(configuration: &Configuration) -> bool {
     if replays(configuration) {
@@ -168,7 +168,8 @@ pub fn beside(configuration: &Configuration) -> bool {
 
 /// The configurations of `manyview bench --hard` without `--strategy`: every exact strategy in every layout that it has.
 pub fn configurations() -> impl Iterator<Item = &'static Configuration> {
-    // `auto` is one of the others, what is drawn at once lies in layers by itself, and bounds are those of exact strategies.
+    // `auto` is one of the others; strategies that draw all views at once use layers by default; and the bounds are those of exact
+    // strategies.
     let twice = [
         "auto",
         "depth-image",

@@ -10,9 +10,9 @@ use std::path::Path;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// It does.
+    /// It holds.
     Held,
-    /// It does not.
+    /// It is missed.
     Missed,
     /// There is nothing to measure; the note says why.
     NotYet,
@@ -23,17 +23,17 @@ pub enum Verdict {
 pub struct Outcome {
     /// Name of the case.
     pub case: &'static str,
-    /// Name of the configuration; empty where none has a part in it.
+    /// Name of the configuration; empty where the case has none.
     pub strategy: &'static str,
     /// The measured value, in its unit.
     pub unit: &'static str,
     /// The largest value, inclusive.
     pub bound: Option<f64>,
-    /// The worst of all views. None where it is infinite: nothing was found to be measured.
+    /// The worst of all views. None where it is infinite: nothing to measure was found.
     pub measured: Option<f64>,
     /// Whether it holds.
     pub verdict: Verdict,
-    /// Why there is nothing to measure, or which draws fell to another strategy and why.
+    /// Why there is nothing to measure, or which draws fell back to another strategy and why.
     pub note: String,
 }
 
@@ -52,7 +52,7 @@ impl Outcome {
     }
 }
 
-/// Four digits that count, at most four behind the point.
+/// Four significant digits, at most four decimals.
 fn short(value: f64) -> String {
     let digits = if value >= 100.0 { 1 } else { 4 };
     let text = format!("{value:.digits$}");

@@ -1,4 +1,4 @@
-//! True views, rate, error and disocclusions of each frame, in plots under each other.
+//! True views, rate, error and disocclusions of each frame, in plots one above the other.
 
 use super::Walk;
 use crate::bench::chart::{Area, COLOURS, Drawing, GREY, INK, font, save};
@@ -20,9 +20,9 @@ pub fn write(walk: &Walk, file: &Path) -> Result<(), BenchError> {
 /// One of the plots.
 struct Plot<'a> {
     about: &'a str,
-    /// By frames; the first is the one that is told of.
+    /// Values by frame; the first line is the one that the text describes.
     lines: Vec<Vec<(f64, f64)>>,
-    /// Across it.
+    /// A horizontal line.
     bound: Option<f64>,
     from: f64,
     to: f64,

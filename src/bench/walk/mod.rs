@@ -1,7 +1,7 @@
 //! A recorded walk under `--strategy hybrid`: time, number of true views, and error of each frame.
 //!
-//! The rate is measured in a run of its own, in which nothing is written. Pictures are compared afterwards, with as many views drawn in
-//! every frame as that run drew in it, so the program has to draw the same frames each time: a replayed trace does.
+//! The rate is measured in a run of its own, in which no picture is written. Pictures are compared in later runs that draw the same number
+//! of views in each frame, so the program has to draw the same frames each time, as a replayed trace does.
 #![forbid(unsafe_code)]
 
 mod chart;
@@ -20,11 +20,11 @@ pub struct Walk {
     pub date: String,
     /// The program and its arguments.
     pub command: Vec<String>,
-    /// Frames per second that are to be held.
+    /// Frame rate to hold, frames per second.
     pub rate: f64,
     /// N.
     pub views: u32,
-    /// In order.
+    /// In the order of the walk.
     pub frames: Vec<Frame>,
 }
 
@@ -33,13 +33,13 @@ pub struct Walk {
 pub struct Frame {
     /// Counted from 1.
     pub frame: u64,
-    /// From the swap before to its own, ms.
+    /// From the swap of the frame before to its own, ms.
     pub ms: f64,
     /// The same with all views drawn, in another run.
     pub exact_ms: f64,
-    /// Views drawn.
+    /// Number of true views.
     pub drawn: u32,
-    /// Of the picture shown, against that with all views drawn, dB; none where they are equal.
+    /// PSNR of the shown picture against that with all views drawn, dB; none where they are equal.
     pub psnr: Option<f64>,
     /// Share of its pixels that are disocclusions, %.
     pub hole_percent: f64,
@@ -106,8 +106,8 @@ fn middle(values: &[f64]) -> f64 {
     Spread::of(values).map_or(0.0, |spread| spread.median)
 }
 
-/// Milliseconds and true views of frames, from the layer's report: the number of all frames, and the values of the last of them.
-/// None where one is not told of.
+/// Milliseconds and true views of `frames`, from the layer's report, which has the number of all frames and the values of the last of them.
+/// None where it lacks a frame.
 #[must_use]
 pub fn told(
     report: &serde_json::Value,

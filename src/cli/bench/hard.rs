@@ -26,10 +26,10 @@ const LIMITS: Limits = Limits {
     side: 16384,
     layers: 2048,
 };
-/// Of the two passes of the scenes `equal-…`, and of the gauge.
+/// The colour of the first of two passes in the scenes `equal-…` and in the gauge.
 const RED: [u8; 3] = [255, 0, 0];
 const GREEN: [u8; 3] = [0, 255, 0];
-/// Counted from 1. In the first one the layer may not know yet what the program's passes have in common.
+/// Counted from 1. In the first frame the layer may not know yet what the program's passes have in common.
 const FRAME: u32 = 2;
 const SOME_BOUNDS_MISSED: u8 = 1;
 
@@ -191,7 +191,7 @@ struct Runner<'a> {
     api: &'a str,
     folder: &'a Path,
     stop: &'a mut Stop,
-    /// By view (None: without any) and by the width of the window and the place in it.
+    /// By view (None: the program as it is), width of the window, and place in it.
     drawn: HashMap<(Option<u32>, u32, u32), (RgbImage, String)>,
 }
 
@@ -209,7 +209,7 @@ impl Runner<'_> {
     ) -> Result<Vec<Outcome>, CommandError> {
         let layered = match self.layered(configuration) {
             Ok(layered) => layered,
-            // The program ends well without the layer, so this is an answer as well.
+            // The program works without the layer, so its failure is a result.
             Err(CommandError::Bench(error)) => {
                 let failed = |bound: &Bound| {
                     let most = bound.under(configuration, self.options);
@@ -233,7 +233,7 @@ impl Runner<'_> {
         } else {
             AtlasLayout::Layers
         };
-        // A window of so many views is not too large for any driver of today; if it is, there are no tiles beside each other.
+        // Today's drivers can make a window of so many views; where one cannot, there are no tiles side by side.
         let tiles = Tiles::new(self.views, SIZE, Grid::FULL, layout, LIMITS);
         let mut outcomes = Vec::new();
         for bound in self.case.bounds {
@@ -298,7 +298,7 @@ impl Runner<'_> {
         })
     }
 
-    /// The picture and the answers of the scene without the layer: one view, or the program as it is.
+    /// The scene's picture and answers without the layer: one view, or the program as it is.
     fn oracle(
         &mut self,
         view: Option<u32>,
@@ -332,7 +332,7 @@ impl Runner<'_> {
     fn layered(&mut self, configuration: &'static Configuration) -> Result<Layered, CommandError> {
         let at = |name: &str| self.folder.join(name);
         let (atlas, report) = (at("atlas.png"), at("report.json"));
-        // A picture of the run before is no picture of this one.
+        // A picture of an earlier run must not count as one of this run.
         let _ = std::fs::remove_file(&atlas);
         let mut settings = Settings::default();
         let all = configuration.options.iter().chain(self.options);

@@ -18,7 +18,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// Frames before the first turn: programs compile, the layer learns. The picture of the last one is compared.
+/// Frames before the first turn: programs compile shaders and `auto` searches. The picture of the last one is compared.
 const WARM_UP: u32 = 4;
 /// A turn draws several frames if the bare program needs less than this for one, ms: the first frame after another program's
 /// turn finds its caches cold.
@@ -40,7 +40,7 @@ pub(super) struct Group {
 /// One program of a group and what it answered.
 struct Member {
     stepped: Stepped,
-    /// Each of one round, ns.
+    /// The value of each round, ns.
     wall: Vec<f64>,
     cpu: Vec<f64>,
     gpu: Vec<f64>,
@@ -127,7 +127,7 @@ pub(super) fn run(
     Ok(bench)
 }
 
-/// The program of each group; all are there before the first is started.
+/// The program of each group. All are found before the first is started.
 fn programs(groups: &[Group]) -> Result<Vec<PathBuf>, CommandError> {
     let scenes = groups.iter().map(|group| group.scene);
     scenes
@@ -149,7 +149,7 @@ pub(super) fn program(scene: &'static str, program: &'static str) -> Result<Path
     })
 }
 
-/// On stderr, and silent when that is no terminal.
+/// A progress bar on stderr, hidden when that is no terminal.
 pub(super) fn bar(steps: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{spinner} {wide_bar} {percent} %, {eta} left  {msg}");
     ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
@@ -229,7 +229,7 @@ impl Runner<'_> {
             members.push(Member::new(stepped));
             bar.inc(1);
         }
-        // The first frames compile: the last one tells how long a frame is.
+        // The first frames compile shaders, so the last one gives the time of a frame.
         let frame = warm
             .wall
             .last()
@@ -237,7 +237,7 @@ impl Runner<'_> {
         let frames = ((TURN / frame).ceil() as u32).clamp(1, MOST_OF_A_TURN);
         for round in 0..rounds as usize {
             bare.turn(frames, stop)?;
-            // Forwards and backwards, so that none always follows the same one.
+            // The order alternates, so that no program always follows the same one.
             let count = members.len();
             for at in 0..count {
                 let at = if round % 2 == 0 { at } else { count - 1 - at };
@@ -301,7 +301,7 @@ impl Runner<'_> {
         })
     }
 
-    /// The choice of `auto`, as a configuration of its own, because captured pictures are replayed. None for other configurations.
+    /// The choice of `auto`, as a configuration of its own, because captures are replayed. None for other configurations.
     fn found(
         &self,
         variant: &Variant,
@@ -340,7 +340,7 @@ impl Runner<'_> {
                 place.picture.to_string_lossy().into_owned(),
             ),
             (OptionId::CaptureFrames, WARM_UP.to_string()),
-            // Written ten times a second, which is 0.1 % of the time.
+            // The report is written ten times a second, which costs 0.1 % of the time.
             (
                 OptionId::Report,
                 place.report.to_string_lossy().into_owned(),
@@ -397,7 +397,7 @@ impl Runner<'_> {
     }
 }
 
-/// Where a program under the layer leaves its files.
+/// Paths of the files that a program writes under the layer.
 struct Place {
     picture: PathBuf,
     report: PathBuf,
@@ -422,13 +422,13 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Empty if there is none: the times stand without it.
+    /// Default values if there is no file: the times are valid without it.
     pub(super) fn read(file: &Path) -> Self {
         let text = std::fs::read_to_string(file).unwrap_or_default();
         serde_json::from_str(&text).unwrap_or_default()
     }
 
-    /// Why draws fell to replay, and other notes.
+    /// Why draws fell back to replay, and other notes.
     pub(super) fn words(self) -> String {
         let reasons: Vec<_> = self.fallbacks.into_keys().chain(self.notes).collect();
         reasons.join("; ")

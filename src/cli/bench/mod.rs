@@ -24,7 +24,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Of the window, in pixels, unless given; that of the demos.
+/// Size of the window in pixels unless given: that of the demos.
 const SIZE: (u32, u32) = (512, 384);
 const VIEWS: &str = "8";
 const FRAMES: &str = "15";
@@ -125,7 +125,7 @@ impl Arguments {
     }
 }
 
-/// Says which names of the version before were used: here, and in the variables, which count for the caller's own program.
+/// Warns of former names: in these options, and in the variables, which apply to the caller's own program.
 fn tell_renamings(arguments: &Arguments) {
     let mut settings = Settings::default();
     if !arguments.without.is_empty() {
@@ -135,7 +135,7 @@ fn tell_renamings(arguments: &Arguments) {
     }
     if !arguments.command.is_empty() {
         settings = settings.over(Settings::from_variables(variable));
-        // A file that cannot be used is an error where it is used.
+        // A broken file is reported where it is used.
         settings = settings.clone().with_file().unwrap_or(settings);
     }
     for renaming in settings.renamings() {

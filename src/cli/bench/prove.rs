@@ -14,7 +14,7 @@ use manyview::launch::{Launch, ProveJob, Screen, Stop};
 use std::process::ExitCode;
 use std::time::{Duration, SystemTime};
 
-/// Every so many frames one is proved: the four between are timed.
+/// Proves every fifth frame; the four in between are timed.
 const EVERY: &str = "5";
 /// For one configuration.
 const LIMIT: Duration = Duration::from_secs(60);

@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, SystemTime};
 
-/// Unless others are given.
+/// Frames unless given.
 const FRAMES: &str = "2..200";
-/// As many as the layer tells of.
+/// As many frames as the layer's report holds.
 const MOST: u64 = 900;
 /// For one run of the program.
 const LIMIT: Duration = Duration::from_secs(900);
@@ -41,7 +41,7 @@ impl<'a> Run<'a> {
         Run { options, ..*self }
     }
 
-    /// Writes pictures of frames; answers their files and the report.
+    /// Writes pictures of frames; returns their files and the report.
     fn pictures(
         &self,
         name: &str,
@@ -77,9 +77,9 @@ impl<'a> Run<'a> {
         Ok((frames.clone().zip(files).collect(), report))
     }
 
-    /// Milliseconds and views drawn of frames, while nothing is written.
+    /// Milliseconds and true views of frames, in a run that writes no pictures.
     fn times(&self, frames: &RangeInclusive<u64>) -> Result<Vec<(f64, u32)>, CommandError> {
-        // The picture ends the run; the frame before it has been told of.
+        // The picture ends the run; the report then has the frame before it.
         let end = frames.end() + 1;
         let (_, report) = self.pictures("end", &(end..=end))?;
         let notes = report["notes"].as_array().and_then(|notes| notes.last());
@@ -130,7 +130,7 @@ pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
         scratch: scratch.path(),
         options: &[],
     };
-    // The rate that is meant, refused before anything is started.
+    // Checks the rate before anything is started.
     let mut asked = Settings::default();
     asked.set(OptionId::Strategy, "hybrid", Origin::CommandLine);
     asked.set(OptionId::Fps, rate, Origin::CommandLine);

@@ -16,7 +16,7 @@ use std::process::ExitCode;
 /// Number of views unless given: the own view is the middle one, and hidden samples are for the outer ones.
 const VIEWS: &str = "3";
 
-/// Separation unless the cameras are given. In most scenes hidden samples then reach as far as an eye 4 inches beside the viewer sees.
+/// Separation unless cameras are given. In most scenes hidden samples then suffice for an eye 4 inches beside the viewer.
 const SEPARATION: &str = "0.1";
 
 #[derive(Args)]
@@ -99,7 +99,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Sets the options that slices need, and answers whether the user has placed the zero parallax.
+/// Sets the options that slices need, and returns whether the user has placed the zero parallax.
 fn complete(settings: &mut Settings) -> Result<bool, CommandError> {
     if let Some((field, value)) = settings.field(OptionId::Strategy)
         && field.origin == Origin::CommandLine

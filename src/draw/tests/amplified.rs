@@ -1,4 +1,4 @@
-//! All views by one draw, with generated shaders.
+//! Amplified draws: all views by one draw, with generated shaders.
 
 use super::super::amplified::{allow_target, first_row, primitive};
 use super::super::{Amplified, Driver, FixedState, Programs, limits};
@@ -126,7 +126,7 @@ fn a_second_draw_sends_nothing_that_is_there() {
         assert_eq!(fake.count("glUniform*"), sent);
         assert_eq!(fake.count("glCompile*") + fake.count("glLink*"), 0);
         assert_eq!(drawing.programs.compiled, 1);
-        // The figure of today: one question for each draw.
+        // The present cost: one query for each draw.
         let known = [("glGetFloatv GL_MODELVIEW_MATRIX".to_owned(), 1)];
         assert_eq!(fake.asked(), known);
     }
@@ -178,7 +178,7 @@ fn a_shader_that_the_driver_refuses_is_tried_once() {
 
 const SIZE: [i32; 2] = [64, 48];
 
-/// What a draw without fill rules shows of a view: the pixels of the tile from left to right, by the program's viewport and scissor.
+/// The columns of a view's tile that a draw can reach, from the left to before the right, by the program's viewport and scissor.
 fn shown(viewport: [i32; 4], scissor: Option<[i32; 4]>) -> [i32; 2] {
     let [x, _, width, _] = viewport;
     let (left, right) = (x.max(0), (x + width).min(SIZE[0]));
@@ -200,7 +200,7 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// A vertex of a view lands where the program's viewport puts it, in the tile of the view, and is cut where the program's picture ends.
+    /// A vertex lands in the tile of its view where the program's viewport puts it, and is clipped where the program's picture ends.
     #[test]
     fn vertices_land_in_their_tile(
         x in -20..40i32, y in -20..40i32, width in 1..80i32, height in 1..80i32,
@@ -229,7 +229,7 @@ proptest! {
         let (gl, tiles, before) = (stage.gl, stage.atlas.tiles, stage.fake.state());
         let mut next = 0;
         let per_row = if layers { 4 } else { tiles.columns };
-        // Rows from the last to the first.
+        // Rows are drawn from the last to the first.
         let order: Vec<u32> = (0..4 / per_row).rev().flat_map(|row| per_row * row..per_row * (row + 1)).collect();
         let fake = &stage.fake;
         programs.draw(&gl, &mut stage.atlas, &stage.state, &stage.rig, None, fixed, &how, &mut |views| {
@@ -237,7 +237,7 @@ proptest! {
             let program = fake.value(c::CURRENT_PROGRAM)[0] as u32;
             let uniform = |name: &str| fake.uniform(program, name);
             let texture = f64::from(tiles.texture_width());
-            // A layer has the program's own viewport: nothing is mapped.
+            // A layer has the program's own viewport, so `mv_map` is not set.
             let map = uniform("mv_map");
             if map.is_empty() != layers {
                 wrong.push(format!("{map:?}"));
@@ -320,7 +320,7 @@ fn a_batch_is_as_large_as_the_driver_allows() {
     assert_eq!(drawn(driver(&[], five), 450), (invocations, vec![4]));
     let three = [(c::MAX_GEOMETRY_SHADER_INVOCATIONS, 3.0)];
     assert_eq!(drawn(driver(&three, five), 450), (invocations, vec![3, 1]));
-    // Without invocations the shader makes all views in a loop: three vertices for each.
+    // Without invocations, the shader makes all views in a loop with three vertices for each.
     assert_eq!(drawn(driver(&[], ""), 330), (looped, vec![4]));
     let six = [(c::MAX_GEOMETRY_OUTPUT_VERTICES, 6.0)];
     assert_eq!(drawn(driver(&six, ""), 330), (looped, vec![2, 2]));

@@ -1,11 +1,11 @@
-//! Current values, taken and put back.
+//! Current values, read and restored.
 
 use super::super::Current;
 use crate::gl::consts as c;
 use crate::gl::fake::{Fake, Scope};
 use crate::state::Effect;
 
-/// A driver whose current values are all others than the initial ones.
+/// A driver whose current values all differ from the initial ones.
 fn driver() -> Fake {
     let fake = Fake::new().limit(c::MAX_TEXTURE_COORDS, &[3.0]);
     let quarter = [0.25, 0.5, 0.75, 1.0];
@@ -32,7 +32,7 @@ fn driver() -> Fake {
     fake
 }
 
-/// What the calls of a program change, by what they do.
+/// Effects of a program's calls, each with a call that has it.
 const CHANGES: [(Effect, &str); 8] = [
     (Effect::COLOR, "glColor4f"),
     (Effect::NORMAL, "glNormal3f"),

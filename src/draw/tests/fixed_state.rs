@@ -11,7 +11,7 @@ use crate::gl::fake::{Fake, Scope};
 
 const IDENTITY: [f32; 16] = glam::Mat4::IDENTITY.to_cols_array();
 
-/// The state of a driver where some values are set; nothing else changes while it is read.
+/// Reads the state of a driver in which some values are set; reading must not change any state.
 fn read(fake: &Fake, values: &[(u32, &[f64])], samples: u32) -> FixedState {
     let gl = fake.gl();
     for &(name, values) in values {
@@ -101,7 +101,7 @@ fn each_state_has_its_place() {
     }
     let outlined = read(&Fake::new(), &[(c::POLYGON_MODE, &modes)], 4);
     assert_eq!(outlined.polygon_mode, [c::POINT, c::LINE]);
-    // Without samples it is the same with the capability and without.
+    // Without samples, GL_MULTISAMPLE has no effect.
     assert!(!read(&Fake::new(), &[], 0).surroundings.multisample);
     let both = [(c::NORMALIZE, ON), (c::RESCALE_NORMAL, ON)];
     let both = read(&Fake::new(), &both, 0);
@@ -217,7 +217,7 @@ fn lights_and_the_material_are_in_the_key() {
     }
 }
 
-/// Shininess of both faces, the specular colour of both, and whether that follows the colour.
+/// The flag `dull` for the shininess and the specular red of both faces; `follows`: the material parameter that follows the colour.
 fn dull(shininess: [f64; 2], red: [f64; 2], follows: Option<u32>) -> bool {
     let fake = Fake::new();
     for (face, (shininess, red)) in [c::FRONT, c::BACK]
@@ -235,7 +235,7 @@ fn dull(shininess: [f64; 2], red: [f64; 2], follows: Option<u32>) -> bool {
     }
     let state = read(&fake, &values, 0);
     let is = state.key.lighting.expect("lighting").dull;
-    // Read again alone, it is the same.
+    // Reading the material alone gives the same.
     let mut again = state;
     again.key.lighting = Some(Lighting {
         dull: !is,
@@ -288,7 +288,7 @@ fn texture_units_are_read_one_by_one() {
             (c::TEXTURE_MATRIX, &moved.map(f64::from)),
         ],
     );
-    // Not enabled: nothing of it matters.
+    // The state of a unit that is not enabled does not matter.
     unit(
         &fake,
         2,
@@ -360,7 +360,7 @@ fn the_dialect_is_the_drivers() {
     assert!(Driver::ask(&fake.gl()).programs);
 }
 
-/// What a primitive mode makes of the state of a context.
+/// The key and the surroundings of a primitive mode in a context with some values.
 fn for_mode(values: &[(u32, &[f64])], mode: u32) -> (FixedKey, crate::fixed::Surroundings) {
     read(&Fake::new(), values, 0).for_mode(mode, &IDENTITY, false)
 }
@@ -444,7 +444,7 @@ fn lighting_is_in_object_space_under_rotations() {
         glam::Mat4::from_translation(glam::Vec3::ONE) * turn
     ));
     for axis in 0..3 {
-        // One axis longer; leant to the next; not affine.
+        // One axis is longer; one is sheared towards the next; the matrix is not affine.
         let mut longer = glam::Mat4::IDENTITY;
         longer.col_mut(axis)[axis] = 1.5;
         assert!(!object_space(longer));
@@ -459,7 +459,7 @@ fn lighting_is_in_object_space_under_rotations() {
         projecting.col_mut(column)[3] += 0.5;
         assert!(!object_space(projecting));
     }
-    // Two axes leant the same way, both of length 1: only their product tells.
+    // Two axes of length 1 are not at a right angle: only their dot product shows it.
     let mut two = glam::Mat4::IDENTITY;
     *two.col_mut(1) = glam::Vec4::new(0.6, 0.8, 0.0, 0.0);
     assert!(!object_space(two));
@@ -509,7 +509,7 @@ fn limits_are_the_drivers_own() {
     };
     let gpu_shader5 = fake(&["GL_ARB_gpu_shader5"]);
     assert_eq!(limits(&gpu_shader5.gl(), 330), five);
-    // Without geometry shaders there is nothing to ask.
+    // Without geometry shaders, no limit is asked for.
     let none = |glsl| Limits {
         glsl,
         ..Limits::default()
@@ -539,7 +539,7 @@ fn tessellation_stays_within_the_corners_of_a_draw() {
     let fake = Fake::new().renderer("llvmpipe (LLVM 15)");
     let gl = fake.gl();
     let driver = Driver::ask(&gl);
-    // A patch at level n has (n + 1)² corners, of which there may be 65,535.
+    // A patch at level n has (n + 1)² vertices, of which there may be 65,535.
     for (patches, level) in [(655, 9), (656, 8), (40_000, 1), (65_535, 1), (1_000_000, 1)] {
         assert_eq!(driver.level(patches), level, "{patches}");
     }

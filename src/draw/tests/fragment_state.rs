@@ -84,7 +84,7 @@ impl Textured {
         key
     }
 
-    /// The unit, as the key has it.
+    /// The unit in the key.
     fn is(&self) -> Result<Option<FragmentUnit>, Unsupported> {
         self.read().map(|key| {
             let others = key.units.iter().enumerate();
@@ -157,7 +157,7 @@ fn an_incomplete_texture_is_none() {
         let textured = Textured::new(c::TEXTURE_2D).level(0, size);
         assert_eq!(textured.is(), Ok(None));
     }
-    // A face of a cube is a square.
+    // A face of a cube map has to be a square.
     assert_eq!(Textured::new(c::TEXTURE_CUBE_MAP).is(), Ok(None));
     // All six faces are asked about, and nothing else.
     let cube = Textured::new(c::TEXTURE_CUBE_MAP).level(0, [8, 8, 1]);
@@ -194,7 +194,7 @@ fn mipmaps_have_to_be_there_down_to_the_last_level() {
         assert_eq!(missing.is(), Ok(None), "{level}");
         let wrong = whole(mipmapped()).level(level, [3, 1, 1]);
         assert_eq!(wrong.is(), Ok(None), "{level}");
-        // What is below the last level does not matter.
+        // Levels past GL_TEXTURE_MAX_LEVEL do not matter.
         let short = missing.texture(c::TEXTURE_MAX_LEVEL, level as u32 - 1);
         assert_eq!(short.is(), Ok(Some(detailed)), "{level}");
     }
@@ -237,7 +237,7 @@ fn the_level_of_detail_matters_where_filters_differ() {
 
 #[test]
 fn mesa_goes_on_to_the_next_target() {
-    // The larger target is enabled, and has no image.
+    // The target of higher priority is enabled and has no image.
     let mut textured = Textured::new(c::TEXTURE_1D).unit(c::TEXTURE_2D, &[1.0]);
     assert_eq!(textured.is(), Ok(None));
     textured.mesa = true;

@@ -1,4 +1,4 @@
-//! Draws on the fake driver: which calls, in which order, and that the state is the program's again.
+//! Draws on the fake driver: the calls and their order, and that the program's state is restored.
 
 mod amplified;
 mod current;
@@ -17,12 +17,12 @@ use crate::plan::{Rig, Shear};
 use crate::state::{State, Window};
 use crate::view::ViewIndex;
 
-/// A projection with a right angle of view, from 1 to 100.
+/// A projection with a field of view of 90°, near plane 1 and far plane 100, column-major.
 const PERSPECTIVE: [f32; 16] = [
     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.02, -1.0, 0.0, 0.0, -2.02, 0.0,
 ];
 
-/// A context with an atlas of four views of a window of 64 x 48 pixels, and a program that looks into a scene.
+/// A context with an atlas of four views of a window of 64 x 48 pixels, and a program with a perspective projection.
 struct Stage {
     fake: Fake,
     gl: Gl,
@@ -40,7 +40,7 @@ impl Stage {
         Stage::within(fake, layout, grid, 4096)
     }
 
-    /// With textures of at most so many pixels a side.
+    /// A stage in a context with textures of at most `side` pixels.
     fn within(fake: Fake, layout: AtlasLayout, grid: Grid, side: u32) -> Stage {
         let gl = fake.gl();
         let window = Window::ask(&gl, 64, 48, true);
@@ -68,7 +68,7 @@ impl Stage {
         stage
     }
 
-    /// Calls of the program, after which the layer knows the state.
+    /// Makes calls of the program, and updates the layer's knowledge of the state.
     fn program(&mut self, calls: impl FnOnce(&Gl)) {
         self.fake.program(calls);
         self.state.touch(crate::state::Touch::ALL);
@@ -80,13 +80,13 @@ impl Stage {
         self.rig.shear(&self.state.matrices.projection)
     }
 
-    /// What the projection of a view moves the far distance by, in clip space over w.
+    /// Shift of an infinitely far point by the projection of a view, in clip space over w.
     fn aside(&self, view: ViewIndex) -> f64 {
         -0.25 * self.rig.position(view)
     }
 }
 
-/// How the projection that something was drawn with is sheared.
+/// The shear of the projection that was in force at a draw.
 fn sheared(drawn: &Drawn) -> f64 {
     drawn.state.value(c::PROJECTION_MATRIX)[8]
 }

@@ -1,4 +1,4 @@
-//! Draws to the reference image of an occlusion camera.
+//! Draws in the reference image of an occlusion camera.
 
 use super::super::{Driver, Rays, ReplayHazard, draw_to_reference};
 use super::Stage;
@@ -15,7 +15,7 @@ use crate::gl::fake::{Fake, Scope};
 const UNIT: u32 = super::super::programs::DISTORTION_UNIT;
 
 fn stage() -> Stage {
-    // The driver with a limit for the corners of patches that a few draws reach.
+    // llvmpipe has a limit of tessellated vertices, which some of the draws reach.
     let fake = Fake::new().renderer("llvmpipe (LLVM 15.0.6, 256 bits)");
     let mut stage = Stage::on(fake, SideBySide, Grid::FULL);
     let (gl, window) = (stage.gl, stage.state.window);
@@ -41,7 +41,7 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
     for seed in 0..40 {
         let mut stage = stage();
         stage.atlas.flipped = seed % 2 == 1;
-        // So many that each is small: they are not cut.
+        // So many triangles that each is small: they are not tessellated.
         let many = seed % 4 == 3;
         stage.fake.scramble(seed, true);
         stage.program(|gl| gl.use_program(0));
@@ -52,7 +52,7 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
             programs,
             fixed,
         } = &mut drawing;
-        // The random state has no polygons that are outlines or points.
+        // The random state must not draw polygons as outlines or points.
         fixed.polygon_mode = [c::FILL; 2];
         let surfaces = Surfaces {
             mode: Some(c::TRIANGLES),

@@ -1,4 +1,4 @@
-//! The draw itself, once per view.
+//! Replay: the draw itself, once per view.
 
 use super::super::{ReplayHazard, enter_own, others, replay};
 use super::{Stage, sheared};
@@ -300,7 +300,7 @@ fn a_picture_at_the_raster_position_moves_with_its_view() {
     );
     assert_eq!(places, [74.0, 138.0, 202.0, 10.0]);
     stage.fake.assert_restored(&before);
-    // One that stands for a point of the scene: w is 1 and zero parallax at 2, so views move by their separation.
+    // The raster position moves with a point of the scene: w is 1 and zero parallax is at 2, so it moves by minus the view's separation.
     let hazard = ReplayHazard::Raster(stage.shear());
     places.clear();
     let (state, rig) = (&stage.state, &stage.rig);
@@ -316,7 +316,8 @@ fn a_picture_at_the_raster_position_moves_with_its_view() {
             places.push(stage.fake.value(c::CURRENT_RASTER_POSITION)[0]);
         },
     );
-    // View 0 stands in the tile of slot 1 and half a place to the left of the middle; -(-1.5 · 0.25) · 32 = 12 pixels.
+    // View 0 is 1.5 places left of the middle and shifted by -(-1.5 · 0.25) · 32 = 12 pixels; views 1 and 2 by 4 and -4. The position of
+    // view 3 leaves the viewport.
     assert_eq!(places, [64.0 + 22.0, 138.0 + -4.0, 10.0 + 4.0]);
     stage.fake.assert_restored(&before);
 }

@@ -1,4 +1,4 @@
-//! Tiles with fewer texels than the window has pixels: what is counted in pixels follows, and comes back.
+//! Tiles with fewer texels than the window has pixels: state that is measured in pixels is scaled, and restored.
 
 use super::super::{ReplayHazard, replay};
 use super::Stage;
@@ -12,7 +12,7 @@ fn half() -> Grid {
     Grid::scaled([32, 24], [64, 48])
 }
 
-/// One view's draw of what a program has set.
+/// The draws of one view with the state that a program has set.
 fn drawn(hazard: ReplayHazard, program: impl FnOnce(&Gl)) -> Vec<Drawn> {
     let mut stage = Stage::new(SideBySide, half());
     stage.program(program);
@@ -123,7 +123,7 @@ fn textures_that_are_switched_on_are_sharper() {
     );
 }
 
-/// What the pixel-size guard asks for each draw; in a redesign it would be nothing.
+/// The queries of the pixel-size guard for each draw; state that is tracked would need none.
 #[test]
 fn what_the_guard_asks_is_known() {
     let mut stage = Stage::new(SideBySide, half());
@@ -140,6 +140,6 @@ fn what_the_guard_asks_is_known() {
         &mut |_| {},
     );
     let asked: usize = stage.fake.asked().iter().map(|(_, count)| count).sum();
-    // Two widths, the offset's switch, the active unit, the number of units, five targets of each of eight units.
+    // Two widths, GL_POLYGON_OFFSET_FILL, the active unit, the number of units, five targets of each of eight units.
     assert_eq!(asked, 2 + 1 + 1 + 1 + 8 * 5);
 }

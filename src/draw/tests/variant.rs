@@ -65,7 +65,7 @@ fn it_is_linked_beside_the_program_and_has_its_values() {
         (vec![1.0; 4], vec![2.0; 4])
     );
     assert_eq!(value("map"), [7.0]);
-    // One question and one answer for each value: four of this program.
+    // One query and one upload for each value: this program has four.
     assert_eq!(
         (
             stage.fake.count("glGetUniform*"),

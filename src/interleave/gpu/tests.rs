@@ -1,4 +1,4 @@
-//! The passes on the fake driver: what they are given, and what is made once.
+//! The passes on the fake driver: their inputs, and objects that are made only once.
 
 use super::*;
 use crate::atlas::{Atlas, Grid, Limits};

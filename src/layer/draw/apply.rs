@@ -1,4 +1,4 @@
-//! Apply: what has to be done before a draw, so that targets and variants are ready.
+//! Apply: makes targets and variants ready before a draw.
 
 use super::super::Layer;
 use super::Request;
@@ -6,7 +6,7 @@ use crate::gl::Gl;
 use crate::plan::decide::{Demand, Detail, Effect, Preparation, Scene, retreat};
 
 impl Layer {
-    /// A command asks for another grid than its kind does.
+    /// Gives up the grid of the atlas where it cannot hold what a command demands.
     pub(in crate::layer) fn retreat(&mut self, gl: &Gl, demand: Demand) {
         let grid = self.targets.atlas.tiles.grid;
         if let Some((detail, why)) = retreat(demand, grid.is_full(), grid.is_sample_aligned()) {
@@ -14,7 +14,7 @@ impl Layer {
         }
     }
 
-    /// Does what changes the facts. Whether it could be done is a fact afterwards.
+    /// Carries out a preparation, which changes the facts. The next observation tells whether it has succeeded.
     pub(super) fn prepare(&mut self, gl: &Gl, preparation: Preparation) {
         match preparation {
             Preparation::Remake(detail, why) => self.give_up(gl, detail, why),
@@ -34,7 +34,7 @@ impl Layer {
         }
     }
 
-    /// Does the rest, in order. What is known is still that of before.
+    /// Carries out the effects of a decision, in order. `known` still is what was known before the decision.
     pub(super) fn apply(&mut self, gl: &Gl, request: &Request, effects: Vec<Effect>) {
         for effect in effects {
             match effect {
@@ -60,7 +60,8 @@ impl Layer {
         }
     }
 
-    /// A grid that holds less is given up for the rest of the run, and the atlas made anew.
+    /// Gives up a grid that cannot hold what the program draws, for the rest of the run, and makes the atlas anew. `what` continues the note
+    /// "because the program".
     pub(in crate::layer) fn give_up(&mut self, gl: &Gl, detail: Detail, what: &str) {
         self.targets.detail = detail;
         let now = match self.grid() {

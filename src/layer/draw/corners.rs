@@ -1,13 +1,14 @@
-//! Strips, fans and polygons as triangles and quads by themselves: tessellation takes no other.
+//! Splits strips, fans and polygons into separate triangles and quads: tessellation takes only those, as patches.
 
 use crate::gl::consts as c;
 
-/// The vertices, by their place in a draw of so many, that make the same surfaces in the same order and with the same sides as patches of three,
-/// or of four in the place of quads; none for what is no surface, or is patches as it is.
+/// Indices into the vertices of a draw of `count` vertices that make the same surfaces as patches: of four vertices for quad strips, else of
+/// three. Order and winding of the surfaces stay the same. None for modes that are no surfaces, or that are separate triangles or quads
+/// already.
 pub(super) fn corners(mode: u32, count: u32) -> Option<Vec<u32>> {
     let triangles = 0..count.saturating_sub(2);
     Some(match mode {
-        // Every second one has its sides the other way round.
+        // Every second triangle of a strip has the opposite winding.
         c::TRIANGLE_STRIP => triangles
             .flat_map(|i| [i + i % 2, i + 1 - i % 2, i + 2])
             .collect(),

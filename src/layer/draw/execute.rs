@@ -1,4 +1,4 @@
-//! Execute: one [`Draw`] to the driver, by the method that was decided, or by replay where that cannot be had after all.
+//! Execute: sends one [`Draw`] to the driver by the method that was decided, or by replay where that method turns out to be impossible.
 
 use super::super::Layer;
 use super::super::programs::{Entered, VariantUse};
@@ -14,13 +14,13 @@ use crate::plan::{Method, Plan, Shear, camera};
 use crate::state::Touch;
 use crate::view::ViewIndex;
 
-/// How a draw goes, once it is known what can be had.
+/// How a draw is executed, once it is known what is possible.
 #[allow(
     clippy::large_enum_variant,
     reason = "one at a time, on the stack; a box would be an allocation for each draw"
 )]
 pub(in crate::layer) enum Execution {
-    /// To the driver as it is.
+    /// One call, as the program has made it.
     Once,
     /// View by view.
     Replay,
@@ -37,7 +37,8 @@ impl Layer {
         self.execute_by(gl, draw, &execution);
     }
 
-    /// Finds what can be had for a draw, and counts it. `amplifiable`: in another mode or several times at once it is the same.
+    /// Chooses how a draw is executed, and counts it if a generated program was to amplify it. `amplifiable`: it may be sent in another
+    /// primitive mode, or instanced.
     pub(in crate::layer) fn choose(
         &mut self,
         gl: &Gl,
@@ -60,7 +61,7 @@ impl Layer {
         }
     }
 
-    /// Makes a draw by what was found.
+    /// Makes a draw as [`Layer::choose`] has chosen.
     pub(in crate::layer) fn execute_by(&mut self, gl: &Gl, draw: &mut Draw, execution: &Execution) {
         match execution {
             Execution::Once => self.once(gl, draw.images, &mut || (draw.send)(Send::AsItIs)),
@@ -70,23 +71,23 @@ impl Layer {
         }
     }
 
-    /// The call once, in the program's own view only.
+    /// Makes the call once, in the program's own view only.
     fn once(&mut self, gl: &Gl, images: &Images, call: &mut dyn FnMut()) {
         if self.has_copies()
             && (!images.bound.is_empty() || self.state.primitives.transform_feedback)
         {
             self.write_back_textures(gl);
         }
-        // What is fed back or hit is not drawn, and is told in the program's own viewport.
+        // Feedback and selection draw nothing, and report places in the program's own viewport.
         if self.state.draws_to_window() && self.state.primitives.render_mode == c::RENDER {
-            // The tiles beside it are others' views.
+            // The tiles beside it are other views'.
             self.scissored(gl, self.targets.atlas.tiles.own(), 0, call);
         } else {
             call();
         }
     }
 
-    /// View by view, in those that may see it; and to the reference image.
+    /// Draws view by view, in the views that may see the draw, and to the reference image.
     fn replay_in(&mut self, gl: &Gl, draw: &mut Draw) {
         let all = self.targets.atlas.tiles.shown;
         self.targets.atlas.tiles.shown = draw.views.unwrap_or(all);
@@ -106,7 +107,8 @@ impl Layer {
         }
     }
 
-    /// To a framebuffer that each view has its own of: to the layers of one where a variant chooses among them.
+    /// Draws to a framebuffer of which each view has its own: to the layers of one framebuffer where a variant chooses among them, or for a
+    /// clear.
     fn replay_aside(&mut self, gl: &Gl, draw: &mut Draw, mut target: Target) {
         let layered = target.layered();
         let clears = draw.hazard == ReplayHazard::Clear;
@@ -117,7 +119,7 @@ impl Layer {
         }
         target.take_layers(layered.is_some());
         match layered {
-            // All layers at once.
+            // A clear reaches all layers at once.
             Some(_) if !draw.plan.variant => (draw.send)(Send::AsItIs),
             Some(_) => self.replay_by(gl, draw, Some(&mut target), VariantUse::Layers),
             None => self.replay_by(gl, draw, Some(&mut target), VariantUse::Views),
@@ -127,7 +129,7 @@ impl Layer {
         self.targets.offscreen.put(target);
     }
 
-    /// To a target that each view has its own of, or the window; by the variant where the plan says so.
+    /// Draws view by view to `target`, or to the window without one; with the program's variant where the plan says so.
     fn replay_by(
         &mut self,
         gl: &Gl,
@@ -171,7 +173,8 @@ impl Layer {
         }
     }
 
-    /// Sends a draw for each view with its images. Of what queries count, only the own view is counted.
+    /// Sends a draw for each view with its images. The program's queries count the own view alone. False where the attribute stack was full
+    /// and the draw is in the own view only.
     fn send_views(
         &mut self,
         gl: &Gl,
@@ -209,7 +212,7 @@ impl Layer {
         sent
     }
 
-    /// All views at once, by a variant that has an instance for each and chooses its layer.
+    /// Draws all views at once, by a variant that has an instance for each view and chooses its layer.
     fn draw_instances(&mut self, gl: &Gl, draw: &mut Draw) {
         let (plan, program, rig) = (draw.plan, self.state.in_use.program, self.known.rig);
         let framebuffer = self.state.framebuffers.draw;
@@ -253,7 +256,7 @@ impl Layer {
         self.count_draw(Method::Instanced, plan);
     }
 
-    /// Reads the state of fixed function, where it is not known.
+    /// Reads the fixed-function state where it is not known.
     pub(in crate::layer) fn read_fixed(&mut self, gl: &Gl) {
         let (touched, samples) = (self.state.touched, self.state.window.samples);
         if touched.has(Touch::FIXED) || self.variants.fixed.is_none() {
@@ -290,7 +293,7 @@ impl Layer {
         }
     }
 
-    /// By a generated program, in one call or a few.
+    /// Draws by a generated program, in one call or a few.
     fn draw_amplified(&mut self, gl: &Gl, draw: &mut Draw, how: &Amplified) {
         let (plan, send) = (draw.plan, &mut *draw.send);
         self.prove(gl, plan.shear, draw.hazard, draw.images, &mut |_| {
@@ -329,7 +332,8 @@ impl Layer {
     }
 }
 
-/// Gives a variant in use what one view has: its shift, and the matrices that take depths back, at the view's place.
+/// Sets the uniforms of a variant in use for one view: its shift, and the matrices that unproject depths, for a camera at `place` (see
+/// [`crate::plan::Rig::position`]).
 fn set_view(gl: &Gl, variant: &Variant, images: &Images, plan: &Plan, place: f64, stride: u32) {
     variant.set_views(gl, (plan.shear, plan.flat), &[place], stride);
     for (location, m) in images.unprojections.iter() {
@@ -340,7 +344,7 @@ fn set_view(gl: &Gl, variant: &Variant, images: &Images, plan: &Plan, place: f64
     }
 }
 
-/// Gives a variant in use all views that are drawn, each with its layer; answers how many they are.
+/// Sets the uniforms of a variant in use for all views that are drawn, each with its layer. Returns the number of views.
 fn set_all_views(
     gl: &Gl,
     variant: &Variant,

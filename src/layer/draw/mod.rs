@@ -1,7 +1,8 @@
 //! The path of a draw: observe → decide → apply → execute → observers.
 //!
-//! A hook calls [`Layer::draw`], [`Layer::primitives`] or one of their kin with a [`Request`]. `observe` reads the state that a decision depends
-//! on; [`crate::plan::decide`] decides; `apply` does what has to be done before; `execute` sends one [`Draw`] to the driver; `observers` tell of it.
+//! A hook calls [`Layer::draw`], [`Layer::primitives`] or a similar method, which makes a [`Request`]. `observe` reads the state that a
+//! decision depends on; [`crate::plan::decide`] decides; `apply` makes targets and variants ready; `execute` sends one [`Draw`] to the
+//! driver; `observers` report it.
 
 mod apply;
 mod corners;
@@ -24,14 +25,14 @@ use crate::plan::{Kind, Method, Plan, decide};
 use crate::state::{Command, Run, Touch};
 use std::sync::Arc;
 
-/// Times that a command is observed and decided at most: each preparation changes a fact, and there are fewer kinds of them.
+/// How often a command is observed and decided at most. Each preparation changes a fact, and there are fewer kinds of them than rounds.
 const ROUNDS: usize = 12;
 
-/// What a hook asks for.
+/// A command, as a hook gives it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request {
     pub(super) kind: Kind,
-    /// The draw, where it is one from arrays.
+    /// The arguments of a draw from arrays.
     pub(super) primitives: Option<Primitives>,
     pub(super) demand: Demand,
 }
@@ -46,12 +47,12 @@ impl Request {
     }
 }
 
-/// Images that each view has its own of.
+/// The textures and matrices of a draw of which each view has its own.
 #[derive(Clone, Debug)]
 pub(super) struct Images {
-    /// Those that the draw reads.
+    /// The textures that the draw samples and that differ between the views.
     pub(super) bound: Arc<[Bound]>,
-    /// The matrices by which the program computes positions from their depths, with their locations.
+    /// The matrices by which the program computes positions from depths, with their uniform locations.
     pub(super) unprojections: Arc<[(i32, [f32; 16])]>,
 }
 
@@ -62,14 +63,14 @@ pub(super) struct Decided {
     pub(super) images: Images,
 }
 
-/// How the driver is to be sent a draw.
+/// How a draw is sent to the driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Send {
-    /// As the program does.
+    /// As the program has sent it.
     AsItIs,
     /// With another primitive mode.
     InMode(u32),
-    /// Several times at once.
+    /// Instanced.
     Instances {
         /// The primitive mode.
         mode: u32,
@@ -78,17 +79,17 @@ pub(super) enum Send {
     },
 }
 
-/// A draw on its way to the driver: all its arguments.
+/// A draw on its way to the driver, with all that its execution needs.
 pub(super) struct Draw<'a> {
     pub(super) plan: &'a Plan,
     pub(super) images: &'a Images,
-    /// What its second sending would start from.
+    /// State that the draw changes, and that its second sending would start from.
     pub(super) hazard: ReplayHazard,
-    /// What it is made of.
+    /// Its primitives.
     pub(super) drawing: Drawing,
-    /// Sent to the driver in another mode or several times it is the same.
+    /// It may be sent in another primitive mode, or instanced.
     pub(super) amplifiable: bool,
-    /// Those of the drawn views that may see some of it; none: all.
+    /// Those of the drawn views in whose frustum some of it may lie; none: all.
     pub(super) views: Option<ViewSet>,
     pub(super) send: &'a mut dyn FnMut(Send),
 }
@@ -126,7 +127,7 @@ fn run(kind: Kind) -> Run {
 }
 
 impl Layer {
-    /// Any draw that the driver can be asked to make again; `call` makes it.
+    /// Any draw that can be repeated; `call` makes it.
     pub fn draw(&mut self, gl: &Gl, kind: Kind, call: &mut dyn FnMut()) {
         if self.compiles() {
             self.compile(gl, Command::Of(run(kind)), Touch::NONE);
@@ -135,7 +136,7 @@ impl Layer {
         let Decided { mut plan, images } = self.decide(gl, &Request::of(kind));
         let hazard = match kind {
             Kind::Clear { .. } => ReplayHazard::Clear,
-            // The position moves, and the projection matters no more.
+            // The raster position is shifted, and the projection no longer matters.
             Kind::Pixels if plan.class == Class::Scene => {
                 plan.shear = None;
                 ReplayHazard::Raster(self.cameras.raster)
@@ -192,7 +193,7 @@ impl Layer {
         );
     }
 
-    /// Observes, decides and applies: the draw can be made.
+    /// Observes, decides and applies. The draw can be executed then.
     pub(super) fn decide(&mut self, gl: &Gl, request: &Request) -> Decided {
         self.explain_last(gl);
         self.state.refresh(gl);
@@ -213,7 +214,7 @@ impl Layer {
         self.undecided(gl, request)
     }
 
-    /// What nothing could be prepared for is drawn once: the program goes on.
+    /// Plans a draw that was not ready after all rounds: it is drawn once, in the program's own view.
     fn undecided(&mut self, gl: &Gl, request: &Request) -> Decided {
         self.diagnostics.report.note(
             "some draws are in the program's own view only: what they need was never ready".into(),
@@ -226,20 +227,20 @@ impl Layer {
         }
     }
 
-    /// glRasterPos, after the driver's own: the position stands for a point of the scene and moves with the view.
+    /// After the driver's glRasterPos: the position stands for a point of the scene and moves with the view.
     pub fn placed_raster(&mut self, gl: &Gl) {
         self.state.refresh(gl);
         self.cameras.raster = self.known.rig.shear(&self.state.matrices.projection);
         self.cameras.raster_placed = self.state.projection_kind();
     }
 
-    /// glWindowPos: the position is one of the window.
+    /// After the driver's glWindowPos: the position is a place in the window and is the same in all views.
     pub fn placed_in_window(&mut self) {
         self.cameras.raster = None;
         self.cameras.raster_placed = crate::config::Projection::None;
     }
 
-    /// State groups that a command touches; false where it is compiled into a list instead.
+    /// Marks state groups that a command touches as stale; false where the command is compiled into a list instead.
     #[inline]
     pub fn touch(&mut self, groups: Touch) -> bool {
         if self.state.list.is_some() {

@@ -15,7 +15,7 @@ use crate::state::Touch;
 use std::sync::Arc;
 
 impl Layer {
-    /// What the user and the driver have settled.
+    /// The user's settings and the driver's capabilities that a decision depends on.
     pub(super) fn settings(&self) -> Settings {
         let support = &self.session.support;
         Settings {
@@ -30,7 +30,7 @@ impl Layer {
         }
     }
 
-    /// One command and the state that it finds; [`crate::state::State::refresh`] has been called.
+    /// The facts of one command and of the state that it finds. [`crate::state::State::refresh`] must have been called.
     pub(super) fn observe(&mut self, gl: &Gl, request: &Request) -> (Facts, Images) {
         let kind = request.kind;
         let whole = matches!(kind, Kind::Clear { .. } | Kind::Accum);
@@ -92,7 +92,7 @@ impl Layer {
         }
     }
 
-    /// What the draw is classed by.
+    /// The traits by which the draw is classified.
     fn traits(&mut self, gl: &Gl, kind: Kind, target: Target, shaders: &Shaders) -> Traits {
         let shown = matches!(target, Target::Window | Target::Pass(_));
         let clear = matches!(kind, Kind::Clear { .. } | Kind::Accum);
@@ -146,7 +146,7 @@ impl Layer {
         self.variant_facts(gl, ProgramName(program))
     }
 
-    /// What is drawn to. The views of a framebuffer of the program's matter only where there are several.
+    /// The framebuffer that is drawn to. Whether the program's is split is asked only where there are several views.
     fn observe_destination(&mut self, gl: &Gl, shaders: &Shaders) -> Destination {
         let framebuffer = self.state.framebuffers.draw;
         let picture = self.state.makes_pictures();
@@ -178,7 +178,8 @@ impl Layer {
         }
     }
 
-    /// Tiles with other samples than the window's pixels, unless no other atlas can be had.
+    /// Facts of tiles with other samples than the window's pixels; none where the tiles have those, the draw goes elsewhere, or no other
+    /// atlas can be made.
     fn observe_grid(&self, gl: &Gl, kind: Kind) -> Option<GridFacts> {
         let grid = self.targets.atlas.tiles.grid;
         if grid.is_full() || self.targets.stuck || !self.state.draws_to_window() {
@@ -227,7 +228,7 @@ impl Layer {
         }
     }
 
-    /// Whether the scissor leaves all of the window.
+    /// Whether the scissor test cuts nothing off the window.
     fn clears_all(&self) -> bool {
         let window = [self.state.window.width, self.state.window.height].map(i64::from);
         let [x, y, width, height] = self.state.rectangles.scissor.map(i64::from);
@@ -256,7 +257,7 @@ impl Layer {
         }
     }
 
-    /// Whether a view would be drawn from a clear on that nothing was drawn to before.
+    /// Whether a scene that begins with this clear would be drawn to a view that was not drawn before.
     fn joins(&self) -> bool {
         let (own, views) = (self.targets.atlas.tiles.own(), self.session.config.views);
         let count = self.synthesis.number();
@@ -266,13 +267,13 @@ impl Layer {
         drawn.any(|view| view != own && !before.has(view))
     }
 
-    /// The images that a draw reads and that the views differ in.
+    /// The images that a draw reads and that differ between the views.
     fn observe_images(&mut self, gl: &Gl) -> Images {
         if self.session.config.views < 2 || !self.state.makes_pictures() {
             return Images::none();
         }
         let bound = self.sampled(gl);
-        // Depths of a view are of its own camera.
+        // The depths of a view have to be unprojected by its own camera.
         let unprojections = match bound.is_empty() {
             true => Arc::default(),
             false => self.unprojections_of(gl, self.state.in_use.program).into(),

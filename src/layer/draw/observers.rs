@@ -1,4 +1,4 @@
-//! Observers: those who tell of a draw, and change nothing of it.
+//! Observers: they report a draw, and change nothing of it.
 
 use super::super::Layer;
 use super::method_name;
@@ -8,7 +8,7 @@ use crate::plan::class::{Classed, Why};
 use crate::plan::{Facts, Method, Plan};
 
 impl Layer {
-    /// A draw is decided and about to be made.
+    /// Reports a draw that is decided and about to be made.
     pub(super) fn observe_decision(&mut self, gl: &Gl, facts: &Facts, plan: &Plan) {
         let told = match facts.classed.why {
             Why::Rule(_) => facts.classed,
@@ -32,7 +32,7 @@ impl Layer {
         }
     }
 
-    /// A draw went by a method.
+    /// Counts a draw in the report, by its method and class.
     pub(super) fn count_draw(&mut self, method: Method, plan: &Plan) {
         let report = &mut self.diagnostics.report;
         report.draw(method_name(method), plan.class.word());

@@ -33,7 +33,7 @@ impl Primitives {
         }
     }
 
-    /// The number of its vertices, with those that come more than once.
+    /// The number of its vertices; one that is used several times counts each time.
     pub(in crate::layer) fn count(&self) -> u32 {
         let count = match self {
             Primitives::Arrays { vertices, .. } => vertices.count(),
@@ -42,7 +42,7 @@ impl Primitives {
         count.max(0).unsigned_abs()
     }
 
-    /// What it is made of.
+    /// Its primitives, as a draw for the reference image needs them.
     pub(super) fn drawing(&self, gl: &Gl, support: &Support) -> Drawing {
         let mode = self.mode();
         let lists = || match *self {
@@ -57,7 +57,7 @@ impl Primitives {
         }
     }
 
-    /// Sends it; `call` is the program's own.
+    /// Sends it to the driver; `call` is the program's own call.
     pub(super) fn send(&self, gl: &Gl, how: Send, call: &mut dyn FnMut()) {
         match (how, *self) {
             (Send::AsItIs, _) => call(),
@@ -71,7 +71,7 @@ impl Primitives {
         }
     }
 
-    /// The draw in another mode; as patches also if it is not of triangles or quads by themselves.
+    /// Sends the draw in another mode. For patches, strips and fans are split into triangles and quads first.
     fn in_mode(&self, gl: &Gl, mode: u32) {
         let places = match mode {
             c::PATCHES => corners(self.mode(), self.count()),

@@ -1,4 +1,4 @@
-//! `--what samples`: what slices for a volumetric display are made of (see [`crate::volume::Samples`]).
+//! `--what samples`: the samples that slices for a volumetric display are made from (see [`crate::volume::Samples`]).
 //!
 //! They are taken where the views are synthesised, before anything flat is drawn over them.
 
@@ -12,7 +12,7 @@ use crate::state::Neutral;
 use crate::volume::{Before, Head, Samples};
 
 impl Layer {
-    /// Whether this frame's are to be written.
+    /// Whether the samples of this frame are to be written.
     fn wants_samples(&self) -> bool {
         let frame = self.diagnostics.report.frames() + 1;
         self.session.config.capture.as_ref().is_some_and(|wanted| {
@@ -20,7 +20,8 @@ impl Layer {
         })
     }
 
-    /// The state is as [`crate::state::Neutral`] has it; changes the read framebuffer.
+    /// Takes the samples of this frame, if they are wanted and there is a reference image. The state is neutral; changes the read
+    /// framebuffer.
     pub(super) fn take_samples(
         &mut self,
         gl: &Gl,
@@ -80,7 +81,7 @@ impl Layer {
         });
     }
 
-    /// This frame's, as they are written.
+    /// The samples of this frame, as the bytes of their file.
     pub(in crate::layer) fn samples(&mut self) -> Vec<u8> {
         match self.synthesis.samples.take() {
             Some(samples) => samples.bytes(),
@@ -91,7 +92,7 @@ impl Layer {
     }
 }
 
-/// Rows from the top, of rows from the bottom.
+/// Converts values, and turns rows from the bottom into rows from the top.
 fn upright<T, U>(rows: &[T], width: u32, value: impl Fn(&T) -> U) -> Vec<U> {
     let rows = rows.rchunks_exact(width.max(1) as usize);
     rows.flatten().map(value).collect()

@@ -1,26 +1,26 @@
-//! Another pass over what was drawn before: a light map or a glow that is blended with a surface has the surface's depths, though it writes
-//! none.
+//! Further passes over a surface that was drawn before: a light map or a glow that is blended with a surface has the surface's depths, though
+//! it writes none.
 //!
-//! It is known by its vertices: the same positions in the same order, placed by the same matrix, are the same surface. Quake's engines draw each of
-//! theirs so. Positions in buffers are not looked at, and there is no such pass then.
+//! Such a pass is recognised by its vertices: the same positions in the same order, placed by the same matrix, are the same surface. Quake's
+//! engines draw all their passes so. Positions in buffer objects are not read, so a pass with those is not recognised.
 
 use super::super::{Layer, Primitives};
 use crate::gl::{Gl, consts as c};
 use crate::state::Touch;
 
-/// Vertices that are compared at most: more take longer than they save.
+/// Vertices that are compared at most: comparing more takes longer than it saves.
 const MOST: u32 = 1 << 14;
 
-/// The surface that was drawn last, and wholly: nothing of it was left out by the alpha test.
+/// A surface that was drawn as a whole: the alpha test has left nothing of it out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::layer) struct Surface {
     mode: u32,
     count: u32,
-    /// Of the positions.
+    /// Hash of the positions.
     sum: u64,
     modelview: [f32; 16],
     depths: [f32; 2],
-    /// Which sides of it are drawn, and how.
+    /// GL_CULL_FACE; GL_CULL_FACE_MODE and GL_FRONT_FACE; GL_POLYGON_MODE.
     sides: (bool, [i32; 2], [i32; 2]),
 }
 
@@ -31,14 +31,14 @@ pub(in crate::layer) struct Surfaces {
 }
 
 impl Surfaces {
-    /// What was drawn is no more.
+    /// The surface was cleared.
     pub(in crate::layer) fn forget(&mut self) {
         self.last = None;
     }
 }
 
 impl Layer {
-    /// The surface of a draw, where that can be told.
+    /// The surface of a draw, where it can be determined.
     fn surface(&mut self, gl: &Gl, next: Option<Primitives>) -> Option<Surface> {
         let next = next?;
         let (mode, count) = (next.mode(), next.count());
@@ -50,7 +50,7 @@ impl Layer {
         }
         let sum = match next {
             Primitives::Arrays { vertices, .. } => gl.positions_sum(vertices)?,
-            // An index that ends a primitive is that of no vertex.
+            // An index that ends a primitive is the index of no vertex.
             Primitives::Elements { .. } if self.session.support.restarts(gl) => return None,
             Primitives::Elements { indices, .. } => gl.positions_sum_of_elements(indices)?,
         };
@@ -72,7 +72,7 @@ impl Layer {
         })
     }
 
-    /// Whether a draw is another pass over the last surface: it shows only where that is seen.
+    /// Whether a draw is another pass over the last surface, so that it shows only where that is visible.
     pub(in crate::layer) fn is_over_last(&mut self, gl: &Gl, next: Option<Primitives>) -> bool {
         let tests = [c::LEQUAL, c::EQUAL, c::GEQUAL];
         self.synthesis.surfaces.last.is_some()
@@ -80,7 +80,7 @@ impl Layer {
             && self.surface(gl, next) == self.synthesis.surfaces.last
     }
 
-    /// A draw with depths of its own goes to the scene.
+    /// Notes the surface of a draw of the scene that has depths of its own.
     pub(in crate::layer) fn capture_surface(&mut self, gl: &Gl, next: Option<Primitives>) {
         let whole = self.state.has.compatibility && !gl.is_enabled(c::ALPHA_TEST);
         self.synthesis.surfaces.last = if whole { self.surface(gl, next) } else { None };

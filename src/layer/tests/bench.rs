@@ -14,7 +14,7 @@ pub(super) const MESA: [&str; 2] = [
     "GL_ARB_shader_viewport_layer_array",
 ];
 
-/// A projection with a right angle of view, from 1 to 100.
+/// A projection with an angle of view of 90° and planes at 1 and 100, column-major.
 pub(super) const PERSPECTIVE: [f32; 16] = [
     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.02, -1.0, 0.0, 0.0, -2.02, 0.0,
 ];
@@ -27,12 +27,12 @@ pub(super) struct Bench {
 }
 
 impl Bench {
-    /// On a desktop driver with fixed function; options as the variables `MANYVIEW_*` have them, without that word.
+    /// On a desktop driver with fixed function; options are named as the variables `MANYVIEW_*`, without that prefix.
     pub(super) fn new(options: &[(&str, &str)]) -> Bench {
         Bench::on(Fake::new().extensions(MESA), options)
     }
 
-    /// On a driver.
+    /// On this driver; options as for [`Bench::new`].
     pub(super) fn on(fake: Fake, options: &[(&str, &str)]) -> Bench {
         let config = Config::from_env(|variable| {
             let wanted = variable.strip_prefix("MANYVIEW_")?;
@@ -53,7 +53,7 @@ impl Bench {
         self.layer.touch(groups);
     }
 
-    /// The program looks into a scene.
+    /// The program sets a projection in perspective and the depth test.
     pub(super) fn look(&mut self) {
         self.set(Touch::MODE, |gl| gl.matrix_mode(c::PROJECTION));
         self.set(Touch::PROJECTION, |gl| gl.load_matrix(&PERSPECTIVE));

@@ -1,4 +1,4 @@
-//! A frame: what is drawn for it, that its state comes back, and what it asks.
+//! Frames on the fake driver: what is drawn for them, that their state comes back, and what the driver is asked.
 
 use super::bench::{Bench, MESA, PERSPECTIVE};
 use crate::gl::consts as c;
@@ -94,7 +94,7 @@ fn each_strategy_draws_as_often_as_it_says() {
     }
 }
 
-/// What the layer asks the driver for each draw of a scene in a steady state. What is listed is one too many.
+/// What the layer asks the driver for each draw of a scene in a steady state. Whatever is listed is one question too many.
 #[test]
 fn what_a_draw_asks_is_known() {
     let cases: [(&str, &[(&str, usize)]); 3] = [
@@ -116,7 +116,7 @@ fn what_a_draw_asks_is_known() {
     }
 }
 
-/// The same of a clear and of a swap.
+/// The number of questions for a clear and for a swap.
 #[test]
 fn what_a_frame_asks_is_known() {
     let mut bench = replayed(&[]);

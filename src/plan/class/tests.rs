@@ -1,4 +1,4 @@
-//! What draws are, case by case.
+//! The class of draws, case by case.
 
 use super::*;
 use glam::{Mat4, Vec3};
@@ -144,7 +144,7 @@ fn the_state_tells_what_a_draw_is() {
     for (facts, want, why) in cases {
         assert_eq!(class(&c, facts), (want, why), "{facts:?}");
     }
-    // Whatever is not like a sky in every respect is scene.
+    // A draw that differs from a sky in one respect belongs to the scene.
     for near in [
         Traits {
             depth_state: DepthState::On,
@@ -333,7 +333,7 @@ fn rules_know_shaders_and_passes() {
     assert_eq!(why(Target::Pass(6), 9, 1), (Class::OffScreen, rule(3)));
     assert_eq!(why(Target::Window, 2, 1), (Class::Flat, rule(5)));
     assert_eq!(why(Target::Pass(6), 2, 1), (Class::Scene, Why::Perspective));
-    // What is no part of the picture is one by a rule for it only.
+    // A framebuffer that does not end up in the window gets another class only by a rule that names it.
     assert_eq!(why(Target::Framebuffer(5), 2, 1), (Class::Scene, rule(4)));
     let other = why(Target::Framebuffer(6), 2, 255);
     assert_eq!(other, (Class::OffScreen, Why::Framebuffer(6)));

@@ -1,15 +1,15 @@
-//! Which depths are worth a picture: those of the scene, before something spoils them.
+//! When depths are captured: those of the scene, before a clear or a flat draw overwrites them.
 
 use super::{Effect, Facts, Known, Preparation, Settings};
 use crate::config::{Class, DepthState, Viewport};
 use crate::plan::{Kind, Ramp};
 
 fn looked_at(facts: &Facts, settings: &Settings) -> bool {
-    // Depths elsewhere are not those of the window.
+    // Depths of other framebuffers do not belong to the window's picture.
     settings.measures_depths && facts.destination.is_window()
 }
 
-/// Before the first command of a frame.
+/// Asks for the depths of the last frame to be measured before the first command of a frame.
 pub(super) fn begin(facts: &Facts, known: &Known, settings: &Settings) -> Result<(), Preparation> {
     match looked_at(facts, settings) && !known.depths.begun {
         true => Err(Preparation::MeasureDepths),
@@ -17,7 +17,7 @@ pub(super) fn begin(facts: &Facts, known: &Known, settings: &Settings) -> Result
     }
 }
 
-/// Takes note of a command, and of a picture to be taken before it.
+/// Updates the knowledge of depths from a command, and asks for a capture before it where it would overwrite them.
 pub(super) fn watch(
     facts: &Facts,
     known: &mut Known,
@@ -38,7 +38,7 @@ pub(super) fn watch(
         (Kind::Accum | Kind::Clear { depths: false, .. }, _) | (_, Class::OffScreen) => {}
         (Kind::Clear { .. }, _) => {
             take(depths, effects);
-            // A part of the window that is cleared has a picture of its own.
+            // With a scissor only a part of the window is cleared; the depths of the rest stay valid.
             if facts.rects.scissor.is_none() {
                 depths.spoilt = false;
                 effects.push(Effect::ForgetDepths);

@@ -1,75 +1,75 @@
-//! What has to be done before a draw is made.
+//! Work that has to be done before a draw.
 
 use crate::config::Viewport;
 use crate::gl::{FramebufferName, ProgramName};
 use crate::plan::{Ramp, Reason};
 
-/// How finely the tiles are sampled. Each holds more kinds of draws than the one before.
+/// How finely the tiles are sampled. Each value can represent more kinds of draws than the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Detail {
-    /// A sample for each subpixel that the panel shows, where it shows it: triangles over the whole window.
+    /// A sample for each subpixel that the panel shows, at its place: for triangles over the whole window.
     #[default]
     SampleAligned,
-    /// Samples as many as the panel shows of a view: anything that has a size in the window's pixels.
+    /// As many samples as the panel shows of a view, evenly spaced: also for lines, points and parts of the window.
     Scaled,
-    /// The window's pixels: everything.
+    /// The window's pixels: for everything.
     Full,
 }
 
-/// What changes the facts: the command is observed and decided again after it. It is asked for once, since it either succeeds or
-/// leaves a fact that says that it cannot be had.
+/// Work that changes the facts. The command is observed and decided again after it. Each is asked for once, since it either succeeds or
+/// leaves a fact that says that it failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preparation {
-    /// The atlas is made anew with another grid, because the program does this.
+    /// Makes the atlas anew with another grid, because the program does this.
     Remake(Detail, &'static str),
-    /// What is known of a program, and its variant for one view, are made.
+    /// Examines a program and links its variant for one view.
     LinkVariant(ProgramName),
-    /// The program's variant that chooses layers is made: for one view, or for all at once.
+    /// Links the program's variant that chooses layers, for one view or for all at once.
     LinkLayers {
         /// The program's own.
         program: ProgramName,
-        /// For all views.
+        /// For all views at once.
         all: bool,
     },
-    /// Each view gets a framebuffer like this one of the program's.
+    /// Splits a framebuffer of the program's into one per view.
     Split(FramebufferName),
-    /// The first command of a frame: the depths of the frame before are looked at, and the cameras go by them.
+    /// Reads the depths of the last frame and moves the cameras by them; before the first command of a frame.
     MeasureDepths,
 }
 
-/// What is done once the command is decided, in the order in which it was decided, and before the draw.
+/// Work that is done after the decision and before the draw, in the order of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
-    /// A picture of the depths is taken before they are spoilt.
+    /// Captures the depths before they are overwritten.
     TakeDepths,
-    /// Depths of the scene are written by this mapping.
+    /// Notes that a draw writes depths of the scene by this mapping.
     MapDepths {
-        /// From depths to distances.
+        /// The mapping from depths to distances.
         ramp: Ramp,
         /// The projection of the scene, column-major.
         projection: [f32; 16],
-        /// The zero parallax of its own that a rule gives the draw, in eye-space units.
+        /// The distance of zero parallax that a rule gives to the draw, in eye-space units.
         focal: Option<f64>,
-        /// How much of the window it covers.
+        /// How much of the window the viewport covers.
         viewport: Viewport,
     },
-    /// What has no depth is a sky.
+    /// Notes that pixels without a depth show a sky.
     MapSky,
-    /// The depths are cleared, and what they meant is forgotten.
+    /// Forgets the mappings of depths, which are cleared.
     ForgetDepths,
-    /// A clear begins a scene that is drawn to some views only; the depth is what it leaves, as GL_DEPTH_CLEAR_VALUE.
+    /// Begins a scene that is drawn to some views only, at a clear.
     BeginScene {
-        /// 0 to 1.
+        /// GL_DEPTH_CLEAR_VALUE, 0 to 1.
         depth: f32,
     },
-    /// The depths of a surface that may be drawn over are remembered.
+    /// Remembers the vertices of a surface over which another pass may be drawn.
     CaptureSurface,
-    /// The views that were not drawn are synthesised.
+    /// Synthesises the views that were not drawn.
     SynthesiseViews,
-    /// The other views get what the program's own has, and are drawn from now on.
+    /// Copies the program's own view to the other views, which are drawn from now on.
     LeaveMono,
-    /// A reason for the report, of this frame.
+    /// Counts a reason in the report of this frame.
     Fallback(Reason),
-    /// A sentence for the report.
+    /// Adds a sentence to the report.
     Note(&'static str),
 }

@@ -1,4 +1,4 @@
-//! What a decision depends on: plain data that was observed before anything is decided.
+//! The facts that a decision depends on: plain data, observed before anything is decided.
 
 use crate::gl::{FramebufferName, ProgramName, TextureName};
 use crate::plan::class::{Classed, Traits};
@@ -7,29 +7,29 @@ use crate::state::ClassificationState;
 /// One command, and the state that it finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facts {
-    /// The command, where it goes, and what it is classed by.
+    /// The kind of the command, its target, and the properties that decide its class.
     pub traits: Traits,
-    /// What it is.
+    /// Its class, and why.
     pub classed: Classed,
-    /// What it is projected by.
+    /// The matrices that project it.
     pub projections: Projections,
     /// Viewport, scissor and window.
     pub rects: Rects,
-    /// The program of shaders that is in use.
+    /// The program object in use.
     pub shaders: Shaders,
-    /// Depth test, depth range, blending, stencil; valid in the groups that [`super::needs`] names.
+    /// Depth test, depth range, blending, stencil; only the groups that [`super::needs`] names are valid.
     pub state: ClassificationState,
-    /// What is drawn to.
+    /// The framebuffer that is drawn to.
     pub destination: Destination,
-    /// Samples of the tiles, where they are not the window's pixels.
+    /// The grid of the tiles, where their samples are not the window's pixels.
     pub grid: Option<GridFacts>,
-    /// What a clear writes.
+    /// The extent of a clear.
     pub clear: ClearFacts,
-    /// What a synthesised scene asks.
+    /// The facts that the synthesis of views depends on.
     pub synthesis: SynthesisFacts,
-    /// Draws are inside a query that counts them.
+    /// A query that counts draws or samples is active.
     pub counted: bool,
-    /// It reads an image that each view has its own of.
+    /// It reads an image that is split into one per view.
     pub reads_views: bool,
 }
 
@@ -38,18 +38,18 @@ pub struct Facts {
 pub struct Projections {
     /// GL_PROJECTION_MATRIX.
     pub fixed: [f32; 16],
-    /// The matrix of the program's shaders that the scene is projected by; fixed function's without such a program.
+    /// The matrix by which the program's shaders project the scene; fixed function's without such shaders.
     pub matrix: [f32; 16],
-    /// The same without the camera's place in the world.
+    /// The same as a pure projection, without the camera's rotation and position.
     pub scene: [f32; 16],
-    /// A of the camera that draws to the window, where this command has shown it.
+    /// A of the camera that draws to the window, where this command shows it.
     pub lens: Option<f64>,
     /// The raster position stands for a point of the scene.
     pub raster_moves: bool,
 }
 
 impl Facts {
-    /// Whether what is drawn at the raster position moves with the view.
+    /// Whether a draw at the raster position moves with the view.
     pub fn raster_moves(&self) -> bool {
         self.projections.raster_moves
     }
@@ -60,7 +60,7 @@ impl Facts {
 pub struct Rects {
     /// GL_VIEWPORT.
     pub viewport: [i32; 4],
-    /// GL_SCISSOR_BOX, while the test is on.
+    /// GL_SCISSOR_BOX, if the scissor test is on.
     pub scissor: Option<[i32; 4]>,
     /// Width and height of the window.
     pub window: [u32; 2],
@@ -71,11 +71,11 @@ pub struct Rects {
 pub enum Shaders {
     /// Fixed function.
     Fixed,
-    /// A program pipeline, of which nothing is known.
+    /// A program pipeline object, which the layer does not look into.
     Pipeline,
-    /// A program that was not looked at since it was linked.
+    /// A program that the layer has not examined since it was linked.
     Unlinked(ProgramName),
-    /// A program that no variant can be made of, or whose vertices the projection matrix places.
+    /// A program that has no variant, or needs none because the projection matrix of fixed function places its vertices.
     WithoutVariant(ProgramName),
     /// A program with a variant.
     Variant(VariantFacts),
@@ -88,27 +88,27 @@ impl Shaders {
     }
 }
 
-/// What is known of a program that has a variant.
+/// The state of a program that has a variant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VariantFacts {
     /// The program's own.
     pub program: ProgramName,
-    /// The projection of the last camera that was among its matrices.
+    /// The projection of the last camera that was found among its matrices.
     pub camera: Option<[f32; 16]>,
-    /// None of its matrices has a perspective now.
+    /// At present none of its matrices has a perspective.
     pub lost: bool,
     /// The variant that draws one view to its layer.
     pub to_layer: Linked,
     /// The variant that draws all views to their layers.
     pub to_layers: Linked,
-    /// An attribute advances by instances.
+    /// A vertex attribute advances per instance (glVertexAttribDivisor).
     pub divides: bool,
 }
 
-/// Whether a variant is there.
+/// Whether a variant, or a split framebuffer, is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Linked {
-    /// Nobody has asked for it.
+    /// It was not tried yet.
     Untried,
     /// It is linked.
     Yes,
@@ -121,17 +121,17 @@ pub enum Linked {
 pub struct Destination {
     /// 0 for the window.
     pub framebuffer: FramebufferName,
-    /// It gets a picture: nothing is compiled, selected or fed back.
+    /// Draws produce pixels: no display list is compiled only, and the render mode is not selection or feedback.
     pub picture: bool,
-    /// The views differ in what a framebuffer of the program's holds.
+    /// It is a framebuffer of the program's whose contents differ between the views.
     pub differs: bool,
     /// The views have framebuffers of their own.
     pub split: Linked,
-    /// Its views are layers of one framebuffer.
+    /// All views can be drawn to as layers of one framebuffer, by a variant of the program.
     pub layered: bool,
-    /// The window has a front buffer of its own in the atlas.
+    /// The atlas has a front buffer of its own.
     pub front: bool,
-    /// The views differ in some image beside the window.
+    /// Some image beside the window differs between the views.
     pub copies: bool,
 }
 
@@ -142,12 +142,12 @@ impl Destination {
     }
 }
 
-/// Samples of the tiles that are fewer than the window's pixels, or lie elsewhere.
+/// A grid of the tiles whose samples are fewer than the window's pixels, or lie elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GridFacts {
-    /// The samples lie where the panel's lenses are.
+    /// The samples lie where the panel shows the view.
     pub aligned: bool,
-    /// Columns of samples lean.
+    /// Columns of samples are slanted.
     pub leans: bool,
     /// GL_POLYGON_STIPPLE.
     pub stippled: bool,
@@ -155,25 +155,25 @@ pub struct GridFacts {
     pub outlined: bool,
 }
 
-/// What a clear writes; nothing for other commands.
+/// The extent of a clear; nothing for other commands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClearFacts {
-    /// Buffers, as bits of glClear, whose masks leave all of them writable; asked for those that the views may come to share.
+    /// Buffers, as bits of glClear, whose write masks are fully open. Only buffers whose answer is needed are read.
     pub writable: u32,
-    /// The scissor leaves all of the window.
+    /// The scissor covers the whole window.
     pub unscissored: bool,
     /// GL_DEPTH_CLEAR_VALUE.
     pub depth: f32,
 }
 
-/// What the synthesis of views depends on; the least where no view is synthesised.
+/// The facts that the synthesis of views depends on; the defaults where no view is synthesised.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SynthesisFacts {
-    /// Atlas, output and settings allow that views are synthesised.
+    /// Atlas, output and settings allow views to be synthesised.
     pub possible: bool,
-    /// A view that would be drawn from this clear on has nothing to be drawn on.
+    /// From this clear on a view would be drawn that was not drawn before, so its tile holds no earlier picture.
     pub joins: bool,
-    /// The draw is another pass over the last surface.
+    /// The draw is another pass over the same vertices as the last surface.
     pub over_last: bool,
     /// The distortion map of the reference image, while draws go there.
     pub reference: Option<TextureName>,

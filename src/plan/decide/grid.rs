@@ -1,21 +1,21 @@
-//! Tiles with fewer samples than the window hold not every command: the grid retreats to one that does.
+//! Tiles with fewer samples than the window cannot represent every command. The grid then falls back to one that can.
 
 use super::{Detail, Facts, GridFacts, Rects};
 use crate::gl::consts as c;
 use crate::plan::Kind;
 
-/// What a command asks of the grid beside what its kind does.
+/// A demand on the grid that does not follow from a command's kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Demand {
-    /// Nothing.
+    /// No demand.
     None,
-    /// It may have lines or points, as display lists may.
+    /// The command may draw lines or points, as display lists may.
     Thin,
-    /// The window's own pixels, because the program does this.
+    /// The window's own pixels are needed, because the program does this.
     Everything(&'static str),
 }
 
-/// The grid that a command needs instead of the present one, and why. None where the present one holds it.
+/// The grid that a command needs instead of the present one, and why. None where the present one can represent the command.
 pub(super) fn demanded(facts: &Facts) -> Option<(Detail, &'static str)> {
     let grid = facts.grid.as_ref()?;
     if !facts.destination.is_window() {
@@ -43,7 +43,8 @@ pub(super) fn demanded(facts: &Facts) -> Option<(Detail, &'static str)> {
     leaning(grid, &facts.rects)
 }
 
-/// The same for what the command demands; `full`, `aligned`: the present grid is the window's pixels, or lies where the lenses are.
+/// The grid that a demand needs instead of the present one, and why. `full`: the present grid is the window's pixels; `aligned`: its samples
+/// lie where the panel shows the view.
 pub fn retreat(demand: Demand, full: bool, aligned: bool) -> Option<(Detail, &'static str)> {
     match demand {
         Demand::Everything(what) if !full => Some((Detail::Full, what)),
@@ -54,7 +55,7 @@ pub fn retreat(demand: Demand, full: bool, aligned: bool) -> Option<(Detail, &'s
     }
 }
 
-/// Edges of a part of the window cannot be upright in tiles that lean.
+/// Falls back where a command draws to a part of the window in slanted tiles: its upright edges cannot be drawn there.
 fn leaning(grid: &GridFacts, rects: &Rects) -> Option<(Detail, &'static str)> {
     let [width, height] = rects.window.map(|side| side as i32);
     let whole = [0, 0, width, height];
@@ -62,7 +63,7 @@ fn leaning(grid: &GridFacts, rects: &Rects) -> Option<(Detail, &'static str)> {
     (part && grid.leans).then_some((Detail::Scaled, "draws to parts of the window"))
 }
 
-/// Whether a command draws lines or points for certain.
+/// Whether a command certainly draws lines or points.
 pub(super) fn is_thin(kind: Kind) -> bool {
     match kind {
         Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => mode <= c::LINE_STRIP,

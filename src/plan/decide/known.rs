@@ -1,59 +1,59 @@
-//! What is known of the scene from the commands before: it is decided with, and each decision leaves it anew.
+//! The knowledge from earlier commands. Each decision reads it and leaves it updated.
 
 use super::mono::Mono;
 use super::scene::Scene;
 use crate::config::Strategy;
 use crate::plan::Rig;
 
-/// The scene so far.
+/// The knowledge from the commands so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Known {
     /// The cameras of the views.
     pub rig: Rig,
-    /// The program has passes that have to meet in every pixel, and replayed draws would not meet the others.
+    /// The program draws passes whose depths have to be equal (GL_EQUAL), so all its draws are replayed.
     pub together: bool,
-    /// The projection of the last program that had a camera, for those that have none.
+    /// The projection of the last program that had a camera, for programs that have none.
     pub camera: Option<[f32; 16]>,
-    /// A of the camera that the window is drawn with, for telling it from a lamp's.
+    /// A of the camera that the window is drawn with, which tells it from the camera of a light source.
     pub lens: Option<f64>,
-    /// Of this frame.
+    /// The frame so far.
     pub frame: Frame,
-    /// The depths of this frame.
+    /// The measurement of this frame's depths.
     pub depths: DepthWatch,
-    /// What is drawn to some views only, while others are to be synthesised.
+    /// The scene that is drawn to some views only, while the others are to be synthesised.
     pub scene: Option<Scene>,
-    /// The views of this frame are synthesised: what follows is drawn in each.
+    /// The views of this frame are synthesised already: further draws go to every view.
     pub synthesised: bool,
-    /// What the views have in common.
+    /// The contents that all views have in common.
     pub mono: Mono,
 }
 
-/// What has happened in the frame so far.
+/// The frame so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// Draws, without clears.
+    /// The number of draws, without clears.
     pub draws: u32,
     /// Something in perspective has written depth since the frame began or was last cleared.
     pub deep: bool,
-    /// Nearer things have larger depths, by the first draw of the scene.
+    /// Whether nearer points have larger depths, by the first draw of the scene.
     pub nearer_is_larger: Option<bool>,
 }
 
-/// Which depths of the frame are worth a picture.
+/// Which depths of the frame are to be captured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DepthWatch {
     /// Something of the frame has been drawn.
     pub begun: bool,
-    /// The scene has been drawn since the last picture was taken.
+    /// The scene has been drawn since the last capture.
     pub pending: bool,
-    /// Something flat has written depths since the scene.
+    /// A flat draw has written depths since the scene.
     pub spoilt: bool,
     /// The last projection of the frame's scene, column-major.
     pub projection: Option<[f32; 16]>,
 }
 
 impl Known {
-    /// Nothing has been drawn.
+    /// Before the first command.
     pub fn new(rig: Rig) -> Self {
         Known {
             rig,
@@ -69,23 +69,23 @@ impl Known {
     }
 }
 
-/// What the user and the driver have settled: the same for all commands of a frame.
+/// Settings by the user and limits of the driver: the same for all commands of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// What the user asked for, or `auto` has come to.
+    /// The strategy that the user asked for, or that `auto` has found.
     pub strategy: Strategy,
-    /// Instancing, clip distances and compatibility shaders are there.
+    /// The driver has instancing, clip distances and shaders in compatibility contexts.
     pub instanced: bool,
-    /// Geometry shaders too.
+    /// It has geometry shaders, too.
     pub geometry: bool,
-    /// Amplified draws have the very depths of replayed ones: such are drawn together with GL_EQUAL.
+    /// Amplified draws have exactly the depths of replayed ones, so the two can be mixed even under GL_EQUAL.
     pub same_depths: bool,
     /// N.
     pub views: u32,
-    /// The picture shows depths, and which of them are near has to be known.
+    /// The picture shows depths, so the direction in which they grow has to be known.
     pub shows_depth: bool,
-    /// The cameras or the report go by the depths.
+    /// The cameras or the report use measured depths.
     pub measures_depths: bool,
-    /// Views are synthesised where that can be.
+    /// Views are synthesised where possible.
     pub synthesises: bool,
 }

@@ -1,6 +1,7 @@
-//! Decides one command: facts and what is known in; a plan, the effects before it, and what is known from then on out. Calls no GL.
+//! Decides one command. In: the facts of the command, and the knowledge from earlier ones. Out: a plan, the effects that precede it, and
+//! the new knowledge. Calls no GL.
 //!
-//! One rule a file. A rule reads [`Facts`], reads and changes [`Known`], and may ask for a [`Preparation`] where a fact is missing.
+//! Each rule has its file. A rule reads [`Facts`], reads and changes [`Known`], and may ask for a [`Preparation`] where a fact is missing.
 #![forbid(unsafe_code)]
 
 mod depths;
@@ -34,21 +35,21 @@ use super::class::Classed;
 use crate::config::{Class, Projection, Repetition, Strategy};
 use crate::state::Touch;
 
-/// One command, decided.
+/// The decision about one command.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
-    /// How it is drawn.
+    /// How the command is drawn.
     pub plan: Plan,
-    /// What is done before, in this order.
+    /// The effects to apply before the draw, in this order.
     pub effects: Vec<Effect>,
-    /// What is known from now on.
+    /// The knowledge for the next command.
     pub known: Known,
 }
 
-/// Decides. The error is what has to be prepared first; the command is then to be observed and decided again.
+/// Decides how a command is drawn.
 ///
 /// # Errors
-/// A [`Preparation`], each at most once for a command.
+/// A [`Preparation`] that has to be made first; the command is then observed and decided again. Each is asked for at most once a command.
 pub fn decide(facts: &Facts, known: &Known, settings: &Settings) -> Result<Decision, Preparation> {
     let mut known = *known;
     let mut effects = Vec::new();
@@ -81,7 +82,7 @@ pub fn decide(facts: &Facts, known: &Known, settings: &Settings) -> Result<Decis
     })
 }
 
-/// The groups of state that a decision reads beside those of the class, once the class is known.
+/// The groups of state that a decision reads, beside those of [`super::Classifier::needs`]. The class is known by then.
 pub fn needs(
     kind: Kind,
     classed: &Classed,
@@ -117,17 +118,17 @@ pub fn needs(
     needs
 }
 
-/// Some draws of a program are always replayed, such as those of display lists. Instances in layers have the very depths that
-/// these have; views beside each other and what comes out of a geometry shader do not, so from the first draw with GL_EQUAL on
-/// all draws go the same way. A pass before that one, in the program's first frame, is not drawn again.
+/// Detects programs that draw over their own depths with GL_EQUAL. Some draws are always replayed, such as those of display lists.
+/// Instances in layers have exactly the depths of replay; tiles beside each other and geometry shaders do not. So from the first draw
+/// with GL_EQUAL on, all draws are replayed. An earlier pass, in the program's first frame, is not drawn again.
 fn watch_equal_depths(facts: &Facts, known: &mut Known, settings: &Settings) {
     if !settings.same_depths && !known.together && facts.destination.is_window() {
         known.together = facts.state.equal;
     }
 }
 
-/// Whether a strategy draws with the depths of replay: `layers`, the driver chooses layers in a vertex shader; `distances`, views beside
-/// each other were asked for by name.
+/// Whether a strategy draws with exactly the depths of replay. `layers`: the driver can choose layers in a vertex shader; `distances`:
+/// the user chose a way of clipping (`--clip`), so the tiles lie beside each other.
 pub fn has_depths_of_replay(strategy: Strategy, layers: bool, distances: bool) -> bool {
     match strategy.repetition() {
         Repetition::Calls => true,
@@ -141,7 +142,7 @@ fn is_whole(kind: Kind) -> bool {
     matches!(kind, Kind::Clear { .. } | Kind::Accum)
 }
 
-/// Whether something in perspective writes depth for the first time: before it there may be a sky.
+/// Whether a command draws in perspective.
 fn is_perspective(facts: &Facts) -> bool {
     facts.traits.projection == Projection::Perspective
 }

@@ -5,20 +5,20 @@ use crate::gl::consts as c;
 use crate::plan::Kind;
 
 const COLOURS_AND_DEPTHS: u32 = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT;
-/// The buffers of a framebuffer, as bits of glClear.
+/// All buffers of a framebuffer, as bits of glClear.
 pub const ALL_BUFFERS: u32 = COLOURS_AND_DEPTHS | c::STENCIL_BUFFER_BIT;
 
-/// What the views have in common.
+/// The contents that all views have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mono {
     /// The buffers, as bits of glClear, that are the same in all views.
     pub same: u32,
-    /// Only the program's own view is drawn.
+    /// This is a mono frame: only the program's own view is drawn.
     pub active: bool,
 }
 
 impl Default for Mono {
-    /// A new window's contents are undefined, so they may well be the same.
+    /// The contents of a new window are undefined, so they may count as the same.
     fn default() -> Self {
         Mono {
             same: ALL_BUFFERS,
@@ -28,14 +28,14 @@ impl Default for Mono {
 }
 
 impl Mono {
-    /// A draw went to the program's own view only.
+    /// Takes note of a draw that went to the program's own view only.
     pub fn lose(&mut self) {
         if !self.active {
             self.same = 0;
         }
     }
 
-    /// Something that depends on the view is drawn; `stencil`: the stencil test is on, or may be.
+    /// Takes note of a draw that depends on the view; `stencil`: the stencil test is on, or may be.
     pub fn differ(&mut self, stencil: bool) {
         self.same &= !COLOURS_AND_DEPTHS;
         if stencil {
@@ -43,18 +43,18 @@ impl Mono {
         }
     }
 
-    /// The buffers of a clear that the views may come to share by it.
+    /// The buffers of a clear that differ between the views, and may become the same by it.
     pub fn may_share(&self, cleared: u32) -> u32 {
         cleared & ALL_BUFFERS & !self.same
     }
 }
 
-/// Whether the stencil test decides what stays the same.
+/// Whether the stencil test matters: the views have the same stencils so far.
 pub(super) fn asks_stencil(known: &Known) -> bool {
     known.mono.same & c::STENCIL_BUFFER_BIT != 0
 }
 
-/// Before a command that is planned.
+/// Updates the common contents for a planned command, and leaves a mono frame if the command depends on the view.
 pub(super) fn watch(facts: &Facts, known: &mut Known, plan: &Plan, effects: &mut Vec<Effect>) {
     if plan.method == Method::Once || known.scene.is_some() || !facts.destination.is_window() {
         return;
@@ -68,7 +68,7 @@ pub(super) fn watch(facts: &Facts, known: &mut Known, plan: &Plan, effects: &mut
         return;
     }
     let list = kind == Kind::List;
-    // The raster position stands for a point of the scene.
+    // The raster position moves with a point of the scene.
     let placed = kind == Kind::Pixels && facts.raster_moves();
     if plan.shear.is_some()
         || placed

@@ -1,10 +1,10 @@
-//! Where each view has its own images of what a draw samples or draws to, it is replayed; a framebuffer gets them when something that
-//! depends on the view is drawn to it.
+//! Draws that sample or draw to images that are split into one per view: they are replayed. A framebuffer is split when a draw that depends
+//! on the view goes to it.
 
 use super::{Facts, Flat, Linked, Method, Plan, Preparation, Reason, Settings, Shaders, is_whole};
 use crate::config::Class;
 
-/// What becomes of a plan by the images that the draw reads and the framebuffer that it goes to.
+/// Adapts a plan to the images that the draw reads and to the framebuffer that it goes to.
 pub(super) fn plan(facts: &Facts, settings: &Settings, plan: Plan) -> Result<Plan, Preparation> {
     let destination = &facts.destination;
     if settings.views < 2 || !destination.picture {
@@ -12,7 +12,7 @@ pub(super) fn plan(facts: &Facts, settings: &Settings, plan: Plan) -> Result<Pla
     }
     let mut plan = plan;
     if facts.reads_views {
-        // A picture of a view stands where that view has it.
+        // The image of a view is drawn at the same place in that view, without a shift.
         if plan.flat != Flat::Scene {
             plan.flat = Flat::Still;
         }

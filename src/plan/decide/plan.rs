@@ -1,26 +1,26 @@
-//! How a draw goes: which views, which parallax, which strategy.
+//! How a command is drawn: its shift between the views, and its method.
 
 use super::{Facts, Known, Rects, Settings};
 use crate::config::{Class, Repetition, Viewport};
 use crate::gl::TextureName;
 use crate::plan::{Kind, Shear};
 
-/// Why a draw did not go by the strategy that was asked for. The texts are keys of the report.
+/// Why a draw is not made by the requested strategy. The texts are keys of the report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// Only replay knows this kind of draw.
+    /// Only replay can make this kind of draw.
     Kind(&'static str),
-    /// The program's own shaders.
+    /// The program uses its own shaders.
     Program,
-    /// The generator of shaders says no.
+    /// No shader can be generated for the fixed-function state.
     Fixed(crate::fixed::Unsupported),
-    /// The driver lacks something.
+    /// The driver lacks a feature.
     Driver(&'static str),
     /// The driver refused a generated shader.
     Compile,
-    /// A draw that an occlusion camera's rays do not meet.
+    /// The draw cannot be repeated in the reference image.
     NoReference(String),
-    /// Views were synthesised from the scene before something that has to be drawn in each.
+    /// The views were synthesised before a command that has to be drawn in each of them.
     SynthesisedBefore(&'static str),
 }
 
@@ -53,22 +53,22 @@ pub enum Method {
     Geometry,
 }
 
-/// One draw, decided.
+/// The plan of one command.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// How.
+    /// How the views are drawn.
     pub method: Method,
-    /// What the draw is.
+    /// The class of the draw.
     pub class: Class,
-    /// The shift of the views; none for what is the same in all of them.
+    /// The shift of the views; none for a draw that is the same in all of them.
     pub shear: Option<Shear>,
-    /// It goes by a variant of the program's own shaders.
+    /// It is drawn with a variant of the program's own shaders.
     pub variant: bool,
-    /// Under a variant, what has a w of 1 in clip space.
+    /// Under a variant, how vertices with a w of 1 in clip space are shifted.
     pub flat: Flat,
-    /// Why not by the strategy asked for.
+    /// Why it is not drawn by the requested strategy.
     pub reason: Option<Reason>,
-    /// It goes to the reference image of an occlusion camera as well.
+    /// How it is repeated in the reference image of an occlusion camera, if it is.
     pub reference: Option<ReferenceDraw>,
 }
 
@@ -90,26 +90,26 @@ impl Plan {
 /// A draw to the reference image, by distorted rays (see [`crate::synthesis`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceDraw {
-    /// Of the primitives, where that is known.
+    /// The primitive mode, where it is known.
     pub mode: Option<u32>,
     /// The distortion map.
     pub map: TextureName,
-    /// Disparities over z in NDC, in pixels: factor, and what is added.
+    /// Disparity over z in NDC, in pixels for one place: factor and offset.
     pub disparities: [f32; 2],
 }
 
-/// What vertices are whose w is 1 in clip space: the vertex stage of a program can draw the scene with them, or what has no depth.
+/// How a variant shifts vertices whose w is 1 in clip space: they may belong to the scene, or to a draw without depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Flat {
-    /// The same in all views.
+    /// Not at all: they are the same in all views.
     Still,
-    /// Shifted as a whole, such as the HUD.
+    /// As a whole, such as the HUD.
     By(Shear),
-    /// A part of the scene like any other.
+    /// Like the rest of the scene.
     Scene,
 }
 
-/// A draw by fixed function: what its class makes of it, and the strategy that was asked for.
+/// The plan of a fixed-function draw, by its class and the requested strategy.
 pub(super) fn of_fixed_function(facts: &Facts, known: &Known, settings: &Settings) -> Plan {
     let (kind, classed, rig) = (facts.traits.kind, &facts.classed, &known.rig);
     let class = classed.class;
@@ -143,7 +143,8 @@ pub(super) fn of_fixed_function(facts: &Facts, known: &Known, settings: &Setting
     }
 }
 
-/// What a shift of the window's is in a small viewport of it: a picture in the picture stands where the display around it does.
+/// Factor of a shift in a small viewport, so that it is as wide in pixels as in the whole window: a picture in the picture then
+/// stands at the depth of the display around it.
 fn magnified(viewport: Viewport, rects: &Rects) -> f64 {
     match viewport {
         Viewport::Main => 1.0,
@@ -151,7 +152,10 @@ fn magnified(viewport: Viewport, rects: &Rects) -> f64 {
     }
 }
 
-/// The strategy that was asked for. The error is the reason to replay, where it is worth a word.
+/// The method of the requested strategy.
+///
+/// # Errors
+/// The draw has to be replayed; with a reason, if the report is to name one.
 fn method(facts: &Facts, known: &Known, settings: &Settings) -> Result<Method, Option<Reason>> {
     let kind = facts.traits.kind;
     let wish = match settings.strategy.repetition() {
@@ -191,7 +195,7 @@ fn method(facts: &Facts, known: &Known, settings: &Settings) -> Result<Method, O
     }
 }
 
-/// A draw that counts is replayed: a draw that makes all views at once would count them all.
+/// Replays a draw inside a query: a draw that makes all views at once would count them all.
 pub(super) fn uncounted(facts: &Facts, plan: Plan) -> Plan {
     match plan.method {
         Method::Instanced | Method::Geometry if facts.counted => Plan {

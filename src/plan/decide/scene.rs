@@ -1,35 +1,36 @@
-//! The scene: what is drawn in perspective, and, where views are synthesised, what belongs to one picture with depths.
+//! The scene: draws in perspective and, where views are synthesised, the draws that share one depth image.
 
 use super::{Facts, Known, Settings, is_perspective, is_whole};
 use crate::config::{Class, DepthRange, DepthState};
 use crate::plan::class::Target;
 use crate::plan::{Ramp, Shear};
 
-/// What has been drawn to some views since their depths were cleared.
+/// The scene that has been drawn to some views since their depths were cleared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// What it is projected by.
+    /// Its mapping from depths to disparities; none before the first draw in perspective.
     pub mapping: Option<DisparityMapping>,
-    /// What stands before everything, by the same projection in a part of the depth range, and up to which depth.
+    /// The mapping of objects before everything else, such as a weapon in the hand, which use a part of the depth range; and the depth up to
+    /// which it holds.
     pub before: Option<(DisparityMapping, f64)>,
-    /// Something stands infinitely far behind it.
+    /// It has a sky, infinitely far behind it.
     pub sky: bool,
-    /// Something else than a clear has been drawn.
+    /// Something has been drawn since the clear.
     pub begun: bool,
-    /// The depth of what nothing is drawn on.
+    /// The depth of pixels on which nothing is drawn.
     pub clear: f32,
-    /// It has been shown, and no other view has it.
+    /// It has been shown at a swap, and no other view was synthesised from it in the atlas.
     pub shown: bool,
 }
 
-/// How depths become disparities.
+/// The mapping from window depths to disparities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisparityMapping {
-    /// From depths to distances.
+    /// The mapping from depths to distances.
     pub ramp: Ramp,
-    /// From distances to the shift of a view.
+    /// The mapping from distances to the shift of a view.
     pub shear: Shear,
-    /// x, y, width, height in the window, in pixels.
+    /// The viewport in the window: x, y, width, height in pixels.
     pub viewport: [i32; 4],
 }
 
@@ -41,12 +42,12 @@ impl DisparityMapping {
             && self.shear.separation(1.0) == other.shear.separation(1.0)
     }
 
-    /// Pixels by which a camera one place further sees what is infinitely far to the side.
+    /// Shift of an infinitely far point, in pixels, for a camera one place further.
     pub fn far(&self) -> f64 {
         self.shear.separation(1.0) * f64::from(self.viewport[2]) / 2.0
     }
 
-    /// Disparities over depths, in pixels for one place: slope and offset.
+    /// Disparity over window depth, in pixels for one place: slope and offset.
     pub fn line(&self) -> [f64; 2] {
         let size = self.far().abs() * self.shear.conv;
         self.ramp.line().map(|v| size * v)
@@ -54,7 +55,7 @@ impl DisparityMapping {
 }
 
 impl Scene {
-    /// Whether what is projected so belongs to it.
+    /// Whether a draw with this mapping belongs to the scene. The first mapping becomes that of the scene.
     pub fn takes(&mut self, new: DisparityMapping) -> bool {
         let known = self.mapping.get_or_insert(new);
         if known.is_like(&new) {
@@ -69,7 +70,7 @@ impl Scene {
         {
             return false;
         }
-        // Either may come first.
+        // The weapon's draw may come before or after the rest.
         self.before = match (first.ramp.beyond(&new.ramp), new.ramp.beyond(&first.ramp)) {
             (Some(depth), _) => Some((new, depth)),
             (_, Some(depth)) => {
@@ -82,7 +83,7 @@ impl Scene {
     }
 }
 
-/// Takes note of what a command tells of the frame and its camera.
+/// Updates the knowledge of the frame and its camera from a command.
 pub(super) fn observe(facts: &Facts, known: &mut Known, settings: &Settings) {
     let clear = is_whole(facts.traits.kind);
     let shown = matches!(facts.traits.target, Target::Window | Target::Pass(_));

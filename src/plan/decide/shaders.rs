@@ -1,4 +1,4 @@
-//! Draws with the program's own shaders go by a variant, which shifts the vertices of each view.
+//! Draws with the program's own shaders use a variant of them, which shifts the vertices of each view.
 
 use super::{
     Effect, Facts, Flat, Known, Linked, Method, Plan, Preparation, Settings, Shaders, VariantFacts,
@@ -9,7 +9,7 @@ use crate::plan::class::Why;
 
 const NO_CAMERA: &str = "no camera was found in the matrices of some of the program's shaders: what they draw is the same in all views";
 
-/// How a draw with the program's own shaders goes: `plan` is what fixed function would make of it.
+/// The plan of a draw with the program's own shaders; `plan` is its plan as if by fixed function.
 pub(super) fn plan(
     facts: &Facts,
     known: &mut Known,
@@ -26,7 +26,7 @@ pub(super) fn plan(
         return plan;
     };
     let Some(camera) = variant.camera.or(known.camera) else {
-        // Menus and what else is flat needs none.
+        // Menus and other flat draws need none.
         if facts.state.depth != DepthState::Off {
             effects.push(Effect::Note(NO_CAMERA));
         }
@@ -62,14 +62,14 @@ pub(super) fn plan(
     }
 }
 
-/// Whether the program in use has a perspective now, and what it draws gets depths: a scene's vertices, wherever they are. What fills
-/// the screen by such a program has none.
+/// Whether a draw with a w of 1 belongs to the scene: the program has a perspective at present, and the draw tests and writes depth. A draw
+/// that fills the screen does not write depth.
 fn fills_depths(facts: &Facts, variant: &VariantFacts) -> bool {
     facts.state.depth == DepthState::On && !variant.lost
 }
 
-/// Whether a draw that goes by a variant takes all views by instances. Not where each view samples a texture of its own, or the program
-/// counts what is drawn.
+/// Turns the replay of a variant into one instanced draw for all views, where possible. Not where each view samples a texture of its own, or
+/// a query counts the draw.
 pub(super) fn all_at_once(
     facts: &Facts,
     known: &Known,

@@ -1,4 +1,4 @@
-//! Which draws belong to a scene that is drawn to some views only; before anything else the other views are synthesised.
+//! Which draws belong to a scene that is drawn to some views only. Before any other draw, the other views are synthesised.
 
 use super::{DisparityMapping, Effect, Facts, Known, Method, Plan, Reason, ReferenceDraw, Scene};
 use super::{Settings, Shaders};
@@ -6,7 +6,7 @@ use crate::config::{Class, DepthState, Viewport};
 use crate::gl::{TextureName, consts as c};
 use crate::plan::{Kind, Ramp};
 
-/// Before a command that is planned: it goes to the views that are drawn, or the others are synthesised first.
+/// Decides, for a planned command, whether it belongs to the scene. If not, the other views are synthesised before it.
 pub(super) fn watch(
     facts: &Facts,
     known: &mut Known,
@@ -19,7 +19,7 @@ pub(super) fn watch(
         return;
     }
     if let Kind::Clear { depths, whole } = facts.traits.kind {
-        // Of stencils nothing is made.
+        // Synthesis does not use stencils.
         if depths || whole != c::STENCIL_BUFFER_BIT {
             clear(facts, known, whole, effects);
         }
@@ -42,7 +42,7 @@ pub(super) fn watch(
     }
 }
 
-/// Why a draw is not one of the scene; a part of a sentence of the report.
+/// Why a draw does not belong to the scene; a part of a sentence in the report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct NotOfScene(&'static str);
 
@@ -69,11 +69,12 @@ fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>
     if !all || known.synthesised {
         return;
     }
-    // The other views have nothing of what was shown last; nor has a view that joins those that are drawn anything to be drawn on.
+    // Without a clear of colours, the last picture stays visible. The other views do not have it, nor has a view that is drawn for the
+    // first time.
     if !facts.synthesis.possible || (!colours && facts.synthesis.joins) {
         return synthesise(known, effects);
     }
-    // What was shown last is no more.
+    // The last picture is cleared, so the other views need no copy of it.
     if std::mem::take(&mut known.mono.active) {
         effects.push(Effect::LeaveMono);
     }
@@ -86,14 +87,17 @@ fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>
     });
 }
 
-/// Whether a draw may be another pass over the last surface, so that its vertices have to be compared.
+/// Whether a draw may be another pass over the last surface, so that its vertices have to be compared with that.
 pub fn is_over_candidate(facts: &Facts) -> bool {
     let state = &facts.state;
     let shown = state.depth == DepthState::On && !state.blends;
     facts.classed.class == Class::Scene && !shown && !state.equal && state.depth != DepthState::Off
 }
 
-/// What a draw that belongs to the scene is projected by, or what it is instead.
+/// The mapping of a draw that belongs to the scene, if it has depths.
+///
+/// # Errors
+/// Why the draw does not belong to the scene.
 fn belongs(
     facts: &Facts,
     plan: &Plan,
@@ -143,7 +147,7 @@ fn of_scene(
     let ramp = Ramp::of(&facts.projections.matrix, state.depths, state.zero_to_one);
     let ramp = ramp.ok_or(NotOfScene("a projection without depths"))?;
     let shown = state.depth == DepthState::On && !state.blends;
-    // Another pass over what is there has its depths.
+    // Another pass over the last surface has the depths of that surface.
     let over = state.depth != DepthState::Off && facts.synthesis.over_last;
     if !shown && !state.equal && !over {
         return Err(NotOfScene(match state.blends {
@@ -168,7 +172,7 @@ fn of_scene(
     }
 }
 
-/// The draw to the reference image: of surfaces by fixed function, and of whatever a program with shaders draws.
+/// How a draw is repeated in the reference image: fixed-function surfaces, and any draw with the program's own shaders.
 fn reference(facts: &Facts, mapping: &DisparityMapping, map: TextureName) -> Option<ReferenceDraw> {
     let kind = facts.traits.kind;
     let mode = match kind {
@@ -176,7 +180,7 @@ fn reference(facts: &Facts, mapping: &DisparityMapping, map: TextureName) -> Opt
         Kind::Other | Kind::List => None,
         _ => return None,
     };
-    // A list is drawn there if it has nothing but surfaces.
+    // Whether a list has nothing but surfaces is tested later.
     let surfaces = || match mode {
         Some(mode) => (c::TRIANGLES..=c::POLYGON).contains(&mode),
         None => kind == Kind::List,

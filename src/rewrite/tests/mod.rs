@@ -1,4 +1,4 @@
-//! Shaders in and out, what is refused, what stays in its line.
+//! Rewritten shaders, refusals, and line numbers.
 #![forbid(unsafe_code)]
 
 use super::*;
@@ -43,7 +43,7 @@ fn stage(file: &str) -> Stage {
     }
 }
 
-/// The program's text and what becomes of it, as a picture of both.
+/// The result for a program's source, as it is kept in a snapshot.
 fn shown(source: &[u8], stage: Stage, options: &Options) -> String {
     match rewrite(source, stage, options) {
         Ok(rewritten) => {

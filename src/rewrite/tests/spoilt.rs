@@ -1,13 +1,13 @@
-//! Texts that no program would send: neither a panic nor a long time, and lines stay where they were.
+//! Malformed sources: the rewriter does not panic, takes linear time, and keeps the numbers of lines.
 
 use super::*;
 use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, RngSeed};
 use std::time::{Duration, Instant};
 
-/// A rewrite of a text of a few kilobytes takes microseconds.
+/// Far more than a rewrite of a few kilobytes takes, which is microseconds.
 const LONGEST: Duration = Duration::from_millis(100);
-/// A word that the rewriter leaves where it is.
+/// A word that the rewriter neither moves nor writes.
 const MARK: &str = "qq";
 const STAGES: [Stage; 6] = [
     Stage::Vertex,
@@ -19,7 +19,7 @@ const STAGES: [Stage; 6] = [
 ];
 const WAYS: [Options; 5] = [REPLAY, LAYERS, TILES, ES, DISTORTED];
 
-/// What the rewriter looks for, to be put together.
+/// Fragments that the rewriter looks for, to be combined at random.
 const WORDS: [&str; 49] = [
     MARK,
     "main",
@@ -82,7 +82,7 @@ fn seeded(cases: u32) -> ProptestConfig {
     }
 }
 
-/// The lines on which a word stands that the rewriter never writes.
+/// Numbers of the lines with [`MARK`].
 fn lines(text: &[u8]) -> Vec<usize> {
     let (mut found, mut line, mut at) = (Vec::new(), 1, 0);
     while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
@@ -100,7 +100,7 @@ fn directives(text: &[u8]) -> usize {
     text.windows(6).filter(|&part| part == b"#line ").count()
 }
 
-/// Rewrites, in bounded time. Lines stay where they were, or `#line` says so.
+/// Rewrites in bounded time. Lines keep their numbers, unless a `#line` was added.
 fn check(source: &[u8], stage: Stage, options: &Options) {
     let begun = Instant::now();
     let result = rewrite(source, stage, options);
@@ -131,7 +131,7 @@ proptest! {
     }
 }
 
-/// Twice as long, twice the time: nothing is looked through again for each of its kind.
+/// Time is linear: no search through the source is repeated for each occurrence of a word.
 #[test]
 fn long_texts_take_their_length() {
     for word in WORDS {

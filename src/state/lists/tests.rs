@@ -1,4 +1,4 @@
-//! Which commands make one run, and which names lists have.
+//! Which commands form one run, and which names lists have.
 
 use super::*;
 
@@ -119,7 +119,7 @@ fn what_is_left_open_is_known() {
     assert_eq!(body(&[Begin(4), VERTEX, End]), (false, 0, None, vec![]));
     assert_eq!(body(&[ANY, Begin(7), VERTEX]), (false, 0, Some(7), vec![]));
     assert_eq!(body(&[VERTEX, End, ANY]), (true, 0, None, vec![]));
-    // An error wherever it is called.
+    // This is an error wherever the list is called.
     assert_eq!(body(&[ANY, End]), (false, 0, None, vec![]));
     assert_eq!(
         body(&[PopAttrib, PopAttrib, PushAttrib(5)]),

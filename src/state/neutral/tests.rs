@@ -21,7 +21,7 @@ const CONTEXTS: [fn() -> Fake; 9] = [
     },
 ];
 
-/// What passes do, and nothing puts back but [`Neutral`].
+/// Changes of state that passes make and only [`Neutral`] undoes.
 fn disturb(gl: &Gl) {
     gl.viewport(1, 2, 3, 4);
     for unit in 0..9 {
@@ -43,7 +43,7 @@ fn a_state_that_nobody_expects_comes_back() {
             let fixed = !gl.is_es() && gl.get_integer(c::CONTEXT_PROFILE_MASK) == 2;
             fake.scramble(seed, fixed);
             if fixed {
-                // The mask and the switch of one draw buffer are enough: no pass has another.
+                // Only the mask and the blending of the first draw buffer are saved, because no pass has another.
                 fake.program(|gl| gl.color_maski(0, 1, 0, 1, 0));
             }
             let before = fake.state();

@@ -30,7 +30,7 @@ fn shown() -> Samples {
     }
 }
 
-/// Samples that are there, z in hundredths of an inch.
+/// The samples in the image, z in hundredths of an inch.
 fn samples(shown: &Samples, source: Source, focal: bool) -> Vec<[i32; 3]> {
     let image = shown.image(&SMALL, source, focal).unwrap();
     let samples = image.samples().iter().flatten();
@@ -56,7 +56,7 @@ fn hidden_samples_are_in_the_reference_image_where_they_would_be_seen() {
     let own = samples(&shown(), Source::Own, false);
     assert_eq!(own.len(), 12);
     assert!(own.iter().all(|at| [-250, 250].contains(&at[2])), "{own:?}");
-    // As far out as its occluder, seen from the viewer: 52.5 of 47.5.
+    // As far out as its occluder, seen from the viewer: 52.5 over 47.5.
     let place = f64::from(own[5][0]) * 52.5 / 47.5;
     let behind = |all: &[[i32; 3]]| {
         let near = |at: &[i32; 3]| (f64::from(at[0]) - place).abs() < 2.0 && at[1..] == [0, -250];
@@ -65,7 +65,7 @@ fn hidden_samples_are_in_the_reference_image_where_they_would_be_seen() {
     assert!(!behind(&own));
     let both = samples(&shown(), Source::Reference, false);
     assert!(behind(&both), "{both:?}");
-    // The corner and what makes room for the hidden one come from the own view.
+    // The corner, and the samples that make room for the hidden one, come from the own view.
     assert!(both.contains(&own[0]), "{both:?}");
 }
 

@@ -54,7 +54,7 @@ fn a_dark_scene_is_shown_as_bright_as_the_display_can_be() {
     let screen = RotatingScreen::POPESCU;
     let cells = |count: u32| -> Vec<_> { (0..count).map(|i| [7, i / 100, 1 + i % 100]).collect() };
     let grey = |volume: &Volume| volume.half_planes[7][0].colour;
-    // One colour: its red is white then, and its green, with half of that light, half of white.
+    // A single colour: its red becomes white, and its green, which has half of that light, half as bright.
     let mut dark = of_cells(&screen, &cells(1000), [100, 72, 0]);
     let (bright, gain) = dark.clone().exposed();
     assert_eq!(grey(&bright), [255, 189, 0]);
@@ -74,14 +74,14 @@ fn a_dark_scene_is_shown_as_bright_as_the_display_can_be() {
         assert_eq!(grey(&bright)[0], white, "{count} and black ones");
         dark.half_planes[7].truncate(1000);
     }
-    // The darkest there is counts as well, also where some are white.
+    // The darkest colour counts as well, also where some voxels are white.
     let mut darkest = of_cells(&screen, &cells(1000), [1; 3]);
     assert_eq!(grey(&darkest.clone().exposed().0), [255; 3]);
     for voxel in &mut darkest.half_planes[7][950..] {
         voxel.colour = [255; 3];
     }
     assert_eq!(grey(&darkest.exposed().0), [255; 3]);
-    // What is bright stays as it is, and so does nothing, and black.
+    // Bright voxels stay the same, as do empty volumes and black ones.
     let black = of_cells(&screen, &cells(1), [0; 3]);
     assert_eq!(black.clone().exposed(), (black, 1.0));
     let light = of_cells(&screen, &cells(1000), [255, 60, 1]);
@@ -119,7 +119,7 @@ fn a_stack_is_read_as_it_was_written() {
     assert_eq!(first, slices.picture(0));
     assert!(first.as_raw().contains(&255));
     assert_eq!(fs::read_dir(&stack).unwrap().count(), 41);
-    // A stack makes room for another one, with less slices, of which the later half are the others turned over.
+    // Another stack with fewer slices, of which the second half are the others turned over, replaces this one.
     let full = RotatingScreen {
         slices: 10,
         turn: Turn::Full,
@@ -214,7 +214,7 @@ fn sight(eye: [f64; 3]) -> Sight {
     Sight { eye, size, sphere }
 }
 
-/// The middle of the light in a picture, as x and y from its middle.
+/// The centroid of the light in a picture, as x and y from the picture's middle.
 fn middle(picture: &image::RgbImage) -> [f64; 2] {
     let (mut sum, mut weights) = ([0.0; 2], 0.0);
     for (x, y, pixel) in picture.enumerate_pixels() {
@@ -245,7 +245,8 @@ fn a_voxel_is_seen_in_perspective() {
         [0.0, 50.0, 0.0],
         [3.0, -8.0, -30.0],
     ] {
-        // The pinhole by its definition: over the distance along the axis, from a plane that the sphere's tangents hit.
+        // The pinhole by its definition: divided by the distance along the axis, from the plane in which tangents of the sphere are
+        // measured.
         let length = |v: [f64; 3]| v.iter().map(|part| part * part).sum::<f64>().sqrt();
         let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let far = length(eye);
@@ -290,12 +291,12 @@ fn light_is_added_and_nothing_hidden() {
             .map(|pixel| linear(f32::from(pixel.0[1]) / 255.0));
         (values.clone().fold(0.0, f32::max), values.sum::<f32>())
     };
-    // A line to the viewer through the middle: all in one pixel, with one at another place for measure.
+    // A line towards the viewer through the middle falls on one pixel; another voxel is the reference.
     let beside = [0, 300, 200];
     let (white, one) = light(&[beside, [99, 384, 100]]);
     assert!(white > 0.99, "the brightest is white");
     let (_, more) = light(&[beside, [99, 384, 100], [99, 384, 101], [297, 384, 100]]);
-    // Exposed for three in one place the one beside is a third as bright.
+    // With an exposure for three voxels in one pixel, the single one is a third as bright.
     assert!((one / more / 1.5 - 1.0).abs() < 0.3, "{one} and {more}");
     assert_eq!(light(&[]).1, 0.0, "nothing is black");
 }
@@ -389,7 +390,7 @@ fn differences_are_counted_by_voxels() {
         ..off
     };
     assert_eq!(away, apart);
-    // So far in sectors as well, also across the first one.
+    // Neighbours across sectors, also across the first one.
     let turned = |half_plane| of_cells(&SMALL, &[[half_plane, 60, 20]], GREY);
     for (from, to, lost) in [(30, 31, 0), (0, 79, 0), (79, 0, 0), (30, 32, 1), (1, 79, 1)] {
         let off = Difference::between(&turned(from), &turned(to), &[]).unwrap();
@@ -399,7 +400,7 @@ fn differences_are_counted_by_voxels() {
             "{from} to {to}"
         );
     }
-    // From above a plate hides a smaller one under it.
+    // Seen from above, a plate hides a smaller one under it.
     let smaller =
         (33..47).flat_map(|half_plane| (23..27).map(move |column| [half_plane, 90, column]));
     let both: Vec<_> = cells(&own).into_iter().chain(smaller).collect();

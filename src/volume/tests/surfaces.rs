@@ -1,4 +1,4 @@
-//! Which voxels a surface sets.
+//! Tests of the voxels that a surface sets.
 
 use super::*;
 use proptest::prelude::*;
@@ -43,7 +43,7 @@ fn distance(screen: &RotatingScreen, place: [f64; 3], cell: [u32; 3]) -> f64 {
         .max(beyond(place[2], column))
 }
 
-/// Checks that what is lit is near the triangle and that the triangle is near what is lit.
+/// Checks that every lit voxel is near the triangle and that every point of the triangle is near a lit voxel.
 fn check(screen: &RotatingScreen, corners: [[f32; 3]; 3]) -> Result<(), TestCaseError> {
     let lit: HashSet<[u32; 3]> = cells(&volume(screen, corners)).into_iter().collect();
     prop_assert!(!lit.is_empty(), "nothing is lit");
@@ -51,7 +51,7 @@ fn check(screen: &RotatingScreen, corners: [[f32; 3]; 3]) -> Result<(), TestCase
     let mut nearest: HashMap<[u32; 3], f64> = HashMap::new();
     for point in points(screen, corners) {
         let place = exact(screen, point);
-        // Sectors that are no farther than a pixel.
+        // Sectors that are no wider than a pixel.
         let beside = (1.0 / (place[2] * screen.sector()).max(1e-9))
             .ceil()
             .min(f64::from(all) / 2.0);
@@ -224,10 +224,10 @@ fn what_the_axis_goes_through_is_in_every_slice() {
         lit.len()
     };
     assert_eq!(small(0.0), 396);
-    // Seen from the axis, the one beside it is 2 · atan(4 / 4.5) wide, and a bit for the corner towards the viewer.
+    // Seen from the axis, the triangle beside it is 2 · atan(4 / 4.5) wide, and slightly more for the corner towards the viewer.
     let beside = small(8e-3);
     assert!((85..150).contains(&beside), "{beside}");
-    // In a plane through the axis: both sides of one slice. What is in the column on the axis may be counted to its neighbours.
+    // In a plane through the axis: both sides of one slice. Voxels in the column on the axis may be counted to their neighbours.
     let lit = cells(&volume(
         &screen,
         [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
@@ -305,7 +305,7 @@ fn what_is_outside_is_cut_off() {
         );
         let lit = cells(&disc);
         assert!(lit.iter().all(|cell| cell[1] == 60), "{size}");
-        // But for what a triangle as large as that leaves of the sphere, and the rim.
+        // Except for the part of the sphere that a triangle of this size leaves out, and the rim.
         let share = lit.len() as f64 / f64::from(SMALL.half_planes() * SMALL.columns());
         assert!(
             share > 0.95 || size < 10.0 && share > 0.7,

@@ -1,5 +1,5 @@
-/* A scene by fixed function into a framebuffer of the program's own, then shown: by begin/end, a display list, one that is executed while it is
- * compiled, or arrays and a list (the argument). The picture is the same. */
+/* Draws a scene by fixed function into a framebuffer of its own and then shows it: by begin/end, a display list, a list that is executed while
+ * it is compiled, or arrays and a list (the argument). The picture is the same. */
 #include "surface.h"
 #include <string.h>
 

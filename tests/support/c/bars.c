@@ -1,16 +1,16 @@
-/* The wall and the bars of `hard --case gaps` by programs with shaders, in small triangles; prints after each of four frames what a program
- * can know of its state, and a sum over its pixels. The argument says how:
- *   matrix     GLSL 1.10, placed by the matrices of fixed function
+/* The wall and the bars of `hard --case gaps`, by shaders or in fixed function; prints after each of four frames all state that a program can
+ * read back, and a sum over its pixels. The argument says how it is drawn:
+ *   matrix     GLSL 1.10 with the matrices of fixed function, in small triangles
  *   begin      the same, between glBegin and glEnd
  *   old        GLSL 1.20, the camera in a uniform, the wall in larger triangles
  *   coord      the same, the wall's colours from gl_FragCoord
- *   new        GLSL 3.30 in a core context, with a name like ours, and a texture and a sampler in the unit that the layer likes
+ *   new        GLSL 3.30 in a core context, with a name like one of the layer's, and a texture and a sampler in the unit that the layer uses
  *   instanced  the same, by glDrawArraysInstanced
  *   strips     fixed function, a strip for each column of the wall, as large as its squares; fans, polygons, quads: likewise
  *   indexed    the same, by indices of the program's own
  *   cyan       the same as strips, without writing red
  *   list       fixed function, in a display list
- *   several    GLSL 1.20, two colours are written
+ *   several    GLSL 1.20, with two colour outputs
  *   geometry   GLSL 1.50, with a geometry shader */
 #define SURFACE_SIZE
 enum { WIDTH = 400, HEIGHT = 300 };
@@ -36,7 +36,7 @@ static void add(double x, double y, double z, unsigned rgb)
     corners[count++] = c;
 }
 
-/* Squares of two colours between two sides, which lie at these distances, each cut into cut x cut. */
+/* Two-coloured squares between two sides at their own distances, each square subdivided into cut x cut. */
 static void patch(double left, double right, double low, double high, double near_left, double near_right, int columns, int rows,
                   int cut, unsigned light, unsigned dark)
 {
@@ -50,7 +50,7 @@ static void patch(double left, double right, double low, double high, double nea
             }
 }
 
-/* The wall in large squares: strips of a column with each corner as often as it has colours, or a fan for each square. */
+/* The wall in large squares: a strip per column, with each corner once per colour, or a fan per square. */
 static GLsizei column;
 static void squares(void)
 {
@@ -92,7 +92,7 @@ static const char *const old_vertex =
     "#version 120\nuniform mat4 camera;\nattribute vec3 place, paint;\nvarying vec3 colour;\n"
     "void main() { colour = paint; gl_Position = camera * vec4(place, 1.0); }\n";
 static const char *const old_fragment = "#version 120\nvarying vec3 colour;\nvoid main() { gl_FragColor = vec4(colour, 1.0); }\n";
-/* What is at the ray of a pixel, where there is no bar; the bars have a red or a green or a blue of their own. */
+/* Colours the wall where the ray of a pixel meets it outside of bars; the bars are of a plain red, green or blue. */
 static const char *const coord_fragment =
     "#version 120\nvarying vec3 colour;\n"
     "void main()\n"

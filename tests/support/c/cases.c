@@ -1,5 +1,5 @@
-/* Small cases that came out differently under the layer once, most of them found by random calls; prints what a program can know.
- * Each has a context of its own. */
+/* Small cases that once came out differently under the layer, most of them found by random calls; prints all that a program can read back.
+ * Each case has a context of its own. */
 #include "surface.h"
 #include <stdint.h>
 
@@ -27,7 +27,7 @@ static void pixels(void)
     printf("%s: pixels %d %016llx\n", name, drawn, (unsigned long long)hash);
 }
 
-/* The colour that a list leaves, with another run after its primitive. */
+/* The colour after a list with another run after its primitive. */
 static void list_colours(void)
 {
     for (int vertices = 1; vertices < 4; vertices++) {
@@ -47,7 +47,7 @@ static void list_colours(void)
     }
 }
 
-/* Textures that only a list has named when the layer needs some of its own: above those that it has from the start. */
+/* Only a list names these textures, above the names that the layer takes at the start; then the layer creates more of its own. */
 static void list_textures(void)
 {
     GLint bound;
@@ -63,7 +63,7 @@ static void list_textures(void)
     printf("%s: texture %d\n", name, bound);
 }
 
-/* The material follows the colour of a list that was compiled and executed. */
+/* Colour material follows the colour of a list that was compiled and executed. */
 static void list_materials(void)
 {
     glEnable(GL_COLOR_MATERIAL);
@@ -84,7 +84,7 @@ static void list_materials(void)
     pixels();
 }
 
-/* A wrong glCallLists within a primitive. */
+/* An illegal glCallLists within a primitive. */
 static void wrong_lists(void)
 {
     const GLubyte lists[] = {1, 2};
@@ -101,7 +101,7 @@ static void wrong_lists(void)
     error();
 }
 
-/* Blits that make a picture larger, with pixels on the edges between others. */
+/* Blits that enlarge a picture, with samples on the edges between pixels. */
 static void scaled_blits(void)
 {
     static const GLint to[][4] = {{17, 1, 40, 30}, {22, 13, 40, 30}, {19, 7, 40, 30}, {20, 47, 63, 10}, {50, 5, 20, 40}};

@@ -1,8 +1,8 @@
-/* A scene in a framebuffer, made into another picture by a compute shader, which the window shows; another one writes what it sees to a buffer. */
+/* Draws a scene into a framebuffer, from which a compute shader makes the picture of the window; another one writes its input to a buffer. */
 #include "shaders.h"
 #include "surface.h"
 
-/* As the shaders say it themselves. */
+/* The locations that the shaders declare. */
 enum { PLACE = 0 };
 
 static const char *const vertex = "#version 430\nuniform mat4 camera; uniform float depth; layout(location = 0) in vec2 place;\n"
@@ -10,7 +10,7 @@ static const char *const vertex = "#version 430\nuniform mat4 camera; uniform fl
 static const char *const fragment = "#version 430\nout vec4 colour; void main() { colour = vec4(0.0, 1.0, 0.0, 1.0); }";
 static const char *const whole = "#version 430\nlayout(location = 0) in vec2 place; out vec2 at; void main() { at = place * 0.5 + 0.5; gl_Position = vec4(place, 0.0, 1.0); }";
 static const char *const picture = "#version 430\nuniform sampler2D image; in vec2 at; out vec4 colour; void main() { colour = texture(image, at); }";
-/* By a sampler or an image in, to an image. */
+/* Reads from a sampler or an image, writes to an image. */
 static const char *const turned[] = {
     "#version 430\nlayout(local_size_x = 8, local_size_y = 8) in; uniform sampler2D from; layout(rgba8, binding = 1) writeonly uniform image2D to;\n"
     "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); imageStore(to, p, vec4(texelFetch(from, p, 0).brg, 1.0)); }\n",

@@ -1,7 +1,7 @@
-/* Conditional rendering on queries that count several draws; prints what is drawn, and every error. */
+/* Conditional rendering on queries that count several draws; prints the pixels, and every error. */
 #include "surface.h"
 
-/* What is behind the wall counts nothing. */
+/* Samples behind the wall do not count. */
 static void quad(float depth, float red)
 {
     glColor3f(red, 0, 0);
@@ -60,7 +60,7 @@ int main(void)
             tell(text);
             glDepthMask(GL_TRUE);
         }
-    /* A frame that ends under a condition is shown nevertheless. */
+    /* A frame that ends under a condition is shown all the same. */
     glClearColor(1, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     glBeginQuery(GL_SAMPLES_PASSED, query);

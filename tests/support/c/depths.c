@@ -2,9 +2,9 @@
  *
  * depths plain|reversed|inverted|overlay|weapon|cleared|nodepth|shader|block|reversed-shader
  *
- * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: then a flat picture
- * over everything that writes depths; weapon: something at 1.5 in a depth range of its own; cleared: the same after the depths were
- * cleared; nodepth: no depth test; shader, block: shaders of its own, with the projection in a uniform or a block of them. */
+ * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: a flat picture that
+ * writes depths over everything at the end; weapon: a surface at 1.5 in a depth range of its own; cleared: the same after a clear of the
+ * depths; nodepth: no depth test; shader, block: shaders, with the projection in a uniform or a uniform block. */
 #include "shaders.h"
 #include "surface.h"
 
@@ -33,7 +33,7 @@ static void scene(int frame)
     wall(40 * 0.6, 40, 8);
 }
 
-/* A program with the projection that is set. */
+/* A program that uses the current projection. */
 static void shaders(int block)
 {
     static const char *const vertex[] = {

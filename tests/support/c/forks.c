@@ -1,4 +1,4 @@
-/* Draws a frame, forks, lets the child go without a word to GL, and draws another frame. */
+/* Draws a frame, forks, ends the child before it makes a GL call, and draws another frame. */
 #include <GL/gl.h>
 #include <GL/glx.h>
 #include <X11/Xlib.h>

@@ -1,5 +1,5 @@
-/* Draws to the front buffer of an X window, with a back buffer or (argument "single") without one, flushes, and prints what the
- * window shows then and after a swap. */
+/* Draws to the front buffer of an X window, with a back buffer or (argument "single") without one, flushes, and prints the pixels of the
+ * window then and after a swap. */
 #include <GL/gl.h>
 #include <GL/glx.h>
 #include <X11/Xlib.h>

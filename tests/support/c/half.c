@@ -1,5 +1,5 @@
-/* A program that asks for each window system's functions in turn, as loaders do that find out which one they are in. Status 0 when it
- * gets those of the libraries that are there and no others. */
+/* Asks for each window system's functions in turn, like a loader that detects which one it runs under. Status 0 when it gets those of the
+ * libraries that are loaded and no others. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>

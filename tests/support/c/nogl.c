@@ -1,5 +1,5 @@
-/* A program without any GL. Status 0 when it is not told that it has some; 1 when it is. With arguments it starts them as a
- * program of its own after a fork, and its status is theirs. */
+/* A program without any GL. Status 0 when dlsym finds no GL function, 1 when it does. With arguments it starts them as another program after a
+ * fork, and its status is theirs. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* Framebuffers of a program's own, with a scene in them: prints what a program can know of them, of what they hold and of its errors, while it
- * attaches other images, gives them other stores, reads, copies, blits, deletes. The frame shows the last one. */
+/* Framebuffers of a program's own, with a scene in them: prints their state, their pixels and errors, while it attaches other images, gives
+ * them new storage, reads, copies, blits, deletes. The frame shows the last one. */
 #include "shaders.h"
 #include "surface.h"
 
@@ -37,7 +37,7 @@ static GLuint texture(int width, int height)
     return name;
 }
 
-/* Names are numbered otherwise under the layer. */
+/* The layer shifts the names, so their order is printed. */
 static int which(GLint name, const GLuint *among, int count)
 {
     for (int i = 0; i < count; i++)
@@ -61,7 +61,7 @@ static void tell(const char *what, int x, int y)
            which(bound[1], target, 2), which(bound[2], colours, 2), which(of[2], &depth, 1), of[0], of[1], glCheckFramebufferStatus(GL_FRAMEBUFFER), pixel[0], pixel[1], pixel[2], glGetError());
 }
 
-/* What a vertex shader reads of the texture that is bound. */
+/* Prints the texels of the bound texture that a vertex shader reads. */
 static void fed(void)
 {
     static const char *const names[] = {"told"};
@@ -147,7 +147,7 @@ int main(void)
     printf("there: %d %d %d, %d %d\n", glIsFramebuffer(target[0]), glIsTexture(colours[1]), glIsRenderbuffer(depth), glIsFramebuffer(target[1] + 1),
            glIsTexture(colours[1] + 1));
 
-    /* Mesa 22.3 goes on drawing to the image that the texture had before its levels were made, until it is attached anew. */
+    /* Mesa 22.3 goes on drawing to the image that the texture had before its levels were generated, until it is attached again. */
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colours[0], 0);
     glViewport(0, 0, WIDTH, HEIGHT);
@@ -157,7 +157,7 @@ int main(void)
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glDisable(GL_DEPTH_TEST);
     fed();
-    /* As it looks, not only what it holds. */
+    /* The texture's parameters count as well as its texels. */
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
     glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, 0.25f);
     draw(shown, 0, 0, 0, 0);
@@ -166,7 +166,7 @@ int main(void)
 
     glBindFramebuffer(GL_FRAMEBUFFER, target[1]);
     draw(scene, 9, 1, 1, 0);
-    /* Without a surface there is nothing to show in views. */
+    /* A context without a surface has no window to show views in. */
     context = eglCreateContext(display, config, context, NULL);
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
         return 3;

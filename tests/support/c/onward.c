@@ -1,4 +1,4 @@
-/* A program that clears its depths in every fourth frame only, and draws on over what it has shown. */
+/* Clears its depths in every fourth frame only, and draws on over its last picture. */
 #include "surface.h"
 
 static void perspective(void)

@@ -1,13 +1,13 @@
-/* Surfaces in two passes, the second blended with the first and without depths of its own; and a weapon by the same projection in the nearest
- * part of the depth range. "copied": the second pass has its vertices and elements elsewhere in memory. "glass": that of the box is over other elements of
- * the same arrays, as many of them, which stand before it. "moved": its vertices have been moved before it. "sides": it shows the other side.
- * "clears": colours and depths are cleared by calls of their own. "once": colours are cleared in the first
- * frame and, to others, in the tenth, and there is no wall. A second argument is the number of frames. */
+/* Surfaces in two passes, the second of which blends with the first and writes no depths; and a weapon with the same projection in the nearest
+ * part of the depth range. "copied": the second pass has its vertices and elements elsewhere in memory. "glass": the box's second pass draws
+ * as many other elements of the same arrays, a pane before the box. "moved": the vertices move before the second pass. "sides": it shows the
+ * back faces. "clears": colours and depths are cleared by separate calls. "once": colours are cleared in the first frame and, to other values,
+ * in the tenth, and there is no wall. A second argument is the number of frames. */
 #include "surface.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* A wall; a box's front and its side; a pane before it. */
+/* A wall; the front and the side of a box; a pane before the box. */
 static float places[] = {
     -30, -20, -20, 30, -20, -20, 30, 20, -20, -30, 20, -20,
     -2, -1, -6, 0, -1, -6, 0, 1, -6, -2, 1, -6,

@@ -1,5 +1,5 @@
-/* Frames of three draws, of which only the second has edges between pixels: a display over the whole window, a triangle of the scene
- * that moves, a display over a quarter. With an argument nothing is cleared and there is only the triangle. */
+/* Frames of three draws, of which only the second has edges between pixels: a flat display over the whole window, a moving triangle of the
+ * scene, a flat display over a quarter. With an argument nothing is cleared and there is only the triangle. */
 #include "surface.h"
 
 static void quad(float left, float bottom)

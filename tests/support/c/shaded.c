@@ -1,5 +1,5 @@
-/* Programs with shaders: prints what a program can know of them and of its errors, with draws in between. The first frame is drawn by a
- * program with a camera, linked twice; the second by one without, while errors are made. */
+/* Programs with shaders: prints their state and errors, with draws in between. The first frame is drawn by a program with a camera, linked
+ * twice; the second by one without, while errors are made. */
 #include "shaders.h"
 #include "surface.h"
 #include <GL/glext.h>
@@ -7,7 +7,7 @@
 
 enum { PLACE = 3 };
 
-/* Its shaders are gone when it is linked. */
+/* Links a program, then detaches and deletes its shaders. */
 static GLuint made(GLuint program, const char *fragment, int flat)
 {
     const char *vertex = flat ? "#version 120\nattribute vec2 place; void main() { gl_Position = vec4(place, 0.0, 1.0); }\n"

@@ -1,10 +1,10 @@
-/* Programs with shaders of their own, and a quad over all that they draw to. */
+/* Programs with shaders, and a quad over the whole viewport. */
 #define GL_GLEXT_PROTOTYPES 1
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <stddef.h>
 
-/* A shader, compiled and attached to a program. */
+/* Compiles a shader and attaches it to a program. */
 static inline GLuint attached(GLuint program, GLenum kind, const char *text)
 {
     GLuint shader = glCreateShader(kind);
@@ -14,7 +14,7 @@ static inline GLuint attached(GLuint program, GLenum kind, const char *text)
     return shader;
 }
 
-/* A linked program, whose shaders stay attached; the attribute `place` has the number that is said. */
+/* A linked program, whose shaders stay attached; the attribute `place` has the given location. */
 static inline GLuint linked(const char *vertex, const char *fragment, GLuint place)
 {
     GLuint program = glCreateProgram();
@@ -25,7 +25,7 @@ static inline GLuint linked(const char *vertex, const char *fragment, GLuint pla
     return program;
 }
 
-/* Corners at -1 and 1 in the attribute of this number. */
+/* Draws corners at -1 and 1 in the attribute at this location. */
 static inline void quad(GLuint place)
 {
     static const GLfloat corners[] = {-1, -1, 1, -1, 1, 1, -1, 1};

@@ -1,4 +1,4 @@
-/* Sends a line to a socket and prints what comes back.
+/* Sends a line to a socket and prints the answer.
  *   speaks SOCKET LINE */
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@ int main(int count, char **arguments)
         return 3;
     char line[4096];
     int length = snprintf(line, sizeof line, "%s\n", arguments[2]);
-    /* Whoever is turned away may be so before the line is sent. */
+    /* The server may refuse a client before the line is sent. */
     (void)!send(s, line, (size_t)length, MSG_NOSIGNAL);
     ssize_t got = recv(s, line, sizeof line, 0);
     if (got > 0)

@@ -1,6 +1,6 @@
-/* Draws a frame, forks, and lets the child draw in its place until the file CHILD exists; then draws itself until STOP does.
+/* Draws a frame, forks, and lets the child draw until the file CHILD exists; then the parent draws until STOP exists.
  *   splits CHILD STOP
- * In memory, because two processes cannot share a connection to an X server. */
+ * Both draw into memory, because two processes cannot share a connection to an X server. */
 #include <GL/gl.h>
 #include <GL/osmesa.h>
 #include <sys/wait.h>

@@ -1,7 +1,7 @@
 /* Draws the same frame again and again until the file STOP exists or the frames are over.
  *   stays STOP [FOLDER]
- * The keysyms of the keys that the window gets are added to `keys` in FOLDER, a line each.
- * In FOLDER, a file `shoot` makes it write what the window shows to `shot.ppm`, and take `shoot` away. */
+ * The keysyms of the window's key presses are added to `keys` in FOLDER, a line each.
+ * Where FOLDER has a file `shoot`, the program writes the window's pixels to `shot.ppm` and removes `shoot`. */
 #include "scene.h"
 #include <GL/glx.h>
 #include <X11/Xlib.h>
@@ -14,7 +14,7 @@ enum { FRAMES = 20000 };
 static void draw(void)
 {
     bars();
-    /* A gauge before it. */
+    /* A gauge before the scene. */
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
     glOrtho(0, WIDTH, 0, HEIGHT, -1, 1);

@@ -1,9 +1,9 @@
-/* In place of a driver with stereo windows, which no driver for Xvfb has. Preloaded behind the layer, it answers the layer and not
- * the program: a window asked for with GLX_STEREO has a right buffer too, a framebuffer object of the size in scene.h. Before
- * the swap STEREO_FRAME (from 1) of such a window both are written to STEREO_LEFT and STEREO_RIGHT, as binary PPM; the left one twice
- * where nothing was drawn to the right one.
+/* Stands in for a driver with stereo windows, which no driver for Xvfb has. Preloaded after the layer, it answers the layer's calls and not
+ * the program's: a window that is asked for with GLX_STEREO has a right buffer too, a framebuffer object of the size in scene.h. Before the
+ * swap STEREO_FRAME (counted from 1) of such a window both buffers are written to STEREO_LEFT and STEREO_RIGHT, as binary PPM; the left one
+ * twice where nothing was drawn to the right one.
  *
- * GLX_STEREO in the lists is taken out again, since the true driver would find nothing. */
+ * It removes GLX_STEREO from attribute lists, since the true driver would find no config. */
 #define _GNU_SOURCE
 #define GL_GLEXT_PROTOTYPES
 #include "scene.h"
@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* By the C library's own dlsym: the layer hooks that of the process, and not dlvsym. */
+/* Uses the C library's own dlsym: the layer hooks dlsym in the process, but not dlvsym. */
 static void *next(const char *name)
 {
     static void *(*look)(void *, const char *);
@@ -73,7 +73,7 @@ void glGetIntegerv(GLenum name, GLint *value)
         *value = stereo && (!bound || bound == (GLint)right);
 }
 
-/* The draw buffer belongs to framebuffer 0 and stays its own while others are bound. */
+/* The draw buffer is state of framebuffer 0, which keeps it while others are bound. */
 void glBindFramebuffer(GLenum target, GLuint name)
 {
     NEXT(glBindFramebuffer)(target, name);

@@ -1,5 +1,5 @@
-/* A surface without a window system, for small programs: of 64 x 48 pixels, or where SURFACE_SIZE is defined of those that the program says, with colours of
- * 8 bits; with a depth buffer of 24 bits, or of DEPTH_BITS. */
+/* A surface without a window system, for small programs: 64 x 48 pixels, or a size of the program's where SURFACE_SIZE is defined. Colours
+ * have 8 bits, depths 24 or DEPTH_BITS. */
 #define GL_GLEXT_PROTOTYPES 1
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -22,7 +22,7 @@ static EGLDisplay display;
 static EGLConfig config;
 static EGLSurface surface;
 
-/* Answers 0 if there is none. */
+/* Returns 0 if there is none. */
 static int open_surface(void)
 {
     PFNEGLGETPLATFORMDISPLAYEXTPROC get =
@@ -36,14 +36,14 @@ static int open_surface(void)
         return 0;
     if (!eglChooseConfig(display, wanted, &config, 1, &count) || !count)
         return 0;
-    /* The smallest that is there comes first. */
+    /* The config with the smallest depth buffer comes first. */
     if (!eglGetConfigAttrib(display, config, EGL_DEPTH_SIZE, &count) || count != DEPTH_BITS)
         return 0;
     surface = eglCreatePbufferSurface(display, config, size);
     return surface != EGL_NO_SURFACE;
 }
 
-/* A context, current; EGL_NO_CONTEXT if there is none. */
+/* Makes a context current; returns EGL_NO_CONTEXT if there is none. */
 static inline EGLContext new_context(EGLContext share)
 {
     EGLContext context = eglCreateContext(display, config, share, NULL);

@@ -1,9 +1,9 @@
-/* Chooses its window as its first argument says, prints what it got and what OpenGL answers of its buffers, and draws three frames.
+/* Chooses a window by its first argument, prints the choice and OpenGL's answers about its buffers, and draws three frames.
  *   visual    glXChooseVisual
  *   config    glXChooseFBConfig
  *   sgix      glXChooseFBConfigSGIX, by its address
  *   any       glXChooseFBConfig without a list
- * With `single` after it the window has no back buffer; with `unlike` it wants none that is in stereo. */
+ * After that, `single` asks for a window without a back buffer, and `unlike` for one that is not stereo. */
 #define GLX_GLXEXT_PROTOTYPES
 #include "scene.h"
 #include <GL/glx.h>

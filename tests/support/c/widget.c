@@ -1,7 +1,7 @@
-/* A scene as a toolkit draws it in a widget: in a context of its own, current on a surface that nobody sees, into a framebuffer whose image another
- * context shows in the window; in the first frame by a texture, in the second, larger one by a blit.
+/* A scene as a toolkit draws it in a widget: in a context of its own, current on an invisible surface, into a framebuffer whose image another
+ * context shows in the window. The first frame shows it by a texture, the second, larger one by a blit.
  *
- * widget [FILE]: two frames, or as many until there is a file. */
+ * widget [FILE]: two frames, or frames until the file exists. */
 #include "shaders.h"
 #include "surface.h"
 
@@ -42,7 +42,7 @@ int main(int count, char **arguments)
     glGenFramebuffers(1, &framebuffer);
     for (int frame = 0; count > 1 ? access(arguments[1], F_OK) : frame < 2; frame++) {
         int size = frame % 2 ? 2 : 1;
-        /* Narrower than the window: the widget has a shape of its own. */
+        /* Narrower than the window: the widget has another aspect ratio. */
         int w = WIDTH * size / 2, h = HEIGHT * size;
         const float a = (float)h / (float)w;
         const GLfloat camera[] = {a, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.01f, -1, 0, 0, -1.005f, 0};
@@ -61,7 +61,7 @@ int main(int count, char **arguments)
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glUseProgram(scene);
         glUniformMatrix4fv(glGetUniformLocation(scene, "camera"), 1, GL_FALSE, camera);
-        /* Where w is 1 for things in the scene, as it is for those that have no depth. */
+        /* w is 1 for the scene here, as it is for draws without depth. */
         glUniform1f(glGetUniformLocation(scene, "depth"), 1.0f);
         quad(PLACE);
         tell("in the widget", w / 2, h / 2);
@@ -86,7 +86,7 @@ int main(int count, char **arguments)
         tell("in the window", WIDTH / 2, HEIGHT / 2);
         eglSwapBuffers(display, surface);
     }
-    /* Each context can do without the other. */
+    /* The window's context works on after the widget's is destroyed. */
     eglDestroyContext(display, widget);
     glBindTexture(GL_TEXTURE_2D, texture);
     glUseProgram(shown);

@@ -1,4 +1,4 @@
-/* Preloaded in front of everything else: writes what the X window really shows after a swap, as a binary PPM.
+/* Preloaded before everything else: writes the pixels of the X window after a swap as a binary PPM.
  *   WINDOW_DUMP   file    WINDOW_FRAME  the swap it is written after, counted from 1
  * XGetImage reads the window itself, so no glReadPixels stands between the driver and the picture. */
 #define _GNU_SOURCE

@@ -1,4 +1,4 @@
-//! Files with shaders: one shader each, told by their names, or tests of piglit, which hold programs.
+//! Files with shaders: single shaders, whose stage follows from name or text, or tests of piglit, which hold programs.
 
 use crate::egl::Kind;
 use manyview_core::rewrite::{Stage, facts};
@@ -8,16 +8,16 @@ use std::path::Path;
 /// The shaders of one file.
 pub(super) struct Case {
     pub(super) file: String,
-    /// The context that they are for.
+    /// The context that the shaders are for.
     pub(super) kind: Kind,
     pub(super) shaders: Vec<(Stage, Vec<u8>)>,
-    /// They are all the shaders of a program.
+    /// The shaders are all those of one program.
     pub(super) program: bool,
-    /// The text does not say whether it is of OpenGL ES.
+    /// The text does not tell OpenGL from OpenGL ES.
     pub(super) open: bool,
 }
 
-/// A file's shaders; none if it is not to be told what they are.
+/// The shaders of a file. None if their stage is unknown.
 pub(super) fn read(file: &str) -> Result<Option<Case>, String> {
     let bytes = fs::read(file).map_err(|error| format!("{file}: {error}"))?;
     if file.ends_with(".shader_test") {
@@ -46,7 +46,7 @@ fn contains(text: &[u8], word: &[u8]) -> bool {
     text.windows(word.len()).any(|part| part == word)
 }
 
-/// By the ending, or for `.glsl` and `.txt` by what the name and then the text has.
+/// The stage of a shader, by the ending of the file, or else (as for `.glsl` and `.txt`) by words of the name and of the text.
 fn stage(file: &str, text: &[u8]) -> Option<Stage> {
     let path = Path::new(file);
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -68,7 +68,8 @@ fn stage(file: &str, text: &[u8]) -> Option<Stage> {
     })
 }
 
-/// Sections in brackets: `[require]`, one per shader, and what to draw. A shader without `#version` has that of `[require]`.
+/// Reads a test of piglit. Its sections are headed by names in brackets: `[require]`, one for each shader, and the test itself. A shader without
+/// `#version` gets that of `[require]`.
 fn piglit(file: &str, bytes: &[u8]) -> Option<Case> {
     let mut case = Case {
         file: file.to_owned(),
@@ -98,7 +99,7 @@ fn piglit(file: &str, bytes: &[u8]) -> Option<Case> {
                     section.clear();
                     continue;
                 }
-                // Assembly, files beside, SPIR-V.
+                // Assembly programs, shaders in other files, and SPIR-V are not handled.
                 _ => {
                     case.program &= !["program", "file", "spirv"]
                         .iter()
@@ -124,7 +125,7 @@ fn piglit(file: &str, bytes: &[u8]) -> Option<Case> {
     (!case.shaders.is_empty()).then_some(case)
 }
 
-/// piglit's own.
+/// piglit's own passthrough shader.
 const PASSTHROUGH: &[u8] =
     b"#version 110\nattribute vec4 piglit_vertex;\nvoid main() { gl_Position = piglit_vertex; }\n";
 

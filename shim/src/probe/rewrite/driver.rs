@@ -1,4 +1,4 @@
-//! What the check asks of the driver, from the context that is current. Signatures: GL/glcorearb.h.
+//! Compiles and links shaders in the current context. Signatures: GL/glcorearb.h.
 
 use crate::egl;
 use core::ffi::{c_char, c_int, c_uint};
@@ -38,7 +38,7 @@ pub(super) struct Driver {
     active_uniform: GetActive,
 }
 
-/// The table of functions asks the loader of `egl`, not one library.
+/// A function of the driver, by the lookup of `egl` and not from one library.
 macro_rules! loaded {
     ($name:literal, $type:ty) => {{
         let pointer = egl::find($name);
@@ -53,7 +53,7 @@ macro_rules! loaded {
 /// A shader object.
 pub(super) struct Shader(c_uint);
 
-/// What a linked program shows of itself, sorted: name, type and size.
+/// The active attributes and uniforms of a linked program, sorted: name, type and size of each.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct Interface {
     pub(super) attributes: Vec<String>,
@@ -92,7 +92,7 @@ impl Driver {
         })
     }
 
-    /// Compiles a text; the log if it fails.
+    /// Compiles a shader. The error is the driver's log.
     pub(super) fn compile(&self, stage: Stage, text: &[u8]) -> Result<Shader, String> {
         let length = c_int::try_from(text.len()).map_err(|_| "too long".to_owned())?;
         let start = text.as_ptr().cast();
@@ -115,7 +115,7 @@ impl Driver {
         unsafe { (self.delete_shader)(shader.0) };
     }
 
-    /// Links shaders; what the program then shows, or the log.
+    /// Links shaders to a program and returns its interface. The error is the driver's log.
     pub(super) fn link(&self, shaders: &[&Shader]) -> Result<Interface, String> {
         // SAFETY: the context is current.
         let program = unsafe { (self.create_program)() };

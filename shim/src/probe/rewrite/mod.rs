@@ -1,4 +1,4 @@
-//! Real shaders, as they are and rewritten, given to the driver.
+//! Gives real shaders to the driver, unchanged and rewritten.
 
 mod cases;
 mod driver;
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Every way to draw views, with arrays of this many.
+/// Number of views of the ways that draw all views at once.
 const VIEWS: u32 = 8;
 const WAYS: [(&str, Amplifier, Target); 3] = [
     ("replay", Amplifier::Replay, Target::Whole),
@@ -25,7 +25,7 @@ const WAYS: [(&str, Amplifier, Target); 3] = [
     ("tiles", Amplifier::Instanced, Target::Tiles),
 ];
 
-/// Prints a line for each shader, and one for each program and way. Files are named by the arguments; `-`: by the lines of stdin.
+/// Prints a line for each shader, and one for each program and way. The arguments name the files; with `-` the lines of stdin do.
 pub(crate) fn run() -> ExitCode {
     let mut files: Vec<_> = std::env::args().skip(2).collect();
     if files.iter().any(|file| file == "-") {
@@ -52,7 +52,7 @@ fn every(files: &[String]) -> Result<(), String> {
             None => println!("{}", json!({ "file": file, "unknown": true })),
         }
     }
-    // Texts that do not say it are of OpenGL ES if the desktop does not take them.
+    // A shader that does not tell is taken for OpenGL ES if desktop OpenGL does not compile it.
     for kind in [Kind::Core, Kind::Compatibility, Kind::Es] {
         if !cases.iter().any(|case| case.kind == kind) {
             continue;
@@ -77,10 +77,10 @@ fn every(files: &[String]) -> Result<(), String> {
     Ok(())
 }
 
-/// One shader in one way.
+/// The outcome of one shader in one way.
 enum Outcome<'a> {
     Refused(String),
-    /// The program's own text serves.
+    /// The shader needs no change.
     Same,
     Compiled(Shader, Rewritten<'a>),
     Failed(String),
@@ -170,7 +170,7 @@ fn attempt<'a>(
     let rewritten = rewrite(text, stage, options);
     let taken = begun.elapsed();
     if let Some(line) = line.as_object_mut() {
-        // Of all ways the one that takes longest.
+        // The longest time of all ways counts.
         let longest = line
             .get("microseconds")
             .and_then(Value::as_f64)
@@ -193,7 +193,7 @@ fn attempt<'a>(
     }
 }
 
-/// Links the program as it is and with its last vertex stage and its fragment shaders rewritten.
+/// Links the program unchanged, and with its last vertex-processing stage and its fragment shaders rewritten.
 fn link(driver: &Driver, case: &Case, before: &[&Shader], ways: &[Vec<Outcome>]) {
     let has = |stage| case.shaders.iter().any(|&(other, _)| other == stage);
     let last = [Stage::Geometry, Stage::TessEvaluation, Stage::Vertex]
@@ -244,7 +244,7 @@ fn link(driver: &Driver, case: &Case, before: &[&Shader], ways: &[Vec<Outcome>])
     }
 }
 
-/// What of a program's interface is not ours. The count of instances is listed like an attribute.
+/// The program's own part of an interface, without our uniforms and without gl_InstanceID, which is listed like an attribute.
 fn own(mut interface: Interface, names: &[&Names]) -> Interface {
     let uniforms: Vec<_> = names
         .iter()

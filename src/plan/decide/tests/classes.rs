@@ -1,4 +1,4 @@
-//! What a class becomes under fixed function.
+//! The plan of each class under fixed function.
 
 use super::*;
 

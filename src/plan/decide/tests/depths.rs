@@ -1,4 +1,4 @@
-//! Which depths are worth a picture.
+//! When depths are captured.
 
 use super::*;
 
@@ -52,7 +52,7 @@ fn a_scene_maps_its_depths() {
     assert_eq!((viewport, focal), (Viewport::Main, None));
     assert!(decision.known.depths.pending);
     assert_eq!(decision.known.depths.projection, Some(perspective()));
-    // Nobody asks.
+    // Nobody measures depths.
     let quiet = decided(&scene(), &begun(), Strategy::Replay);
     assert!(!quiet.known.depths.pending);
 }
@@ -90,7 +90,7 @@ fn the_picture_is_taken_before_a_clear_and_once() {
     assert_eq!(again.effects[0], Effect::ForgetDepths);
     // Colours alone spoil nothing.
     assert!(next(&clear(false), &drawn).known.depths.pending);
-    // A part of the window has a picture of its own.
+    // A clear of a part of the window leaves the rest valid.
     let mut part = clear(true);
     part.rects.scissor = Some([0, 0, 10, 10]);
     let part = next(&part, &drawn);
@@ -108,7 +108,7 @@ fn what_is_flat_spoils_the_depths_where_it_writes_them() {
     let spoilt = next(&flat(DepthState::On), &drawn);
     assert!(spoilt.effects.contains(&Effect::TakeDepths));
     assert!(spoilt.known.depths.spoilt && !spoilt.known.depths.pending);
-    // What follows is not looked at until the depths are cleared.
+    // Later draws are ignored until the depths are cleared.
     let more = next(&scene(), &spoilt.known);
     let cleared = next(&clear(true), &more.known);
     assert!(!cleared.effects.contains(&Effect::TakeDepths));
@@ -208,7 +208,7 @@ fn state_is_read_only_where_something_depends_on_it() {
         asked(clear, Class::Flat, &synthesised, &synthesises),
         Touch::NONE
     );
-    // Stencils tell whether those of the views stay the same.
+    // The stencil test decides whether the stencils of the views stay the same.
     assert_eq!(asked(draw, Class::Scene, &known(), &plain), Touch::COVER);
     let variant = Shaders::Variant(VariantFacts {
         program: ProgramName(1),

@@ -43,7 +43,7 @@ fn a_scene_ends_it() {
     assert_eq!(decision.effects, [Effect::LeaveMono]);
     assert!(!decision.known.mono.active);
     assert_eq!(decision.known.mono.same, STENCILS);
-    // Once.
+    // This happens once.
     assert_eq!(next(&scene(), &decision.known).effects, []);
 }
 
@@ -117,7 +117,7 @@ fn clears_make_buffers_the_same_again() {
     let mut front = clear(all, all);
     front.destination.front = true;
     assert_eq!(after(&front, 0), 0);
-    // Bits that are none of a framebuffer's.
+    // Bits that belong to no buffer are ignored.
     assert_eq!(after(&clear(!0, !0), 0), all);
 }
 

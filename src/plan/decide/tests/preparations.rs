@@ -1,4 +1,4 @@
-//! What has to be prepared before a command can be decided, and that it is asked for once.
+//! Preparations before a command can be decided, each of which is asked for once.
 
 use super::*;
 
@@ -60,7 +60,7 @@ fn a_framebuffer_that_nothing_moves_in_is_drawn_once() {
     facts.classed = classed(Class::OffScreen);
     let plan = decided(&facts, &known(), Strategy::Replay).plan;
     assert_eq!(plan.method, Method::Once);
-    // Clears do not make it differ either.
+    // Clears do not make the framebuffer differ between views either.
     let mut facts = in_a_pass();
     facts.traits.kind = Kind::Clear {
         depths: true,
@@ -71,7 +71,7 @@ fn a_framebuffer_that_nothing_moves_in_is_drawn_once() {
         decided(&facts, &known(), Strategy::Replay).plan.method,
         Method::Once
     );
-    // In one that differs they go to each view.
+    // In a framebuffer that differs, clears go to each view.
     facts.destination.differs = true;
     facts.destination.split = Linked::Yes;
     assert_eq!(
@@ -120,7 +120,7 @@ fn the_depths_of_the_frame_before_are_measured_first() {
     let mut begun = known();
     begun.depths.begun = true;
     decide(&scene(), &begun, &settings).expect("once a frame");
-    // Not where there is no window to look at.
+    // Nothing is measured where the draw does not go to the window.
     let mut facts = in_a_pass();
     facts.classed = classed(Class::OffScreen);
     decide(&facts, &known(), &settings).expect("depths elsewhere are not the window's");
@@ -182,7 +182,7 @@ fn grids_retreat_from_what_they_cannot_hold() {
             ..grid
         };
         assert_eq!(of(stippled, &|_| ()), Some(Detail::Full));
-        // Elsewhere than in the window it is no matter of the atlas.
+        // Outside the window the grid of the atlas does not matter.
         let elsewhere = |facts: &mut Facts| {
             *facts = Facts {
                 grid: facts.grid,

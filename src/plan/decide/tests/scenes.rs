@@ -38,7 +38,7 @@ fn drawn() -> Known {
     next(&scene(), &begun()).known
 }
 
-/// Why a draw is not one of the scene; none where it is.
+/// Why a draw does not belong to the scene; none where it does.
 fn parted(facts: &Facts, known: &Known) -> Option<&'static str> {
     let decision = next(facts, known);
     let why = decision.effects.iter().find_map(|effect| match effect {
@@ -84,7 +84,7 @@ fn other_clears_begin_none() {
     let mut impossible = clear(ALL_BUFFERS);
     impossible.synthesis.possible = false;
     assert!(!begins(&impossible));
-    // A view that joins needs something to be drawn on.
+    // A view that is drawn for the first time has no earlier picture.
     let mut joins = clear(c::DEPTH_BUFFER_BIT);
     joins.synthesis.joins = true;
     assert!(!begins(&joins));
@@ -100,7 +100,7 @@ fn other_clears_begin_none() {
 #[test]
 fn a_scene_that_was_drawn_ends_at_the_next_clear() {
     assert_eq!(parted(&clear(ALL_BUFFERS), &drawn()), Some("another clear"));
-    // Nothing is lost where it was shown, and is cleared wholly.
+    // Nothing is lost where the scene was shown and is cleared wholly.
     let mut shown = drawn();
     shown.scene.as_mut().expect("a scene").shown = true;
     let again = next(&clear(ALL_BUFFERS), &shown);
@@ -110,7 +110,7 @@ fn a_scene_that_was_drawn_ends_at_the_next_clear() {
     let mut part = clear(ALL_BUFFERS);
     part.clear.unscissored = false;
     assert_eq!(parted(&part, &shown), Some("another clear"));
-    // A second clear before any draw changes nothing of that.
+    // A second clear before any draw does not end the scene.
     assert!(
         next(&clear(c::COLOR_BUFFER_BIT), &begun())
             .known
@@ -173,7 +173,7 @@ fn what_does_not_belong_has_its_reason() {
     );
     let flat = |f: &mut Facts| f.classed = classed(Class::Flat);
     assert_eq!(of(&drawn, &flat), Some("what is flat"));
-    // Before the scene it lies on the panel, as long as nothing has depths.
+    // Before the scene a flat draw belongs to it, if it lies on the panel and writes no depths.
     let flat_early = |depth: DepthState, stands: f64| {
         of(&begun, &|f| {
             flat(f);
@@ -243,7 +243,7 @@ fn the_reference_image_gets_surfaces() {
     let mapping = self::drawn().scene.and_then(|scene| scene.mapping);
     let [scale, offset] = mapping.expect("a mapping").line().map(|v| v as f32);
     assert_eq!(drawn.disparities, [scale * 0.5, scale * 0.5 + offset]);
-    // Over z in NDC they are the same, whichever window depths that becomes.
+    // Over z in NDC disparities are the same, whatever the depth range.
     let close = |other: ReferenceDraw| {
         let pairs = other.disparities.into_iter().zip(drawn.disparities);
         pairs
@@ -295,7 +295,7 @@ fn a_weapon_in_a_part_of_the_depth_range_stands_before_the_scene() {
     let hand = next(&of([0.0, 0.3]), &begun()).known;
     let both = next(&of([0.0, 1.0]), &hand).known.scene.expect("one scene");
     assert_eq!(both, scene);
-    // A third part is another projection.
+    // A third depth range counts as another projection.
     assert!(parted(&of([0.0, 0.1]), &whole).is_none());
     let mut third = next(&of([0.0, 0.3]), &whole).known;
     third.synthesised = false;

@@ -29,7 +29,7 @@ fn a_scene_goes_by_the_camera_among_the_matrices() {
     assert!(plan.shear.is_some());
     assert_eq!(plan.flat, Flat::Scene, "it writes depths in perspective");
     assert_eq!(decision.known.camera, Some(perspective()));
-    // Without depths of its own, what has a w of 1 stays where it is.
+    // Without depth writes, vertices with a w of 1 are not shifted.
     facts.state.depth = DepthState::TestOnly;
     let plan = decided(&facts, &known(), Strategy::Replay).plan;
     assert_eq!(plan.flat, Flat::Still);
@@ -51,7 +51,7 @@ fn a_program_without_a_camera_takes_the_last_one() {
             .any(|e| matches!(e, Effect::Note(_)))
     };
     assert!(noted(&none));
-    // Menus need none.
+    // Menus need no camera.
     let mut menu = facts;
     menu.state.depth = DepthState::Off;
     assert!(!noted(&decided(&menu, &known(), Strategy::Replay)));
@@ -65,7 +65,7 @@ fn skies_and_flat_things_by_shaders() {
     assert_eq!(sky.plan.class, Class::Sky);
     assert_eq!(sky.plan.shear, sky.known.rig.sky(&perspective()));
     assert_eq!(sky.plan.flat, Flat::Still);
-    // What is flat by itself may still have a w that varies.
+    // A flat draw may still have vertices with a varying w.
     facts.classed = Classed {
         depth: 0.5,
         ..classed(Class::Flat)
@@ -73,7 +73,7 @@ fn skies_and_flat_things_by_shaders() {
     let flat = decided(&facts, &known(), Strategy::Replay).plan;
     assert_eq!(flat.class, Class::Scene);
     assert!(matches!(flat.flat, Flat::By(_)), "{:?}", flat.flat);
-    // A rule decides.
+    // A rule overrides that.
     facts.classed.why = Why::Rule(1);
     let ruled = decided(&facts, &known(), Strategy::Replay).plan;
     assert_eq!(ruled.class, Class::Flat);
@@ -148,7 +148,7 @@ fn a_picture_of_a_view_stands_where_that_view_has_it() {
         ..classed(Class::Flat)
     };
     assert_eq!(decided(&facts, &known(), Strategy::Replay).plan.shear, None);
-    // A scene that samples one still moves, by replay.
+    // A scene that samples such a texture is still shifted, by replay.
     facts.classed = classed(Class::Scene);
     let plan = decided(&facts, &known(), Strategy::Geometry).plan;
     assert_eq!(plan.method, Method::Replay);

@@ -1,4 +1,4 @@
-//! Which method a draw goes by, and the reason where it is not the one that was asked for.
+//! The method of a draw, and the reason where it is not the requested one.
 
 use super::*;
 
@@ -46,7 +46,7 @@ fn what_only_replay_knows_is_replayed_and_says_so() {
         assert_eq!(lists.as_deref(), Some("display lists are replayed"));
         let other = why(&of(Kind::Other), strategy);
         assert!(other.is_some_and(|why| why.contains("evaluators")));
-        // Nothing to wonder about.
+        // Such a replay needs no reason.
         assert_eq!(why(&of(Kind::Pixels), strategy), None);
         let mut own = scene();
         own.shaders = Shaders::WithoutVariant(ProgramName(2));
@@ -109,12 +109,12 @@ fn passes_that_meet_in_every_pixel_go_the_same_way() {
     facts.state.equal = true;
     let equal = decide(&facts, &before.known, &apart).expect("a decision");
     assert_eq!(equal.plan.method, Method::Replay);
-    // From then on all do.
+    // From then on all draws are replayed.
     facts.state.equal = false;
     let after = decide(&facts, &equal.known, &apart).expect("a decision");
     assert_eq!(after.plan.method, Method::Replay);
     assert!(after.known.together);
-    // Not where they have the very depths anyway, nor by what is drawn elsewhere.
+    // Not where the depths are equal anyway, nor because of a draw to another framebuffer.
     facts.state.equal = true;
     let same = decided(&facts, &known(), Strategy::Geometry);
     assert!(!same.known.together);
