@@ -85,7 +85,7 @@ static void arrays(const struct vertex *base, int which)
         glDisable(GL_TEXTURE_2D);
 }
 
-static void cell(int n, double t) /* the next place in the grid; each row is further away */
+static void cell(int n, double t) /* the next cell of the grid; each row is farther away */
 {
     int column = n % 6, row = n / 6;
     glLoadIdentity();
@@ -118,7 +118,7 @@ static void ways(double t)
     cell(n++, t);
     glMultiDrawElements(GL_TRIANGLE_STRIP, counts, GL_UNSIGNED_SHORT, (const GLvoid *const *)starts, 2);
 
-    cell(n++, t); /* single elements between glBegin and glEnd, with other calls among them */
+    cell(n++, t); /* single elements between glBegin and glEnd, with other calls between them */
     glBegin(GL_TRIANGLE_FAN);
     for (int i = 0; i < COUNT - 1; i++)
         glArrayElement(i);
@@ -154,7 +154,7 @@ static void ways(double t)
     arrays(disc, COLOUR);
     glDrawElements(GL_TRIANGLES, 6, GL_UNSIGNED_INT, NULL);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
-    cell(n++, t); /* the tail of the arrays */
+    cell(n++, t); /* a range at the end of the arrays */
     glDrawArrays(GL_QUADS, 5, 8);
 }
 

@@ -35,7 +35,7 @@ static void planes_on(int count, int except)
 }
 
 static void plane_quad(const GLdouble *p, double half)
-{ /* a square in the plane, around its point next to the origin, facing the side that is cut away */
+{ /* a square in the plane, around its point nearest to the origin, facing the side that is cut away */
     double u[3], v[3], n[3] = {-p[0], -p[1], -p[2]};
     int least = fabs(n[0]) < fabs(n[1]) ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2) : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
     double axis[3] = {least == 0, least == 1, least == 2};
@@ -136,7 +136,7 @@ void demo_frame(int frame)
     at(3.1, -1.7, -1.5, 25.0 + 40.0 * t);
     cut(ball, 6, six, 0, 0.91, 0.81, 0.52);
 
-    glLoadIdentity(); /* a plane given in eye space cuts a wall behind all */
+    glLoadIdentity(); /* a plane given in eye space cuts the wall at the back */
     const GLdouble eye[1][4] = {{-0.6, 0.8, 0.0, 1.0 + s}};
     glClipPlane(GL_CLIP_PLANE0, eye[0]);
     planes_on(1, -1);

@@ -23,8 +23,8 @@ struct rectangle { GLfloat middle[2], half[2], colour[4]; };
 
 static GLuint programs[PROGRAMS], used, block, instances, trims, commands, rectangles;
 static GLuint crowd_arrays, floor_arrays, flat_arrays;
-static GLuint elements[SHADOW + 1], first[SHADOW + 1], corners[SHADOW + 1]; /* of each kind: indices or vertices, where they begin */
-static struct one *mapped; /* two halves; what one frame reads is not written by the next */
+static GLuint elements[SHADOW + 1], first[SHADOW + 1], corners[SHADOW + 1]; /* of each kind: indices or vertices, and the first of them */
+static struct one *mapped; /* two halves, so that no frame overwrites what the last one still reads */
 static GLsync fences[2];
 static const GLfloat air[3] = {0.17f, 0.22f, 0.33f};
 
@@ -77,7 +77,7 @@ static void make_shapes(void)
     first[RING] = indices, corners[RING] = vertices;
     turned(ring, 13, 1, v, &vertices, i, &indices);
     elements[RING] = indices - first[RING];
-    corners[GEM] = vertices; /* two pyramids of six flat sides */
+    corners[GEM] = vertices; /* two six-sided pyramids, flat-shaded */
     for (int k = 0; k < 12; k++) {
         double side = k < 6 ? 1.0 : -1.0, a = M_PI / 3.0 * k, b = a + side * M_PI / 3.0, m = (a + b) / 2.0;
         struct corner c[3] = {{{0.0f, (GLfloat)side, 0.0f}, {0}}, {{(GLfloat)cos(b), 0.0f, (GLfloat)sin(b)}, {0}},
@@ -89,7 +89,7 @@ static void make_shapes(void)
         }
     }
     elements[GEM] = vertices - corners[GEM];
-    corners[SHADOW] = vertices, elements[SHADOW] = 4; /* a square, the display's too */
+    corners[SHADOW] = vertices, elements[SHADOW] = 4; /* a square, also for the display */
     for (int k = 0; k < 4; k++)
         v[vertices++] = (struct corner){{k % 2 ? 1.0f : -1.0f, 0.0f, k < 2 ? 1.0f : -1.0f}, {0.0f, 1.0f, 0.0f}};
 
@@ -231,7 +231,7 @@ static void draw_group(int g, GLuint half)
     if (indirect) {
         if (kind > RING)
             glDrawArraysIndirect(mode, command);
-        else if (kind == PAWN || pulled) /* with a number to begin at for each */
+        else if (kind == PAWN || pulled) /* each group's command has its base instance */
             glDrawElementsIndirect(mode, GL_UNSIGNED_SHORT, command);
         else if (groups[g - 1].kind != kind)
             glMultiDrawElementsIndirect(mode, GL_UNSIGNED_SHORT, command, 2, sizeof(struct command));
@@ -318,7 +318,7 @@ void demo_frame(int frame)
     glBindVertexArray(crowd_arrays);
     arrays(half, 0);
     for (int g = 0; g < GROUPS; g++) {
-        if (groups[g].kind == SHADOW) { /* darkens the floor where nothing stands before it */
+        if (groups[g].kind == SHADOW) { /* darkens the floor where no thing covers it */
             glEnable(GL_BLEND);
             glDepthMask(GL_FALSE);
         }

@@ -39,7 +39,7 @@ void demo_frame(int frame)
         glPopMatrix();
     }
     glDisable(GL_LIGHTING);
-    glColor3d(0.92, 0.88, 0.48); /* not half way between two steps of 255 */
+    glColor3d(0.92, 0.88, 0.48); /* no component half way between two steps of 255 */
     for (int i = -40; i <= 40; i++) {
         glBegin(GL_LINES);
         glVertex3d(i, -1.5, -40.0);

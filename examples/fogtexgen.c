@@ -12,7 +12,7 @@ static void make_environment(void)
 {
     enum { SIZE = 128 };
     static GLubyte texels[SIZE][SIZE][3];
-    for (int y = 0; y < SIZE; y++) /* what a mirror ball sees: sky, a sun, ground */
+    for (int y = 0; y < SIZE; y++) /* the environment of a mirror ball: sky, a sun, ground */
         for (int x = 0; x < SIZE; x++) {
             double u = x / 63.5 - 1.0, v = y / 63.5 - 1.0, sun = exp(-12.0 * ((u - 0.3) * (u - 0.3) + (v - 0.4) * (v - 0.4)));
             int ring = ((int)((u + 1.0) * 10.0) + (int)((v + 1.0) * 10.0)) & 1;
@@ -74,7 +74,7 @@ static void fog(int frame)
     glHint(GL_FOG_HINT, frame / 3 % 2 ? GL_NICEST : GL_FASTEST);
 }
 
-static void texgen(GLenum coordinates, GLint mode) /* the first so many of s, t, r */
+static void texgen(GLenum coordinates, GLint mode) /* for the first `coordinates` of s, t, r */
 {
     for (GLenum c = 0; c < 3; c++)
         if (c < coordinates) {

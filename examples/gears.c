@@ -38,7 +38,7 @@ static void gear(double bore, double root, double tip, double thickness, int tee
             }
         glEnd();
     }
-    glBegin(GL_QUADS); /* the outer rim, a normal for each flank */
+    glBegin(GL_QUADS); /* the outer rim, with a normal for each flank */
     for (int c = 0; c < corners; c++) {
         double x1, y1;
         outline(root, tip, teeth, c, &x, &y);

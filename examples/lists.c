@@ -47,7 +47,7 @@ static void make_solids(void)
     glEndList();
 
     arm = glGenLists(1);
-    glNewList(arm, GL_COMPILE); /* ends where the next part begins */
+    glNewList(arm, GL_COMPILE); /* ends at the joint of the next part */
     glPushMatrix();
     glScaled(0.3, 1.0, 0.3);
     glCallList(cube);
@@ -105,12 +105,12 @@ void demo_setup(void)
     glEndList();
 
     paint = glGenLists(1);
-    glNewList(paint, GL_COMPILE); /* for what comes after it */
+    glNewList(paint, GL_COMPILE); /* sets state for later commands */
     glColor3d(0.93, 0.77, 0.19);
     glEndList();
 
     push = glGenLists(1);
-    glNewList(push, GL_COMPILE); /* popped outside */
+    glNewList(push, GL_COMPILE); /* is popped outside the list */
     glPushMatrix();
     glTranslated(1.6, 0.1, 1.2);
     glEndList();
@@ -129,7 +129,7 @@ void demo_setup(void)
 }
 
 static void make_view(void)
-{ /* the camera: its projection is only known outside */
+{ /* the camera; its projection is known only outside the list */
     GLfloat projection[16];
     demo_perspective(45.0, (double)demo_width / demo_height, 1.5, 40.0);
     glGetFloatv(GL_PROJECTION_MATRIX, projection);

@@ -38,8 +38,8 @@ static void cross(const double *a, const double *b, double *n)
 }
 
 static void surface(double a, double b, double *p)
-{ /* a along the knot, b around it */
-    static const double z_axis[3] = {0.0, 0.0, 1.0}; /* the knot never runs along it */
+{ /* a runs along the knot, b around it */
+    static const double z_axis[3] = {0.0, 0.0, 1.0}; /* never parallel to the knot */
     double c0[3], c1[3], along[3], side[3], up[3];
     knot(a - 1e-4, c0);
     knot(a + 1e-4, c1);

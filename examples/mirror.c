@@ -72,7 +72,7 @@ static void floor_quads(void)
 static void shadows(double t)
 {
     GLfloat m[16] = {light[1], 0, 0, 0, -light[0], 0, -light[2], -1, 0, 0, light[1], 0, 0, 0, 0, light[1]};
-    glEnable(GL_STENCIL_TEST); /* each pixel darkened once: the stencil counts up where it was equal */
+    glEnable(GL_STENCIL_TEST); /* darkens each pixel once: the stencil counts up where it was equal */
     glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glEnable(GL_BLEND);
@@ -126,7 +126,7 @@ void demo_frame(int frame)
     glRotated(14.0, 1.0, 0.0, 0.0);
     glRotated(12.0 * sin(t) + 10.0, 0.0, 1.0, 0.0);
 
-    glEnable(GL_STENCIL_TEST); /* 1 where the mirror shows */
+    glEnable(GL_STENCIL_TEST); /* 1 where the mirror is visible */
     glStencilFunc(GL_ALWAYS, 1, 255);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -137,7 +137,7 @@ void demo_frame(int frame)
     glStencilFunc(GL_EQUAL, 1, 255);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 
-    glPushMatrix(); /* the scene behind the mirror, there only */
+    glPushMatrix(); /* the reflected scene, only inside the mirror */
     glScaled(1.0, 1.0, -1.0);
     glFrontFace(GL_CW);
     glLightfv(GL_LIGHT0, GL_POSITION, light);
@@ -150,7 +150,7 @@ void demo_frame(int frame)
     glDisable(GL_STENCIL_TEST);
 
     glLightfv(GL_LIGHT0, GL_POSITION, light);
-    glEnable(GL_BLEND); /* the glass, a little blue; it fills the depth buffer too */
+    glEnable(GL_BLEND); /* the glass, slightly blue; it writes depths as well */
     glDisable(GL_LIGHTING);
     glColor4f(0.31f, 0.45f, 0.71f, 0.25f);
     mirror();

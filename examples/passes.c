@@ -19,7 +19,7 @@ const struct demo_option demo_options[] = {
 enum { TORUS, SPHERE, BOX, SHAPES, SLICES = 48, STACKS = 24, MAP = 512 };
 struct thing {
     int shape;
-    GLfloat colour[4]; /* with how much it glows */
+    GLfloat colour[4]; /* with the strength of its glow in alpha */
     double x, y, z, size[3], tilt, angle, spin;
 };
 static const struct thing solid[] = {
@@ -34,7 +34,7 @@ static const struct thing solid[] = {
     {BOX, {0.62f, 0.52f, 0.57f, 0.0f}, -0.9, 0.1, -5.6, {0.34, 1.5, 0.34}, 0.0, 0.5, 0.0},
     {BOX, {0.62f, 0.52f, 0.57f, 0.0f}, 1.9, 0.1, -5.6, {0.34, 1.5, 0.34}, 0.0, 0.8, 0.0},
     {TORUS, {0.22f, 0.66f, 0.71f, 0.0f}, 1.35, 1.1, 3.3, {0.24, 0.24, 0.3}, 0.9, 0.8, 1.3}};
-static const struct thing glows[] = { /* with the power of their rims */
+static const struct thing glows[] = { /* with the exponent of their rims */
     {SPHERE, {0.12f, 0.44f, 1.10f, 2.0f}, -2.15, 1.15, 1.9, {0.45, 0.45, 0.45}, 0.0, 0.0, 0.0},
     {SPHERE, {0.90f, 0.20f, 0.62f, 1.5f}, 0.5, 1.5, -3.8, {0.8, 0.8, 0.8}, 0.0, 0.0, 0.0},
     {TORUS, {0.24f, 0.52f, 0.13f, 0.9f}, 0.35, -0.35, -1.9, {0.95, 0.95, 0.2}, 1.2, 1.3, 0.4}};
@@ -52,7 +52,7 @@ static void surface(int shape, double s, double t, GLfloat p[6])
     double n[3] = {cos(b) * cos(a), cos(b) * sin(a), sin(b)}, out[3] = {n[0], n[1], n[2]};
     if (shape == TORUS)
         out[0] = cos(a) + 0.4 * n[0], out[1] = sin(a) + 0.4 * n[1], out[2] = 0.4 * n[2];
-    if (shape >= BOX) { /* and one of its faces */
+    if (shape >= BOX) { /* a box has a range per face */
         int face = shape - BOX, axis = face % 3;
         double side = face < 3 ? 1.0 : -1.0;
         n[0] = n[1] = n[2] = 0.0;
@@ -189,7 +189,7 @@ void demo_setup(void)
         light_target = framebuffer((GLuint[3]){light}, 0, 0);
     } else {
         GLuint depth = from_depth ? (depths = texture(GL_DEPTH_COMPONENT24, w, h)) : renderbuffer(GL_DEPTH24_STENCIL8, 0);
-        if (from_depth) { /* OpenGL ES filters depths only to compare them */
+        if (from_depth) { /* OpenGL ES filters depths only with a comparison */
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         }
@@ -291,7 +291,7 @@ static void make_bloom(void)
 static void display(double t)
 {
     GLfloat bar = (GLfloat)(0.12 + 0.1 * sin(1.7 * t));
-    const GLfloat things[][8] = { /* middle and half size, colour */
+    const GLfloat things[][8] = { /* centre, half size, colour */
         {-0.66f, -0.83f, 0.29f, 0.12f, 0.03f, 0.05f, 0.09f, 0.62f}, {-0.9f + bar, -0.785f, bar, 0.021f, 0.86f, 0.27f, 0.22f, 1.0f},
         {-0.7f, -0.843f, 0.2f, 0.021f, 0.27f, 0.72f, 0.42f, 1.0f}, {-0.76f, -0.901f, 0.14f, 0.013f, 0.87f, 0.77f, 0.31f, 1.0f},
         {0.003f, 0.004f, 0.031f, 0.004f, 0.93f, 0.94f, 0.88f, 0.83f}, {0.003f, 0.004f, 0.003f, 0.041f, 0.93f, 0.94f, 0.88f, 0.83f},
@@ -329,7 +329,7 @@ void demo_frame(int frame)
         camera.lamp[k] = from_lamp[12 + k], camera.towards[k] = -from_lamp[8 + k];
     glBindBuffer(GL_UNIFORM_BUFFER, block);
     glBufferData(GL_UNIFORM_BUFFER, sizeof camera, &camera, GL_STREAM_DRAW);
-    glDisable(GL_SCISSOR_TEST); /* which is for the window */
+    glDisable(GL_SCISSOR_TEST); /* the scissor rectangle is for the window */
 
     /* The lamp's view, which is no view of the picture. */
     demo_frustum(shadow, 68.0, 1.0, 3.0, 20.0);

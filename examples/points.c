@@ -10,7 +10,7 @@ static GLuint spark;
 void demo_setup(void)
 {
     static GLubyte texels[32][32][4];
-    for (int y = 0; y < 32; y++) /* a disc with a bright corner: upside down would show */
+    for (int y = 0; y < 32; y++) /* a disc with a bright corner, which would show a flip */
         for (int x = 0; x < 32; x++) {
             double r = hypot(x - 15.5, y - 15.5) / 15.5;
             texels[y][x][0] = 255;
@@ -128,7 +128,7 @@ static void polygons(double t)
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glEnable(GL_POLYGON_STIPPLE);
     glPolygonStipple(halftone);
-    ring(GL_POLYGON, 0.0, 0.0, -7.0, 5.0, 24); /* a screen behind everything */
+    ring(GL_POLYGON, 0.0, 0.0, -7.0, 5.0, 24); /* a stippled screen behind everything */
     glDisable(GL_POLYGON_STIPPLE);
     glLineWidth(1.0f);
 }

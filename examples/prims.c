@@ -22,7 +22,7 @@ void demo_setup(void)
 }
 
 static void corner(GLenum mode, int i, double *x, double *y)
-{ /* strips zigzag, the rest goes round */
+{ /* strips zigzag, other modes run round */
     if (mode == GL_TRIANGLE_STRIP || mode == GL_QUAD_STRIP) {
         *x = -0.45 + 0.3 * (i / 2);
         *y = i % 2 ? 0.32 : -0.32;
@@ -41,10 +41,10 @@ static void primitive(GLenum mode, int style, int frame)
     glNormal3d(0.0, 0.0, 1.0);
     glBegin(mode);
     for (int i = 0; i < count; i++) {
-        double x, y, z = 0.15 * (i % 3), w = style == 2 && i % 2 ? 2.0 : 1.0; /* the same place, w = 2 */
+        double x, y, z = 0.15 * (i % 3), w = style == 2 && i % 2 ? 2.0 : 1.0; /* every other vertex at the same place with w = 2 */
         GLfloat c[4] = {0.25f + 0.75f * (GLfloat)(i % 2), 0.21f + 0.1f * (GLfloat)i, 1.0f - 0.12f * (GLfloat)i, 1.0f};
         corner(mode, i, &x, &y);
-        if (i != (frame & 1)) { /* the first or the second vertex keeps the colour from before */
+        if (i != (frame & 1)) { /* the first or the second vertex keeps the colour that was set before */
             if (style == 1)
                 glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, c);
             else

@@ -9,7 +9,7 @@
 DEMO_NO_OPTIONS;
 int demo_accumulation = 2;
 
-static int version; /* 45 for 4.5 */
+static int version; /* such as 45 for OpenGL 4.5 */
 
 static void say(const char *name, const char *detail, long long value)
 {
@@ -76,7 +76,7 @@ static void picture(void)
     glDisable(GL_TEXTURE_2D);
 }
 
-static void flat_square(void) /* the bound texture over the middle of the picture */
+static void flat_square(void) /* draws the bound texture over the middle of the picture */
 {
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
@@ -189,7 +189,7 @@ static void illegal(GLuint texture)
     glBindFramebuffer(GL_TEXTURE_2D, 0);
     error("glBindFramebuffer of a wrong target");
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glEnable(0x1234); /* the first of two errors is the one that is kept */
+    glEnable(0x1234); /* of two errors the first is kept */
     glBegin(GL_TRIANGLES);
     glEnd();
     glViewport(0, 0, -1, -1);
@@ -242,7 +242,7 @@ static void accumulation(void)
     glAccum(GL_RETURN, -1.3f);
     hash_all("accumulation multiplied");
     glGetError();
-    glReadBuffer(GL_NONE); /* nothing is read, and that is no error */
+    glReadBuffer(GL_NONE); /* nothing is read, without an error */
     glAccum(GL_LOAD, 0.9f);
     glReadBuffer(GL_BACK);
     glGetError();

@@ -17,7 +17,7 @@ enum { SIDE = 96, CORNERS = (SIDE + 1) * (SIDE + 1), STEP = 4, TREES = 110, SEED
 struct rectangle { GLfloat middle[2], half[2], colour[4]; };
 static GLuint programs[PROGRAMS], used, land_arrays, point_arrays, flat_arrays, no_arrays, rectangles;
 static GLsizei indices;
-static int ground; /* the program of the land */
+static int ground; /* the program that draws the ground */
 
 static void use(int program) { glUseProgram(used = programs[program]); }
 static GLint at(const char *name) { return glGetUniformLocation(used, name); }
@@ -43,7 +43,7 @@ static void make_land(void)
             memcpy(list + indices, geometry ? triangles : patch, geometry ? sizeof triangles : sizeof patch);
             indices += geometry ? 6 : 4;
         }
-    for (int k = 0; k < 4; k++) /* and the water over all of it */
+    for (int k = 0; k < 4; k++) /* and the water over the whole ground */
         v[CORNERS + k][0] = k % 2 ? 10.0f : -10.0f, v[CORNERS + k][1] = k < 2 ? 7.0f : -15.0f;
     glGenVertexArrays(1, &land_arrays);
     glBindVertexArray(land_arrays);
@@ -108,7 +108,7 @@ static void display(double t)
         {{0.003f, 0.004f}, {0.032f, 0.008f}, {0.95f, 0.92f, 0.81f, 0.83f}},
         {{0.72f, -0.87f}, {0.23f, 0.068f}, {0.06f, 0.08f, 0.12f, 0.62f}}};
     GLsizei n = 6;
-    for (int k = 0; k < 19; k++) { /* a compass that turns */
+    for (int k = 0; k < 19; k++) { /* a turning compass */
         double x = 0.05 * (k - 9) + 0.05 * (1.5 * t - floor(1.5 * t)) - 0.025;
         int small = (k + 80 - (int)floor(1.5 * t)) % 4;
         struct rectangle tick = {{(GLfloat)x, 0.885f}, {0.003f, small ? 0.012f : 0.03f}, {0.93f, 0.89f, 0.75f, 0.96f}};
@@ -121,7 +121,7 @@ static void display(double t)
                                  {(GLfloat)(0.27 + 0.11 * (k / 2)), (GLfloat)(0.81 - 0.07 * (k / 2)), 0.27f, on ? 1.0f : 0.18f}};
         r[n++] = lamp;
     }
-    for (int k = 0; k < 22; k++) { /* what a sounder sees */
+    for (int k = 0; k < 22; k++) { /* a depth sounder */
         GLfloat high = (GLfloat)(0.024 + 0.017 * sin(0.61 * k + 2.1 * t) + 0.008 * sin(1.7 * k - t));
         struct rectangle bar = {{(GLfloat)(0.51 + 0.02 * k), -0.93f + high}, {0.008f, high}, {0.31f, 0.77f, 0.84f, 0.93f}};
         r[n++] = bar;
@@ -182,7 +182,7 @@ void demo_frame(int frame)
     use(WATER);
     glBindVertexArray(land_arrays);
     glDrawArrays(GL_TRIANGLE_STRIP, CORNERS, 4);
-    if (points) { /* which glow */
+    if (points) { /* they glow, so blending adds */
         use(POINTS);
         glDepthMask(GL_FALSE);
         glBlendFunc(GL_ONE, GL_ONE);

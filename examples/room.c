@@ -23,7 +23,7 @@ static GLuint font, brick, tiles, panel_wood;
 
 static void make_font(void)
 {
-    static GLubyte texels[8][256]; /* one letter every 4 columns, on its row 1 to 5 */
+    static GLubyte texels[8][256]; /* one letter every 4 columns, in rows 1 to 5 */
     for (int l = 0; letters[l]; l++)
         for (int y = 0; y < 5; y++)
             for (int x = 0; x < 3; x++)

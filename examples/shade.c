@@ -47,7 +47,7 @@ static const char *const fragment_120 =
     "    vec3 d = normalize(n), l = normalize(vec3(3.0, 6.0, 2.0) - eye);\n"
     "    float light = max(dot(d, l), 0.0), edge = abs(dot(d, normalize(eye)));\n"
     "    light = steps > 0.0 ? floor(light * steps + 0.5) / steps * step(0.25, edge) : light + pow(light, 30.0) * 0.4;\n"
-    "    vec2 at = gl_FragCoord.xy;\n" /* which has but eleven bits in GLSL 1.00 as long as it is itself calculated with */
+    "    vec2 at = gl_FragCoord.xy;\n" /* gl_FragCoord has only eleven bits in GLSL 1.00 where it is used in expressions directly */
     "    float net = mod(floor(at.x) + floor(at.y), 2.0);\n"
     "    gl_FragColor = vec4(colour.rgb * mix(0.17 + 0.8 * light, 0.8 + 0.2 * net, unlit), colour.a);\n"
     "}\n";

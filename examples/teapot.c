@@ -39,7 +39,7 @@ static void lid(double u, double v, double *p)
 }
 
 static void tube(double cx, double cy, double dx, double dy, double r, double u, double *p)
-{ /* a circle around (cx, cy), across the direction (dx, dy) */
+{ /* a circle around (cx, cy), at a right angle to the direction (dx, dy) */
     double l = sqrt(dx * dx + dy * dy), a = 2.0 * M_PI * u;
     p[0] = cx - r * cos(a) * dy / l;
     p[1] = cy + r * cos(a) * dx / l;
@@ -189,7 +189,7 @@ void demo_frame(int frame)
     draw(&pot);
     draw(&nose);
     draw(&grip);
-    glTranslated(0.5, 2.35, 0.0); /* lifted and tilted: the inside shows */
+    glTranslated(0.5, 2.35, 0.0); /* lifted and tilted, so that the inside shows */
     glRotated(-25.0, 0.0, 0.0, 1.0);
     draw(&cover);
 }

@@ -51,7 +51,7 @@ void demo_viewport(int x, int y, int width, int height)
 void demo_scissor(int x, int y, int width, int height)
 {
     int x1 = x + width, y1 = y + height;
-    if (tiled) { /* never outside the picture */
+    if (tiled) { /* keeps it inside the picture */
         x = x < 0 ? 0 : x;
         y = y < 0 ? 0 : y;
         x1 = x1 > demo_width ? demo_width : x1;
@@ -82,9 +82,9 @@ static int move_view(GLfloat p[16], int infinitely_far)
     if (e == 0.0)
         return 0;
     if (p[3] == 0.0f && p[7] == 0.0f && p[11] == 0.0f)
-        return 0; /* orthographic: flat */
-    /* A is what row 0 has at a right angle to the viewing direction (row 3), per unit of row 3: P[0][0] of a plain
-     * frustum, and the same number when the camera was multiplied onto the projection. */
+        return 0; /* orthographic, so flat */
+    /* A is the part of row 0 at a right angle to the viewing direction (row 3), per unit of row 3: P[0][0] of a plain frustum, and the same
+     * number where the camera is multiplied onto the projection. */
     double w2 = (double)p[3] * p[3] + (double)p[7] * p[7] + (double)p[11] * p[11], a = p[0];
     if (p[3] != 0.0f || p[7] != 0.0f) {
         double along = ((double)p[0] * p[3] + (double)p[4] * p[7] + (double)p[8] * p[11]) / w2;
@@ -300,7 +300,7 @@ static void parse(int argc, char **argv)
         demo_fail(2, "--samples: OSMesa has no multisampling");
 #else
     api = &demo_glx;
-    if (api_name && !strcmp(api_name, "osmesa")) { /* a different libGL, so a different program */
+    if (api_name && !strcmp(api_name, "osmesa")) { /* OSMesa is another libGL, so it is another program */
         char path[PATH_MAX + 16];
         ssize_t n = readlink("/proc/self/exe", path, PATH_MAX);
         if (n > 0) {
@@ -338,11 +338,11 @@ static void write_dump(int frame)
     unsigned char *rgb = malloc(pixels * 4);
     if (!rgb)
         demo_fail(1, "out of memory");
-    GLint alignment; /* not by glPushClientAttrib: there is none in a core context */
+    GLint alignment; /* saved here, since core contexts have no glPushClientAttrib */
     glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(demo_x, demo_y, demo_width, demo_height, demo_es ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, rgb);
-    for (size_t k = 0; demo_es && k < pixels; k++) /* OpenGL ES reads four */
+    for (size_t k = 0; demo_es && k < pixels; k++) /* OpenGL ES reads four components */
         memmove(rgb + 3 * k, rgb + 4 * k, 3);
     glPixelStorei(GL_PACK_ALIGNMENT, alignment);
     if (demo_write_png(path, demo_width, demo_height, rgb))
@@ -403,7 +403,7 @@ int main(int argc, char **argv)
         if (unread)
             glReadBuffer(GL_BACK);
         double now = now_ms();
-        if (times && frame && timed < KEPT) /* the first frame compiles; it does not count */
+        if (times && frame && timed < KEPT) /* the first frame compiles shaders and does not count */
             times[timed++] = now - last;
         last = now;
     }

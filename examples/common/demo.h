@@ -15,9 +15,9 @@
 
 /* ---- defined by a demo ---- */
 struct demo_option {
-    const char *name; /* "--vbo"; the list ends with a null name */
+    const char *name; /* such as "--vbo"; the list ends with a null name */
     const char *help;
-    void *value; /* an int, set to 1 or to the number that follows the option; a const char *, the word that follows it */
+    void *value; /* an int, set to 1 or to the number after the option; or a const char *, the word after it */
     enum { DEMO_NOTHING, DEMO_NUMBER, DEMO_WORD } takes;
 };
 extern const struct demo_option demo_options[];
@@ -26,14 +26,14 @@ extern const struct demo_option demo_options[];
 /* 1: the window has to have an accumulation buffer; 2: only where windows can have one. Other demos leave it out. */
 extern int demo_accumulation;
 void demo_setup(void);          /* once, with the context current */
-void demo_frame(int frame);     /* draws frame number 0, 1, 2, ...; the same picture for the same number */
+void demo_frame(int frame);     /* draws frame number 0, 1, 2, ...; the same number gives the same picture */
 
 /* ---- used by a demo ---- */
 extern int demo_width, demo_height; /* size of the picture (--size) */
 extern int demo_x, demo_y;          /* where it begins in the window (--offset) */
 extern int demo_es;                 /* 2 or 3 in a context of OpenGL ES (--profile es2, es3), else 0 */
 
-double demo_time(int frame);        /* 0.02 s a frame */
+double demo_time(int frame);        /* animation time: 0.02 s a frame */
 
 /* Like glViewport and glScissor (whose test it also enables), relative to the corner of the picture. */
 void demo_viewport(int x, int y, int width, int height);
@@ -53,7 +53,7 @@ void demo_perspective_sky(double fovy, double aspect, double z_near, double z_fa
 void demo_flat_done(void);
 
 typedef void (*demo_function)(void);
-demo_function demo_proc(const char *name); /* glXGetProcAddressARB and its kin; fails if null */
+demo_function demo_proc(const char *name); /* glXGetProcAddressARB and its counterparts; fails if null */
 
 _Noreturn void demo_fail(int status, const char *format, ...);
 
@@ -76,8 +76,8 @@ GLuint demo_buffer(GLenum target, const void *data, size_t size);
 void demo_needs(int version);
 typedef GLfloat demo_matrix[16]; /* column-major */
 void demo_times(demo_matrix out, const demo_matrix a, const demo_matrix b);
-void demo_inverse(demo_matrix out, const demo_matrix m); /* of one that has an inverse */
-/* A perspective projection, not yet that of a view. fovy in degrees. */
+void demo_inverse(demo_matrix out, const demo_matrix m); /* of an invertible matrix */
+/* A perspective projection before demo_view(). fovy in degrees. */
 void demo_frustum(demo_matrix out, double fovy, double aspect, double z_near, double z_far);
 /* The matrix of a camera with y upwards, and its inverse. */
 void demo_look(demo_matrix out, demo_matrix back, const double from[3], const double to[3]);
@@ -94,16 +94,16 @@ struct demo_window {
     int samples, srgb, accumulation;
     int core;          /* 1: --profile core, an OpenGL 3.3 core context */
     int es;            /* 2 or 3: OpenGL ES of that version */
-    int pbuffer;       /* 1: --surface pbuffer, 0: --surface window, -1: not said */
+    int pbuffer;       /* 1: --surface pbuffer, 0: --surface window, -1: not given */
     const char *title;
 };
 struct demo_api {
     const char *name;
     void (*open)(struct demo_window *);
-    int (*frame_end)(void); /* swap; non-zero: the user asks to quit */
+    int (*frame_end)(void); /* swaps; non-zero if the user asks to quit */
     demo_function (*proc)(const char *name);
     void (*close)(void);
-    void (*raise)(void); /* puts the window before all others; null where there is none */
+    void (*raise)(void); /* puts the window before all others; null without a window system */
 };
 extern const struct demo_api demo_glx, demo_egl, demo_osmesa;
 

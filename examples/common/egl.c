@@ -48,7 +48,7 @@ static void open_surface(struct demo_window *w)
     EGLConfig configs[256], config = NULL;
     EGLint count = 0, red;
     eglChooseConfig(display, wanted, configs, 256, &count);
-    for (int i = count - 1; i >= 0; i--) /* EGL puts 10-bit colours first; we want 8 */
+    for (int i = count - 1; i >= 0; i--) /* EGL puts 10-bit colours first; the demos need 8 */
         if (eglGetConfigAttrib(display, configs[i], EGL_RED_SIZE, &red) && red == 8)
             config = configs[i];
     if (!config)

@@ -7,5 +7,5 @@
 
 Display *x11_open(void);
 Window x11_window(Display *display, XVisualInfo *visual, const struct demo_window *w);
-int x11_quit(Display *display); /* reads the events; non-zero after Escape, q or the close button */
+int x11_quit(Display *display); /* handles events; non-zero after Escape, q or the close button */
 #endif

@@ -2,7 +2,7 @@
 #include <math.h>
 
 enum { PAWNS = 140, LOW = 40, HIGH = 40, GEMS = 80, CROWD = PAWNS + LOW + HIGH + GEMS };
-enum { PAWN, RING, GEM, SHADOW }; /* kinds, as the shader numbers them */
+enum { PAWN, RING, GEM, SHADOW }; /* kinds, with the shader's numbers */
 static const struct { int kind; GLuint from, count; } groups[] = {
     {PAWN, 0, PAWNS}, {RING, PAWNS, LOW}, {RING, PAWNS + LOW, HIGH}, {GEM, PAWNS + LOW + HIGH, GEMS}, {SHADOW, 0, CROWD}};
 enum { GROUPS = sizeof groups / sizeof *groups };

@@ -27,7 +27,7 @@
 static const char vertex_crowd[] = CAMERA PLACE
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
-    "layout(location = 3) in vec3 size;\n" /* how wide, how high, and where it looks */
+    "layout(location = 3) in vec3 size;\n" /* width, height, and direction */
     "layout(location = 4) in vec4 colour;\n"
     "layout(location = 5) in vec4 trim;\n"
     "uniform int kind;\n"
@@ -43,7 +43,7 @@ static const char vertex_crowd[] = CAMERA PLACE
     "        mat2 lean = turn(0.17 * sin(4.1 * time + 1.9 * number));\n"
     "        p.xy = lean * p.xy, d.xy = lean * d.xy;\n"
     "        where.y += 0.05 * size.y * abs(sin(4.1 * time + 1.9 * number));\n"
-    "    } else if (kind == 1) {\n" /* stands on its rim, turns */
+    "    } else if (kind == 1) {\n" /* stands on its rim and turns */
     "        p = p.xzy, d = d.xzy;\n"
     "        mat2 spin = turn(1.3 * time + 0.7 * number);\n"
     "        p.xz = spin * p.xz, d.xz = spin * d.xz;\n"
@@ -52,7 +52,7 @@ static const char vertex_crowd[] = CAMERA PLACE
     "        mat2 spin = turn(2.3 * time + 1.1 * number);\n"
     "        p.xz = spin * p.xz, d.xz = spin * d.xz;\n"
     "        where.y += 0.12 * sin(2.9 * time + 0.5 * number);\n"
-    "    } else {\n" /* the shadow of one, wider and fainter the higher it is */
+    "    } else {\n" /* the shadow of a thing, wider and fainter the higher the thing is */
     "        p *= 1.2 + 0.25 * height, where.y = 0.015;\n"
     "    }\n"
     "    mat2 look = turn(size.z);\n"
@@ -100,7 +100,7 @@ static const char vertex_flat[] = PLACE
     "layout(location = 0) in vec3 corner;\n"
     "layout(location = 4) in vec4 colour;\n"
     "layout(location = 6) in vec4 rectangle;\n"
-    "uniform vec4 map;\n" /* its middle and half its size, which is 7 on the floor; 0: rectangles */
+    "uniform vec4 map;\n" /* centre and half size, which is 7 on the floor; 0 for rectangles */
     "uniform float time;\n"
     "out vec4 paint;\n"
     "void main()\n"

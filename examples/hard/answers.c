@@ -174,7 +174,7 @@ static void draw_instances(int frame)
     glVertexPointer(3, GL_FLOAT, 0, fan);
     enable(1);
     pointer(1, 2, GL_FLOAT, 0, 0, places);
-    divisor(1, 2); /* two instances a place */
+    divisor(1, 2); /* two instances for each value */
     draw(GL_TRIANGLE_FAN, 0, 6, 12);
     divisor(1, 0);
     disable(1);

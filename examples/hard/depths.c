@@ -61,10 +61,10 @@ static void draw_decals(int frame)
 static void draw_offset_gauge(int frame)
 {
     (void)frame;
-    const double run = 40; /* units of the factor over the wedge's height */
+    const double run = 40; /* the factor's range over the wedge's height */
     usual_frustum(1, 2000);
     glEnable(GL_DEPTH_TEST);
-    start(GL_TRIANGLES); /* nothing to be seen of it: the cameras are known */
+    start(GL_TRIANGLES); /* an invisible triangle in perspective, so that the cameras are known */
     at(5000, 0, -9), at(5001, 0, -9), at(5000, 1, -9);
     finish();
     glMatrixMode(GL_PROJECTION);

@@ -113,7 +113,7 @@ static void draw_sky(int frame)
         tell_marker(colours[k], x, INFINITY);
         start(GL_TRIANGLE_FAN);
         colour(colours[k]);
-        for (int c = 0; c < 4; c++) /* seen after the turn */
+        for (int c = 0; c < 4; c++) /* its position after the turn */
             at(box[k], (2 * corner[c][1] / demo_height - 1) * box[k] / B, (2 * corner[c][0] / demo_width - 1) * box[k] / A);
         finish();
     }
@@ -238,7 +238,7 @@ static void draw_hud(int frame)
     frustum(1, 2000);
     scene_projection_done();
     glEnable(GL_DEPTH_TEST);
-    start(GL_TRIANGLES); /* a scene that shows nothing, so that the cameras are known */
+    start(GL_TRIANGLES); /* an invisible triangle in perspective, so that the cameras are known */
     at(500, 0, -9), at(501, 0, -9), at(500, 1, -9);
     finish();
     glDisable(GL_DEPTH_TEST);

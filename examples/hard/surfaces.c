@@ -18,7 +18,7 @@ static void draw_wide(int frame)
         colour(smooth ? 0xff8000 : 0xff0000);
         for (int side = -1; side <= 1; side += 2) {
             for (int k = 0; k < 7; k++)
-                at(side * (6.4 + 0.03 * (k - 3)), -3 + 0.6 * k + 0.25 * smooth, -8); /* in focus: the side of every view */
+                at(side * (6.4 + 0.03 * (k - 3)), -3 + 0.6 * k + 0.25 * smooth, -8); /* in focus, so at the side of every view */
         }
         finish();
         glLineWidth(9);
@@ -144,7 +144,7 @@ static void draw_lighting(int frame)
         glTranslated(-3 + 2.8 * k, 0.4 * k - 0.5, -6 - 2 * k);
         glRotated(20 + 40 * k, 1, 0.5, 0);
         glClipPlane(GL_CLIP_PLANE0, half);
-        glEnable(GL_CLIP_PLANE0); /* the inside is seen */
+        glEnable(GL_CLIP_PLANE0); /* shows the inside */
         ball(1.6);
         glPopMatrix();
     }

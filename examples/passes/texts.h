@@ -13,7 +13,7 @@
 #define SKY \
     "uniform vec2 size;\n" \
     "vec3 sky() { return mix(vec3(0.23, 0.14, 0.12), vec3(0.02, 0.04, 0.11), sqrt(gl_FragCoord.y / size.y)); }\n"
-#define LIGHT /* all in eye space, but for the shadow map; colours go above 1 */ \
+#define LIGHT /* in eye space, except for the shadow map; colours may exceed 1 */ \
     SKY CAMERA \
     "uniform mat4 shadow;\n" \
     "uniform sampler2DShadow shadows;\n" \

@@ -1,7 +1,7 @@
 /* The shaders of relief.c. All light is in world space; only positions go through matrices. */
 #define GLSL_330 "#version 330 core\n"
 #define GLSL_400 "#version 400 core\n"
-#define LAND /* smooth everywhere, so that a last bit makes no difference */ \
+#define LAND /* smooth everywhere, so that rounding makes no visible difference */ \
     "uniform float time;\n" \
     "float height(vec2 p)\n" \
     "{\n" \
@@ -16,7 +16,7 @@
     "    return normalize(vec3(height(p - d) - height(p + d), 0.06, height(p - d.yx) - height(p + d.yx)));\n" \
     "}\n"
 #define LIGHT \
-    "uniform vec3 from;\n" /* where the camera is */ \
+    "uniform vec3 from;\n" /* the camera's position */ \
     "const vec3 sun = vec3(-0.55, 0.56, 0.62);\n" \
     "vec3 sky(float up) { return mix(vec3(0.83, 0.71, 0.59), vec3(0.31, 0.47, 0.72), smoothstep(0.0, 0.45, up)); }\n" \
     "vec3 lit(vec3 colour, vec3 n, float open)\n" \
@@ -25,7 +25,7 @@
     "        + open * vec3(0.93, 0.81, 0.62) * max(dot(n, sun), 0.0));\n" \
     "}\n" \
     "vec3 hazy(vec3 colour, vec3 p) { return mix(colour, sky(0.02), 0.87 * smoothstep(6.0, 23.0, distance(p, from))); }\n"
-#define EARTH /* what grows where */ \
+#define EARTH /* colours of the ground */ \
     "vec3 earth(vec3 p, vec3 n)\n" \
     "{\n" \
     "    float rough = sin(5.3 * p.x + 1.2 * sin(4.1 * p.z)) * sin(4.7 * p.z);\n" \
@@ -44,7 +44,7 @@ static const char control[] = GLSL_400 LAND
     "uniform mat4 view;\n"
     "uniform float finest;\n"
     "patch out float tint;\n"
-    "vec3 seen(int k)\n" /* a corner as the camera has it, before any projection */
+    "vec3 seen(int k)\n" /* a corner in eye space */
     "{\n"
     "    vec4 p = gl_in[k].gl_Position;\n"
     "    return (view * vec4(p.x, height(p.xz), p.z, 1.0)).xyz;\n"
@@ -167,7 +167,7 @@ static const char fragment_grass[] = GLSL_330 LIGHT EARTH
     "out vec4 shown;\n"
     "void main()\n"
     "{\n"
-    "    bool ground = paint.b < 0.0;\n" /* which no blade has */
+    "    bool ground = paint.b < 0.0;\n" /* no blade has this colour */
     "    shown = vec4(hazy(lit(ground ? paint.r * earth(place, n) : paint, n, 1.0), place), 1.0);\n"
     "}\n";
 
@@ -197,7 +197,7 @@ static const char fragment_water[] = GLSL_330 LAND LIGHT
     "    shown = vec4(hazy(c, place), 0.37 + 0.5 * smoothstep(0.0, 0.4, deep));\n"
     "}\n";
 static const char vertex_points[] = GLSL_330 LAND
-    "layout(location = 0) in vec4 position;\n" /* across, how high over the land, away, half size */
+    "layout(location = 0) in vec4 position;\n" /* across, height over the land, away, half size */
     "out float drift;\n"
     "uniform int seeds;\n"
     "void main()\n"
@@ -233,7 +233,7 @@ static const char geometry_points[] = GLSL_330
     "{\n"
     "    vec3 p = gl_in[0].gl_Position.xyz;\n"
     "    float size = gl_in[0].gl_Position.w;\n"
-    "    if (seeds == 0 && p.y < -0.1)\n" /* no tree in the water */
+    "    if (seeds == 0 && p.y < -0.1)\n" /* no trees in the water */
     "        return;\n"
     "    for (int k = 0; k < (seeds != 0 ? 1 : 3); k++) {\n"
     "        vec3 w = p + size * float(k) * vec3(0.1 * sin(drift[0]), 0.85, 0.1 * cos(drift[0]));\n"
@@ -259,7 +259,7 @@ static const char fragment_points[] = GLSL_330 LIGHT
 static const char vertex_sky[] = GLSL_330
     "void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0); }\n";
 static const char fragment_sky[] = GLSL_330 LIGHT
-    "uniform vec3 window;\n" /* where it begins, how high it is */
+    "uniform vec3 window;\n" /* origin, and height */
     "out vec4 shown;\n"
     "void main() { shown = vec4(sky((gl_FragCoord.y - window.y) / window.z - 0.62), 1.0); }\n";
 /* Rectangles by instance and vertex number, or points. */

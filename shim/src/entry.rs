@@ -3,7 +3,7 @@ use crate::hooks::{self, Command, Kind, Object, Place, Touch, imm};
 use crate::{special, switch};
 use core::ffi::c_ulong;
 use core::sync::atomic::{AtomicPtr, Ordering::Relaxed};
-use manyview_core::gl::{Ptr, slot};
+use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
@@ -11581,103 +11581,103 @@ export! { 802, glEGLImageTargetTexture2DOES, first_glEGLImageTargetTexture2DOES,
     unsafe { gl.glEGLImageTargetTexture2DOES(target, image) };
 } }
 export! { 803, glTextureSubImage1D, first_glTextureSubImage1D, hook_glTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage1D(texture, level, xoffset, width, format, type_, pixels) };
 } }
 export! { 804, glTextureSubImage2D, first_glTextureSubImage2D, hook_glTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage2D(texture, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
 export! { 805, glTextureSubImage3D, first_glTextureSubImage3D, hook_glTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
 export! { 806, glCompressedTextureSubImage1D, first_glCompressedTextureSubImage1D, hook_glCompressedTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage1D(texture, level, xoffset, width, format, imageSize, data) };
 } }
 export! { 807, glCompressedTextureSubImage2D, first_glCompressedTextureSubImage2D, hook_glCompressedTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage2D(texture, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
 export! { 808, glCompressedTextureSubImage3D, first_glCompressedTextureSubImage3D, hook_glCompressedTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
 export! { 809, glTextureStorage1D, first_glTextureStorage1D, hook_glTextureStorage1D, (texture: u32, levels: i32, internalformat: u32, width: i32) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage1D(texture, levels, internalformat, width) };
 } }
 export! { 810, glTextureStorage2D, first_glTextureStorage2D, hook_glTextureStorage2D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage2D(texture, levels, internalformat, width, height) };
 } }
 export! { 811, glTextureStorage3D, first_glTextureStorage3D, hook_glTextureStorage3D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage3D(texture, levels, internalformat, width, height, depth) };
 } }
 export! { 812, glTextureStorage2DMultisample, first_glTextureStorage2DMultisample, hook_glTextureStorage2DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage2DMultisample(texture, samples, internalformat, width, height, fixedsamplelocations) };
 } }
 export! { 813, glTextureStorage3DMultisample, first_glTextureStorage3DMultisample, hook_glTextureStorage3DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage3DMultisample(texture, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
 export! { 814, glClearTexImage, first_glClearTexImage, hook_glClearTexImage, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexImage(texture, level, format, type_, data) };
 } }
 export! { 815, glClearTexImageEXT, first_glClearTexImageEXT, hook_glClearTexImageEXT, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexImageEXT(texture, level, format, type_, data) };
 } }
 export! { 816, glClearTexSubImage, first_glClearTexSubImage, hook_glClearTexSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, data) };
 } }
 export! { 817, glClearTexSubImageEXT, first_glClearTexSubImageEXT, hook_glClearTexSubImageEXT, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
-    hooks::named(Object::Texture(texture));
+    hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexSubImageEXT(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, data) };
 } }
 export! { 818, glNamedRenderbufferStorage, first_glNamedRenderbufferStorage, hook_glNamedRenderbufferStorage, (renderbuffer: u32, internalformat: u32, width: i32, height: i32) -> (), {
-    hooks::named(Object::Renderbuffer(renderbuffer));
+    hooks::named(Object::Renderbuffer(RenderbufferName(renderbuffer)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorage(renderbuffer, internalformat, width, height) };
 } }
 export! { 819, glNamedRenderbufferStorageMultisample, first_glNamedRenderbufferStorageMultisample, hook_glNamedRenderbufferStorageMultisample, (renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
-    hooks::named(Object::Renderbuffer(renderbuffer));
+    hooks::named(Object::Renderbuffer(RenderbufferName(renderbuffer)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorageMultisample(renderbuffer, samples, internalformat, width, height) };

@@ -9,7 +9,9 @@ mod srgb;
 mod tests;
 
 use crate::atlas::{Atlas, Names};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{
+    FramebufferName, Gl, Object, ProgramName, TextureName, VertexArrayName, consts as c,
+};
 use crate::interleave::Program;
 use crate::interleave::shader::{Pass, Step};
 use crate::state::Neutral;
@@ -90,13 +92,13 @@ pub struct Region {
 #[derive(Debug)]
 pub struct Accumulation {
     programs: [Program; Step::ALL.len()],
-    vertex_array: u32,
-    /// What is drawn to; its attachment is put there for each pass.
-    framebuffer: u32,
-    /// As the atlas: a tile for each view.
-    values: u32,
-    /// One layer: what was there before, while it is drawn over.
-    before: u32,
+    vertex_array: VertexArrayName,
+    /// The framebuffer object of the passes. Each pass attaches the texture to which it draws, and detaches it again.
+    framebuffer: FramebufferName,
+    /// The accumulated values, laid out as the atlas: a tile for each view.
+    values: TextureName,
+    /// One layer, with a copy of the values that a pass reads while it draws over them.
+    before: TextureName,
     size: [u32; 3],
     /// Tables of sRGB colours: to accumulate, and to return.
     tables: [Table; 2],
@@ -105,7 +107,7 @@ pub struct Accumulation {
 /// A table of `shaders/accumulate.wgsl`, and the bits of the factor for which it was made.
 #[derive(Debug, Default)]
 struct Table {
-    texture: u32,
+    texture: TextureName,
     value: Option<u32>,
 }
 
@@ -160,8 +162,8 @@ impl Accumulation {
             ],
             vertex_array: gl.gen_vertex_array(),
             framebuffer: gl.gen_framebuffer(),
-            values: 0,
-            before: 0,
+            values: TextureName::ZERO,
+            before: TextureName::ZERO,
             size: [tiles.texture_width(), tiles.height, tiles.rows],
             tables: Default::default(),
         };
@@ -198,23 +200,23 @@ impl Accumulation {
     }
 
     /// Whether a texture is one of these.
-    pub fn owns(&self, texture: u32) -> bool {
+    pub fn owns(&self, texture: TextureName) -> bool {
         self.textures().contains(&texture)
     }
 
     /// Its textures.
-    pub fn textures(&self) -> [u32; 4] {
+    pub fn textures(&self) -> [TextureName; 4] {
         let [a, b] = &self.tables;
         [self.values, self.before, a.texture, b.texture]
     }
 
     /// Its framebuffer object, with a texture at the first colour attachment.
-    pub fn framebuffer(&self) -> u32 {
+    pub fn framebuffer(&self) -> FramebufferName {
         self.framebuffer
     }
 
     /// The names of its programs.
-    pub fn programs(&self) -> impl Iterator<Item = u32> {
+    pub fn programs(&self) -> impl Iterator<Item = ProgramName> {
         self.programs.iter().map(Program::name)
     }
 
@@ -226,7 +228,8 @@ impl Accumulation {
         // In selection or feedback mode, a pass would draw nothing and report to the program instead; a copy works there.
         if gl.since((4, 3), None) {
             let size = self.size.map(|s| s as i32);
-            gl.copy_image(c::TEXTURE_2D_ARRAY, 0, old[0], self.values, size);
+            let [from, to] = [old[0], self.values].map(Object::Texture);
+            gl.copy_image(c::TEXTURE_2D_ARRAY, 0, from, to, size);
         } else {
             for row in 0..rows {
                 let rect = [0, 0, width as i32, height as i32];
@@ -253,7 +256,7 @@ impl Accumulation {
         _: &Neutral,
         operation: Operation,
         window: &Window,
-        (from, to): (u32, &[u32]),
+        (from, to): (TextureName, &[TextureName]),
         regions: &[Region],
     ) {
         let (step, values) = operation.step();
@@ -285,7 +288,7 @@ impl Accumulation {
         }
     }
 
-    fn copy(&self, gl: &Gl, from: (u32, u32), to: (u32, u32), rect: [i32; 4]) {
+    fn copy(&self, gl: &Gl, from: (TextureName, u32), to: (TextureName, u32), rect: [i32; 4]) {
         let mut words = [0; 16];
         words[BEFORE] = from.1;
         self.pass(gl, Step::Copy, from.0, to, rect, &words);
@@ -296,8 +299,8 @@ impl Accumulation {
         &self,
         gl: &Gl,
         step: Step,
-        from: u32,
-        to: (u32, u32),
+        from: TextureName,
+        to: (TextureName, u32),
         [x, y, w, h]: [i32; 4],
         words: &[u32; 16],
     ) {
@@ -316,8 +319,8 @@ impl Accumulation {
         gl.bind_texture(c::TEXTURE_2D_ARRAY, from);
         program.bind(gl, words);
         gl.draw_triangle(self.vertex_array);
-        // The texture may be deleted while our framebuffer is not bound.
-        attach(0, 0);
+        // Detached, because a texture that is deleted while this framebuffer is not bound would stay attached.
+        attach(TextureName::ZERO, 0);
     }
 
     fn bind_table(&mut self, gl: &Gl, step: Step, factor: f32) {

@@ -103,7 +103,7 @@ fn each_region_is_one_pass_and_what_changes_is_copied_before() {
         let attached = drawn.iter().map(|drawn| {
             assert_eq!(drawn.state.value(c::VIEWPORT), [8.0, 4.0, 32.0, 16.0]);
             let at = drawn.state.get(framebuffer, c::COLOR_ATTACHMENT0);
-            (at[1] as u32, at[3] as u32)
+            (TextureName(at[1] as u32), at[3] as u32)
         });
         let expected = [0, 1].into_iter().flat_map(|row| match operation {
             Operation::Return(..) => vec![(stage.atlas.color, row)],

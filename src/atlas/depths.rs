@@ -1,7 +1,7 @@
 //! Small copies of the depths of the program's own view. They are read back once the driver has finished them, so that nothing waits.
 
 use super::{Atlas, Names, single::Single};
-use crate::gl::{Fence, Gl, consts as c};
+use crate::gl::{BufferName, Fence, FramebufferName, Gl, consts as c};
 use crate::state::Window;
 
 /// The most pictures of one frame.
@@ -14,7 +14,7 @@ const SAMPLES: u32 = 128;
 #[derive(Debug)]
 pub(super) struct Depths {
     small: Single,
-    buffer: u32,
+    buffer: BufferName,
     /// Pictures in the buffer.
     taken: usize,
     /// Signalled once the last of them is in the buffer.
@@ -22,7 +22,7 @@ pub(super) struct Depths {
 }
 
 impl Depths {
-    pub(super) fn framebuffer(&self) -> u32 {
+    pub(super) fn framebuffer(&self) -> FramebufferName {
         self.small.framebuffer()
     }
 }
@@ -38,7 +38,7 @@ impl Atlas {
         let buffer = gl.gen_buffer();
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, buffer);
         gl.buffer_data_empty(c::PIXEL_PACK_BUFFER, PICTURES * bytes(size));
-        gl.bind_buffer(c::PIXEL_PACK_BUFFER, 0);
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);
         self.depths = Some(Depths {
             small,
             buffer,
@@ -70,7 +70,7 @@ impl Atlas {
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, depths.small.framebuffer());
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
         gl.read_depth_to_buffer(size[0], size[1], depths.taken * bytes(size));
-        gl.bind_buffer(c::PIXEL_PACK_BUFFER, 0);
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);
         depths.taken += 1;
         self.bound_row = u32::MAX;
         true
@@ -108,12 +108,12 @@ impl Atlas {
             samples
         });
         let pictures = pictures.collect();
-        gl.bind_buffer(c::PIXEL_PACK_BUFFER, 0);
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);
         pictures
     }
 
-    /// Its buffer object and its fence, where there are some.
-    pub fn give_buffer(&mut self) -> (Option<u32>, Option<Fence>) {
+    /// Hands over the buffer object and the fence of the depths, for deletion; none where there are none.
+    pub fn give_buffer(&mut self) -> (Option<BufferName>, Option<Fence>) {
         let fence = self.depths.as_mut().and_then(|d| d.fence.take());
         (self.depths.as_ref().map(|d| d.buffer), fence)
     }

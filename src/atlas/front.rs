@@ -1,7 +1,7 @@
 //! The front buffer of a double-buffered window: another image of every tile, made when the program first uses it.
 
 use super::{Atlas, Names, color_format, store};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, TextureName, consts as c};
 use crate::state::{BACK, FRONT, Window};
 
 /// Swaps after which an unused front buffer is deleted.
@@ -10,7 +10,7 @@ const IDLE: u32 = 30;
 /// The front image of all tiles.
 #[derive(Debug)]
 pub(super) struct Front {
-    texture: u32,
+    texture: TextureName,
     /// Swaps since it was drawn to or read from.
     idle: u32,
 }
@@ -31,7 +31,7 @@ impl Atlas {
         }
     }
 
-    fn attach_front(&self, gl: &Gl, texture: u32) {
+    fn attach_front(&self, gl: &Gl, texture: TextureName) {
         for (layer, &row) in (0..).zip(&self.rows) {
             gl.bind_framebuffer(c::FRAMEBUFFER, row);
             gl.framebuffer_texture_layer(c::FRAMEBUFFER, FRONT, texture, 0, layer);
@@ -47,17 +47,17 @@ impl Atlas {
         self.front.is_some()
     }
 
-    /// The texture behind an attachment, to be sampled.
-    pub fn sampled(&self, image: u32) -> u32 {
+    /// The single-sampled texture of the front (`image` is `FRONT`) or back buffer, to be sampled.
+    pub fn sampled(&self, image: u32) -> TextureName {
         let front = self.front.as_ref().filter(|_| image == FRONT);
         front.map_or(self.color, |f| f.texture)
     }
 
-    /// The texture behind an attachment, to be drawn to.
-    pub fn drawn(&self, image: u32) -> u32 {
+    /// The texture of the front (`image` is `FRONT`) or back buffer that the program draws to.
+    pub fn drawn(&self, image: u32) -> TextureName {
         let front = self.front.as_ref().filter(|_| image == FRONT);
         front.map_or_else(
-            || self.textures.first().copied().unwrap_or(0),
+            || self.textures.first().copied().unwrap_or_default(),
             |f| f.texture,
         )
     }
@@ -72,7 +72,7 @@ impl Atlas {
         front.idle = if used { 0 } else { front.idle + 1 };
         let texture = front.texture;
         if front.idle > IDLE {
-            self.attach_front(gl, 0);
+            self.attach_front(gl, TextureName::ZERO);
             gl.delete_texture(texture);
             self.textures.retain(|&t| t != texture);
             self.front = None;

@@ -1,14 +1,14 @@
 //! An array texture with a framebuffer for each of its layers, for numbers that the layer's own passes write.
 
 use super::{Names, store};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 
 /// The texture, and the framebuffers of its layers.
 #[derive(Debug)]
 pub(super) struct Layers {
-    pub(super) texture: u32,
-    framebuffers: Vec<u32>,
-    /// The driver draws to them.
+    pub(super) texture: TextureName,
+    framebuffers: Vec<FramebufferName>,
+    /// The driver can draw to all of them.
     pub(super) complete: bool,
 }
 
@@ -45,13 +45,13 @@ impl Layers {
         }
     }
 
-    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> {
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = FramebufferName> {
         self.framebuffers.iter().copied()
     }
 
-    /// That of a layer; 0 where there is none.
-    pub(super) fn framebuffer(&self, layer: u32) -> u32 {
+    /// The framebuffer of a layer; 0 where there is none.
+    pub(super) fn framebuffer(&self, layer: u32) -> FramebufferName {
         let framebuffer = self.framebuffers.get(layer as usize);
-        framebuffer.copied().unwrap_or(0)
+        framebuffer.copied().unwrap_or_default()
     }
 }

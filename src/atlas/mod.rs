@@ -30,7 +30,7 @@ pub use surface::Surface;
 pub use tiles::{Limits, Tiles, TilesError};
 pub use view_set::ViewSet;
 
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 use crate::state::Window;
 
 /// Tiles, textures and framebuffers of one context. More than 12 fields: one for each kind of image, made when it is first wanted.
@@ -41,16 +41,16 @@ pub struct Atlas {
     pub tiles: Tiles,
     /// Texture rows run from the top down, as in the driver's windows (GL_MESA_framebuffer_flip_y).
     pub flipped: bool,
-    /// The colour texture that is sampled: the tiles themselves, or what they are resolved to.
-    pub color: u32,
+    /// The colour texture that is sampled: that of the tiles, or with multisampling the one that they are resolved to.
+    pub color: TextureName,
     /// The depth texture that is sampled, resolved as [`Atlas::resolve`] does; 0 where the window has no depth.
-    pub depth: u32,
-    /// Memory of the views, all samples of them and what they are resolved to.
+    pub depth: TextureName,
+    /// Memory of the views in bytes, with all samples and the textures that they are resolved to.
     pub bytes: u64,
-    textures: Vec<u32>,
-    rows: Vec<u32>,
-    layered: Option<u32>,
-    resolve: Option<Vec<u32>>,
+    textures: Vec<TextureName>,
+    rows: Vec<FramebufferName>,
+    layered: Option<FramebufferName>,
+    resolve: Option<Vec<FramebufferName>>,
     front: Option<Front>,
     /// Copies of single tiles: one to read from, and one that a scaled blit is drawn to.
     singles: Vec<Single>,
@@ -165,12 +165,12 @@ fn padded(gl: &Gl, width: u32) -> u32 {
     }
 }
 
-/// Gives a texture layers of a size, single-sampled. Changes the binding of array textures.
-fn store(gl: &Gl, name: u32, format: (u32, u32, u32), [width, height, layers]: [i32; 3]) {
+/// Gives a texture its storage: width, height in texels and layers, single-sampled. Changes the binding of array textures.
+fn store(gl: &Gl, name: TextureName, format: (u32, u32, u32), [width, height, layers]: [i32; 3]) {
     gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
     gl.tex_storage_3d(format.0, width, height, layers, format.1, format.2);
     fetched(gl);
-    gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+    gl.bind_texture(c::TEXTURE_2D_ARRAY, TextureName::ZERO);
 }
 
 /// Sets the bound array texture to one level without filtering.
@@ -220,7 +220,7 @@ impl Atlas {
                     [width, height, layers],
                     true,
                 );
-                gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, 0);
+                gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, TextureName::ZERO);
             } else {
                 store(gl, name, format, [width, height, layers]);
             }
@@ -236,7 +236,9 @@ impl Atlas {
             ),
         };
         let framebuffer =
-            |layer: Option<u32>, color: u32, depth: Option<(u32, (u32, u32, u32, u32))>| {
+            |layer: Option<u32>,
+             color: TextureName,
+             depth: Option<(TextureName, (u32, u32, u32, u32))>| {
                 let name = gl.gen_framebuffer();
                 gl.bind_framebuffer(c::FRAMEBUFFER, name);
                 let attach = |point, texture| match layer {
@@ -254,7 +256,7 @@ impl Atlas {
                 }
                 name
             };
-        let rows: Vec<u32> = (0..tiles.rows)
+        let rows: Vec<FramebufferName> = (0..tiles.rows)
             .map(|l| framebuffer(Some(l), color, depth))
             .collect();
         let status = gl.check_framebuffer_status(c::FRAMEBUFFER);
@@ -269,7 +271,9 @@ impl Atlas {
             tiles,
             flipped: flip,
             color: sampled,
-            depth: resolve_depth.or(depth).map_or(0, |(name, _)| name),
+            depth: resolve_depth
+                .or(depth)
+                .map_or(TextureName::ZERO, |(name, _)| name),
             bytes,
             textures,
             rows,
@@ -305,7 +309,7 @@ impl Atlas {
     }
 
     /// All framebuffer objects; each has a texture at the first colour attachment.
-    pub fn framebuffers(&self) -> impl Iterator<Item = u32> {
+    pub fn framebuffers(&self) -> impl Iterator<Item = FramebufferName> {
         let resolve = self.resolve.iter().flatten().copied();
         let singles = self.singles.iter().map(Single::framebuffer);
         let depths = self.depths.iter().map(Depths::framebuffer);
@@ -320,12 +324,12 @@ impl Atlas {
     }
 
     /// Whether a texture is the atlas's own.
-    pub fn owns(&self, texture: u32) -> bool {
+    pub fn owns(&self, texture: TextureName) -> bool {
         self.textures.contains(&texture)
     }
 
-    /// Its textures.
-    pub fn textures(&self) -> &[u32] {
+    /// The names of its textures.
+    pub fn textures(&self) -> &[TextureName] {
         &self.textures
     }
 
@@ -354,7 +358,7 @@ impl Atlas {
             Some(_) => c::TEXTURE_2D_MULTISAMPLE_ARRAY,
             None => c::TEXTURE_2D_ARRAY,
         };
-        let drawn = 1 + usize::from(self.depth != 0);
+        let drawn = 1 + usize::from(!self.depth.is_zero());
         for &texture in self.textures.iter().take(drawn) {
             gl.copy_inside((texture, target), (from, to), size);
         }
@@ -382,18 +386,18 @@ impl Atlas {
         }
     }
 
-    /// The framebuffer that stands for the program's 0: the layer of its own view.
-    pub fn framebuffer(&self) -> u32 {
-        self.rows.first().copied().unwrap_or(0)
+    /// The framebuffer that replaces the program's 0: the layer of its own view.
+    pub fn framebuffer(&self) -> FramebufferName {
+        self.rows.first().copied().unwrap_or_default()
     }
 
-    /// Every framebuffer that is drawn to.
-    pub fn targets(&self) -> impl Iterator<Item = u32> + '_ {
+    /// Every framebuffer whose attachments are the tiles.
+    pub fn targets(&self) -> impl Iterator<Item = FramebufferName> + '_ {
         self.rows.iter().chain(&self.layered).copied()
     }
 
-    /// The framebuffer with all layers, where there is more than one.
-    pub fn layered(&self) -> Option<u32> {
+    /// The layered framebuffer, where there is more than one layer and the driver has it.
+    pub fn layered(&self) -> Option<FramebufferName> {
         self.layered
     }
 
@@ -419,10 +423,13 @@ impl Atlas {
         self.bound_row = 0;
     }
 
-    /// The framebuffer that a view is drawn to, and the x offset of its tile.
-    pub fn target(&self, view: ViewIndex) -> (u32, i32) {
+    /// The framebuffer that a view is drawn to, and the x offset of its tile in pixels.
+    pub fn target(&self, view: ViewIndex) -> (FramebufferName, i32) {
         let (row, x) = self.tiles.place(view);
-        (self.rows.get(row as usize).copied().unwrap_or(0), x as i32)
+        (
+            self.rows.get(row as usize).copied().unwrap_or_default(),
+            x as i32,
+        )
     }
 
     /// Binds the layered framebuffer for drawing, where there is one.
@@ -438,8 +445,8 @@ impl Atlas {
         self.resolve.is_some()
     }
 
-    /// The framebuffer to read a view's pixels from, single-sampled, and the x offset of its tile.
-    pub fn readable(&self, view: ViewIndex) -> (u32, i32) {
+    /// The single-sampled framebuffer to read a view's pixels from, and the x offset of its tile in pixels.
+    pub fn readable(&self, view: ViewIndex) -> (FramebufferName, i32) {
         let (row, x) = self.tiles.place(view);
         let f = self
             .resolve
@@ -447,7 +454,7 @@ impl Atlas {
             .unwrap_or(&self.rows)
             .get(row as usize)
             .copied();
-        (f.unwrap_or(0), x as i32)
+        (f.unwrap_or_default(), x as i32)
     }
 
     /// Makes the target of [`Atlas::take_single`], and with `staged` also that of [`Atlas::stage`], where they do not exist yet. The caller
@@ -482,9 +489,9 @@ impl Atlas {
         }
     }
 
-    /// Binds another copy of a view's tile for drawing and answers its framebuffer; [`Atlas::unstage`] puts it back. `image` is
-    /// what is drawn to, `read` what is read from. Changes the read framebuffer too; the scissor test must be off.
-    pub fn stage(&mut self, gl: &Gl, view: ViewIndex, image: u32, read: u32) -> u32 {
+    /// Copies a view's tile to another such framebuffer, binds that for drawing and returns its name; [`Atlas::unstage`] copies it back.
+    /// `image` is the buffer that is copied, `read` the read buffer to restore. Changes the read framebuffer too; the scissor test must be off.
+    pub fn stage(&mut self, gl: &Gl, view: ViewIndex, image: u32, read: u32) -> FramebufferName {
         let (from, x) = self.target(view);
         let Some(single) = self.singles.get(1) else {
             return from;

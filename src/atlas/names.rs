@@ -1,6 +1,6 @@
 //! Names of the layer's own textures and buffers.
 
-use crate::gl::{Gl, Held, consts as c};
+use crate::gl::{Gl, Held, TextureName, consts as c};
 use std::collections::BTreeSet;
 
 /// Gives out names that the program does not use.
@@ -11,12 +11,12 @@ use std::collections::BTreeSet;
 /// highest name in use, and a program that calls it may use its names as small indices.
 #[derive(Debug, Default)]
 pub struct Names {
-    next: Option<u32>,
-    promised: BTreeSet<u32>,
+    next: Option<TextureName>,
+    promised: BTreeSet<TextureName>,
 }
 
-/// "MV" in the upper half.
-const FIRST: u32 = 0x4D56_0000;
+/// The first high name: "MV" in the upper half.
+const FIRST: TextureName = TextureName(0x4D56_0000);
 
 impl Names {
     /// Gives out high names from now on.
@@ -29,13 +29,13 @@ impl Names {
         self.next.is_some()
     }
 
-    /// A display list of the program will bind this texture, which may not be there yet.
-    pub fn promise(&mut self, name: u32) {
+    /// Excludes a name that a display list of the program will bind; the texture may not exist yet.
+    pub fn promise(&mut self, name: TextureName) {
         self.promised.insert(name);
     }
 
-    /// A texture, to be bound at once: only then is a high name taken.
-    pub fn texture(&mut self, gl: &Gl) -> u32 {
+    /// A new name of a texture. The caller binds it at once, because a high name counts as used only then.
+    pub fn texture(&mut self, gl: &Gl) -> TextureName {
         let Some(next) = &mut self.next else {
             let mut name = gl.gen_texture();
             // Rejected names are deleted only after another one is found, or glGenTextures would return them again.
@@ -49,10 +49,10 @@ impl Names {
         };
         // Contexts that share objects share the names, but each has its own counter.
         while gl.is_texture(*next) != 0 {
-            *next += 1;
+            next.0 += 1;
         }
         let name = *next;
-        *next += 1;
+        next.0 += 1;
         Held::Texture.count(1);
         name
     }

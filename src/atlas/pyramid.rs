@@ -4,7 +4,7 @@
 use super::layers::Layers;
 use super::{Atlas, Names, ReferenceTextures, Single};
 use crate::config::DisocclusionSource;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 use crate::state::Window;
 use crate::view::ViewIndex;
 
@@ -15,16 +15,16 @@ const BLOCK: u32 = 16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PyramidTextures {
     /// Colours.
-    pub colour: u32,
+    pub colour: TextureName,
     /// Depths.
-    pub depth: u32,
-    /// The greatest and the least height of each block.
-    pub block_bounds: u32,
-    /// The greatest of each row.
-    pub row_maxima: u32,
-    /// The greatest and the least of all that the rays of a block can meet.
-    pub ray_range: u32,
-    /// The pictures are copies, else they lie in their tiles.
+    pub depth: TextureName,
+    /// The greatest and the least disparity of each block.
+    pub block_bounds: TextureName,
+    /// The greatest disparity of each row.
+    pub row_maxima: TextureName,
+    /// The greatest and the least disparity of all samples that the rays of a block can meet.
+    pub ray_range: TextureName,
+    /// Colours and depths are copies of the views; otherwise they are the tiles of the atlas.
     pub copied: bool,
     /// The reference image of an occlusion camera.
     pub reference: Option<ReferenceTextures>,
@@ -71,7 +71,7 @@ impl Pyramid {
         }
     }
 
-    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> {
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = FramebufferName> {
         let lines = [&self.block_bounds, &self.row_maxima, &self.ray_range].into_iter();
         let copies = self.copy.iter().flat_map(Single::framebuffers);
         copies.chain(lines.flat_map(Layers::framebuffers))

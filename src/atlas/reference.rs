@@ -2,7 +2,7 @@
 //! the distortion map that its rays follow.
 
 use super::{Atlas, Names, Single, Surface, Tiles, fetched};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 use crate::state::Window;
 use crate::view::ViewIndex;
 
@@ -16,12 +16,12 @@ const CELL: i32 = 2;
 /// `shaders/distortion.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReferenceTextures {
-    /// Colours, depths and by how much samples are moved.
-    pub image: [u32; 3],
-    /// Where depths step, and what is near that.
-    pub steps: [u32; 2],
+    /// Colours, depths and the displacement of samples, in pixels.
+    pub image: [TextureName; 3],
+    /// Bits for samples at depth discontinuities, and for samples inside a splat around one.
+    pub steps: [TextureName; 2],
     /// The distortion map.
-    pub map: u32,
+    pub map: TextureName,
 }
 
 /// The targets of the passes that make the distortion map.
@@ -39,15 +39,15 @@ pub enum DistortionTarget {
 #[derive(Debug)]
 pub(super) struct Reference {
     image: Single,
-    moved: u32,
+    moved: TextureName,
     /// Texture and framebuffer.
-    steps: (u32, u32),
-    splats: (u32, u32),
-    map: (u32, u32),
+    steps: (TextureName, FramebufferName),
+    splats: (TextureName, FramebufferName),
+    map: (TextureName, FramebufferName),
 }
 
 impl Reference {
-    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> + use<> {
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = FramebufferName> + use<> {
         [
             self.image.framebuffer(),
             self.steps.1,
@@ -71,7 +71,7 @@ impl Atlas {
             gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
             gl.tex_storage_3d(internal, width, size[1], 1, format, c::FLOAT);
             fetched(gl);
-            gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+            gl.bind_texture(c::TEXTURE_2D_ARRAY, TextureName::ZERO);
             textures.push(name);
             name
         };
@@ -87,7 +87,7 @@ impl Atlas {
         attach(c::COLOR_ATTACHMENT0 + 1, moved);
         gl.draw_buffers(&[c::COLOR_ATTACHMENT0, c::COLOR_ATTACHMENT0 + 1]);
         complete &= gl.check_framebuffer_status(c::FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
-        let mut target = |name: u32| {
+        let mut target = |name: TextureName| {
             let framebuffer = gl.gen_framebuffer();
             gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
             attach(c::COLOR_ATTACHMENT0, name);
@@ -138,7 +138,7 @@ impl Atlas {
     }
 
     /// The framebuffer of the reference image.
-    pub fn reference_framebuffer(&self) -> Option<u32> {
+    pub fn reference_framebuffer(&self) -> Option<FramebufferName> {
         Some(self.reference.as_ref()?.image.framebuffer())
     }
 }

@@ -1,16 +1,16 @@
 //! Copies of single tiles, for reads and blits that must see nothing beside the tile.
 
 use super::{Names, color_format, depth_format, store};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 use crate::state::Window;
 
 /// A single-sampled framebuffer in the window's format. As in the window, nothing can be read outside of it.
 #[derive(Debug)]
 pub(super) struct Single {
     /// One for each layer.
-    framebuffers: Vec<u32>,
-    /// Colours and depths; 0 where there is none.
-    textures: [u32; 2],
+    framebuffers: Vec<FramebufferName>,
+    /// The textures of colours and depths; 0 where there is none.
+    textures: [TextureName; 2],
     size: [i32; 2],
 }
 
@@ -23,7 +23,7 @@ impl Single {
         window: &Window,
         size: [i32; 2],
         flip: bool,
-        textures: &mut Vec<u32>,
+        textures: &mut Vec<TextureName>,
     ) -> Single {
         Single::layers(gl, names, window, (size, 1), flip, textures)
     }
@@ -35,7 +35,7 @@ impl Single {
         window: &Window,
         (size, layers): ([i32; 2], u32),
         flip: bool,
-        textures: &mut Vec<u32>,
+        textures: &mut Vec<TextureName>,
     ) -> Single {
         let mut texture = |format: (u32, u32, u32)| {
             let name = names.texture(gl);
@@ -59,35 +59,36 @@ impl Single {
             }
             name
         };
-        // That of the first is the one that stays bound.
-        let mut framebuffers: Vec<u32> = (0..layers).rev().map(framebuffer).collect();
+        // In reverse order, so that the framebuffer of the first layer stays bound.
+        let mut framebuffers: Vec<FramebufferName> = (0..layers).rev().map(framebuffer).collect();
         framebuffers.reverse();
         Single {
             framebuffers,
-            textures: [colour, depth.map_or(0, |(name, _)| name)],
+            textures: [colour, depth.map_or(TextureName::ZERO, |(name, _)| name)],
             size,
         }
     }
 
     /// Copies the tile at an x offset, in pixels, of the framebuffer `from`. Binds that for reading and itself for drawing; the
     /// scissor test must be off.
-    pub(super) fn take(&self, gl: &Gl, from: u32, x: i32) {
+    pub(super) fn take(&self, gl: &Gl, from: FramebufferName, x: i32) {
         self.copy(gl, (from, x), (self.framebuffer(), 0));
     }
 
-    /// The same into one of its layers.
-    pub(super) fn take_to(&self, gl: &Gl, layer: u32, from: u32, x: i32) {
+    /// The same, into one of its layers.
+    pub(super) fn take_to(&self, gl: &Gl, layer: u32, from: FramebufferName, x: i32) {
         if let Some(&to) = self.framebuffers.get(layer as usize) {
             self.copy(gl, (from, x), (to, 0));
         }
     }
 
-    /// Copies itself to such a tile. Binds itself for reading and that one for drawing; the scissor test must be off.
-    pub(super) fn give(&self, gl: &Gl, to: u32, x: i32) {
+    /// Copies itself to the tile at an x offset of the framebuffer `to`. Binds itself for reading and that for drawing; the scissor test must
+    /// be off.
+    pub(super) fn give(&self, gl: &Gl, to: FramebufferName, x: i32) {
         self.copy(gl, (self.framebuffer(), 0), (to, x));
     }
 
-    fn copy(&self, gl: &Gl, (from, x): (u32, i32), (to, to_x): (u32, i32)) {
+    fn copy(&self, gl: &Gl, (from, x): (FramebufferName, i32), (to, to_x): (FramebufferName, i32)) {
         let [w, h] = self.size;
         let all = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT;
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
@@ -97,7 +98,7 @@ impl Single {
 
     /// Copies the depths of such a tile, `window` pixels wide and high, scaled to its own size by the nearest pixel. Binds as
     /// [`Single::take`].
-    pub(super) fn shrink(&self, gl: &Gl, from: u32, x: i32, window: [i32; 2]) {
+    pub(super) fn shrink(&self, gl: &Gl, from: FramebufferName, x: i32, window: [i32; 2]) {
         let ([w, h], [width, height]) = (self.size, window);
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.framebuffer());
@@ -110,18 +111,18 @@ impl Single {
         self.size
     }
 
-    /// Of its colours and depths; 0 where the window has none.
-    pub(super) fn textures(&self) -> [u32; 2] {
+    /// The textures of colours and depths; 0 where the window has none.
+    pub(super) fn textures(&self) -> [TextureName; 2] {
         self.textures
     }
 
-    /// Its name; that of the first layer.
-    pub(super) fn framebuffer(&self) -> u32 {
-        self.framebuffers.first().copied().unwrap_or(0)
+    /// The framebuffer of the first layer.
+    pub(super) fn framebuffer(&self) -> FramebufferName {
+        self.framebuffers.first().copied().unwrap_or_default()
     }
 
-    /// Those of all layers.
-    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> + '_ {
+    /// The framebuffers of all layers.
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = FramebufferName> + '_ {
         self.framebuffers.iter().copied()
     }
 }

@@ -1,7 +1,7 @@
 //! Tiles whose texels are not the window's pixels, stretched to the window's size: for reads, and for a change of the grid.
 
 use super::{Atlas, Names, ViewSet};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::state::Window;
 use crate::view::ViewIndex;
 
@@ -10,7 +10,7 @@ const ALL: u32 = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_B
 impl Atlas {
     /// Stretches a view's tile over a framebuffer of the window's size, each pixel from the nearest texel or a neighbour of it. Binds the
     /// single-sampled tile for reading and that framebuffer for drawing; the scissor test must be off.
-    pub(super) fn spread(&self, gl: &Gl, view: ViewIndex, to: u32) {
+    pub(super) fn spread(&self, gl: &Gl, view: ViewIndex, to: FramebufferName) {
         self.resolve(gl, &ViewSet::ALL, ALL);
         let (from, x) = self.readable(view);
         let (tiles, grid) = (&self.tiles, &self.tiles.grid);

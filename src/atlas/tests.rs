@@ -3,7 +3,7 @@
 use super::{Atlas, AtlasError, Grid, Limits, Names, ReferenceSurface, Surface, Tiles, ViewSet};
 use crate::config::AtlasLayout::{self, Layers, SideBySide};
 use crate::gl::fake::{Fake, Scope, Snapshot};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 use crate::state::{BACK, FRONT, Window};
 use crate::view::ViewIndex;
 
@@ -31,9 +31,10 @@ fn atlas(gl: &Gl, layout: AtlasLayout, samples: u32) -> Atlas {
 }
 
 /// Texture and layer at an attachment point.
-fn attached(state: &Snapshot, framebuffer: u32, point: u32) -> [u32; 2] {
+fn attached(state: &Snapshot, framebuffer: FramebufferName, point: u32) -> (TextureName, u32) {
     let values = state.get(Scope::Framebuffer(framebuffer), point);
-    [1, 3].map(|at| values.get(at).copied().unwrap_or(0.0) as u32)
+    let value = |at: usize| values.get(at).copied().unwrap_or(0.0) as u32;
+    (TextureName(value(1)), value(3))
 }
 
 #[test]
@@ -48,7 +49,7 @@ fn layers_have_a_framebuffer_each_and_one_for_all() {
             let (framebuffer, _) = atlas.target(view);
             let color = attached(&state, framebuffer, c::COLOR_ATTACHMENT0);
             let depth = attached(&state, framebuffer, c::DEPTH_ATTACHMENT);
-            assert_eq!((color, depth), ([atlas.color, row], [atlas.depth, row]));
+            assert_eq!((color, depth), ((atlas.color, row), (atlas.depth, row)));
         }
         assert_eq!(atlas.layered().is_some(), rows > 1);
         assert_eq!(
@@ -113,7 +114,7 @@ fn a_layer_is_bound_when_another_one_is() {
     let [other] = &fake.calls()[..] else {
         panic!("{:?}", fake.calls())
     };
-    assert_eq!(other.int(1), i64::from(atlas.target(ViewIndex(3)).0));
+    assert_eq!(other.int(1), i64::from(atlas.target(ViewIndex(3)).0.0));
     atlas.bind_layered(&gl);
     fake.forget();
     atlas.enter(&gl, ViewIndex(3));
@@ -134,17 +135,20 @@ fn the_reference_image_stands_for_the_own_view() {
     let mut surface = ReferenceSurface(&mut atlas);
     assert_eq!(surface.tiles().order().collect::<Vec<_>>(), [ViewIndex(1)]);
     surface.enter(&gl, ViewIndex(1));
-    assert_eq!(fake.value(c::DRAW_FRAMEBUFFER_BINDING), [f64::from(image)]);
+    assert_eq!(
+        fake.value(c::DRAW_FRAMEBUFFER_BINDING),
+        [f64::from(image.0)]
+    );
     let textures = atlas.reference().expect("made");
-    let moved = attached(&fake.state(), image, c::COLOR_ATTACHMENT1);
-    assert_eq!(moved[0], textures.image[2]);
+    let (moved, _) = attached(&fake.state(), image, c::COLOR_ATTACHMENT1);
+    assert_eq!(moved, textures.image[2]);
 }
 
-/// The rectangles of a blit: from, to; and what is read and drawn.
-fn blits(fake: &Fake) -> Vec<([i64; 2], [i64; 2], [u32; 2])> {
+/// The x range of each blit in the source and in the destination, and the framebuffers that are read and drawn to.
+fn blits(fake: &Fake) -> Vec<([i64; 2], [i64; 2], [FramebufferName; 2])> {
     let blit = |drawn: crate::gl::fake::Drawn| {
         let bound = [c::READ_FRAMEBUFFER_BINDING, c::DRAW_FRAMEBUFFER_BINDING];
-        let bound = bound.map(|name| drawn.state.value(name)[0] as u32);
+        let bound = bound.map(|name| FramebufferName(drawn.state.value(name)[0] as u32));
         let edges = |at: usize| [drawn.call.int(at), drawn.call.int(at + 2)];
         (edges(0), edges(4), bound)
     };
@@ -163,7 +167,7 @@ fn the_other_views_get_what_the_own_one_has() {
     fake.forget();
     let layers = atlas(&gl, Layers, 0);
     layers.share_own(&gl);
-    let drawn: Vec<u32> = blits(&fake).iter().map(|blit| blit.2[1]).collect();
+    let drawn: Vec<FramebufferName> = blits(&fake).iter().map(|blit| blit.2[1]).collect();
     assert_eq!(
         drawn,
         [0, 2, 3].map(|view| layers.target(ViewIndex(view)).0)
@@ -208,7 +212,7 @@ fn a_copy_of_a_tile_has_nothing_beside_it() {
     atlas.make_singles(&gl, &mut Names::default(), &window(&gl, 0), true);
     fake.forget();
     atlas.take_single(&gl, ViewIndex(2), BACK);
-    let single = fake.value(c::READ_FRAMEBUFFER_BINDING)[0] as u32;
+    let single = FramebufferName(fake.value(c::READ_FRAMEBUFFER_BINDING)[0] as u32);
     assert_eq!(
         blits(&fake),
         [([128, 192], [0, 64], [atlas.framebuffer(), single])]
@@ -239,7 +243,7 @@ fn the_front_buffer_goes_when_nobody_asks_for_it() {
     assert_eq!(blits(&fake).len(), 4, "with what the back buffer holds");
     let front = atlas.sampled(FRONT);
     assert_ne!(front, atlas.sampled(BACK));
-    let point = |fake: &Fake| attached(&fake.state(), atlas.target(ViewIndex(0)).0, FRONT)[0];
+    let point = |fake: &Fake| attached(&fake.state(), atlas.target(ViewIndex(0)).0, FRONT).0;
     assert_eq!(point(&fake), front);
     for _ in 0..30 {
         assert!(atlas.swapped(&gl, false) && atlas.has_front());
@@ -252,7 +256,7 @@ fn the_front_buffer_goes_when_nobody_asks_for_it() {
     assert!(last == Some(true) && !atlas.has_front());
     assert_eq!(
         attached(&fake.state(), atlas.target(ViewIndex(0)).0, FRONT),
-        [0, 0]
+        (TextureName::ZERO, 0)
     );
     assert_eq!((fake.alive(KINDS), atlas.owns(front)), (before, false));
 }
@@ -305,17 +309,21 @@ fn names_are_none_that_a_program_comes_upon() {
     let fake = Fake::new();
     let gl = fake.gl();
     let mut names = Names::default();
-    names.promise(2);
+    names.promise(TextureName(2));
     let given = [names.texture(&gl), names.texture(&gl)];
-    assert_eq!(given, [1, 3], "the second is promised to a list");
-    assert!(gl.is_texture(2) == 0, "and given back");
+    assert_eq!(
+        given,
+        [1, 3].map(TextureName),
+        "the second is promised to a list"
+    );
+    assert!(gl.is_texture(TextureName(2)) == 0, "and given back");
     names.hide();
     let high = names.texture(&gl);
-    assert_eq!((high, names.hidden()), (0x4D56_0000, true));
-    gl.bind_texture(c::TEXTURE_2D, high + 1);
+    assert_eq!((high, names.hidden()), (TextureName(0x4D56_0000), true));
+    gl.bind_texture(c::TEXTURE_2D, TextureName(high.0 + 1));
     assert_eq!(
         names.texture(&gl),
-        high + 2,
+        TextureName(high.0 + 2),
         "another context has taken one"
     );
 }

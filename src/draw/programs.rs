@@ -4,7 +4,7 @@ use super::fixed_state::Driver;
 use crate::fixed::{
     Clip, FixedKey, FragmentKey, Limits, Patches, generate, generate_fragment, sampler,
 };
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, consts as c};
 use crate::plan::Reason;
 use std::collections::HashMap;
 use std::ffi::CString;
@@ -31,7 +31,7 @@ pub(super) struct Uniforms {
 /// A generated program and the locations of its uniforms.
 #[derive(Debug)]
 pub(super) struct Program {
-    pub(super) name: u32,
+    pub(super) name: ProgramName,
     pub(super) patches: Patches,
     views: i32,
     map: i32,
@@ -76,7 +76,7 @@ impl Programs {
     }
 
     /// The names of all programs.
-    pub fn names(&self) -> impl Iterator<Item = u32> {
+    pub fn names(&self) -> impl Iterator<Item = ProgramName> {
         self.cache.values().flatten().map(|p| p.name)
     }
 
@@ -96,7 +96,7 @@ impl Programs {
             Some(key) => Some(generate_fragment(key, &self.limits).map_err(Reason::Fixed)?),
             None => None,
         };
-        let build = || -> Result<u32, String> {
+        let build = || -> Result<ProgramName, String> {
             let mut stages = vec![gl.compile(c::VERTEX_SHADER, &shaders.vertex)?];
             if let Some(g) = &shaders.geometry {
                 stages.push(gl.compile(c::GEOMETRY_SHADER, g)?);
@@ -133,8 +133,8 @@ impl Programs {
     }
 }
 
-/// Sets the samplers of a program to their units. The program in use is 0, as it is for all fixed function.
-fn name_units(gl: &Gl, program: u32, key: &FragmentKey) {
+/// Sets the samplers of a program to their units. Leaves program 0 in use, as it is for all fixed function.
+fn name_units(gl: &Gl, program: ProgramName, key: &FragmentKey) {
     gl.use_program(program);
     for unit in key.sampled() {
         if let Ok(name) = CString::new(sampler(unit)) {
@@ -145,7 +145,7 @@ fn name_units(gl: &Gl, program: u32, key: &FragmentKey) {
         let map = gl.uniform_location(program, c"mv_distortion_map");
         gl.uniform_1i(map, DISTORTION_UNIT as i32);
     }
-    gl.use_program(0);
+    gl.use_program(ProgramName::ZERO);
 }
 
 impl Program {

@@ -9,7 +9,7 @@ use super::state_guard::StateGuard;
 use super::variant::Variant;
 use crate::atlas::{Atlas, ReferenceSurface};
 use crate::fixed::{Amplifier, Primitive, Tiles};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, TextureName, consts as c};
 use crate::plan::{Reason, Rig, Shear};
 use crate::state::State;
 
@@ -17,8 +17,8 @@ use crate::state::State;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rays {
     /// The distortion map.
-    pub map: u32,
-    /// Disparities as in the map: factor of z in NDC, and what is added.
+    pub map: TextureName,
+    /// Disparity over z in NDC, in pixels for one place, as in the map: factor and offset.
     pub disparities: [f32; 2],
 }
 
@@ -78,14 +78,14 @@ impl Rays {
 struct Bound {
     unit: u32,
     active: u32,
-    was: u32,
+    was: TextureName,
 }
 
 impl Bound {
-    fn enter(gl: &Gl, unit: u32, map: u32) -> Bound {
+    fn enter(gl: &Gl, unit: u32, map: TextureName) -> Bound {
         let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
         gl.active_texture(c::TEXTURE0 + unit);
-        let was = gl.get_integer(c::TEXTURE_BINDING_2D_ARRAY) as u32;
+        let was = TextureName(gl.get_integer(c::TEXTURE_BINDING_2D_ARRAY) as u32);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, map);
         gl.active_texture(active);
         Bound { unit, active, was }

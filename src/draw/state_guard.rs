@@ -6,7 +6,7 @@ use super::programs::Program;
 use super::replay::cut;
 use crate::atlas::Atlas;
 use crate::fixed::{Amplifier, FixedKey, Patches, Primitive, Provoking, Tiles};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, consts as c};
 use crate::state::State;
 
 /// The region of a tile that may be drawn to, as in [`StateGuard`].
@@ -166,7 +166,7 @@ impl StateGuard {
         if self.last {
             gl.provoking_vertex(c::FIRST_VERTEX_CONVENTION);
         }
-        gl.use_program(0);
+        gl.use_program(ProgramName::ZERO);
         self.pixel_sizes.leave(gl);
         if self.placed {
             let [x, y, w, h] = state.rectangles.viewport;

@@ -1,7 +1,7 @@
 //! Program variants: a variant draws the views in place of one of the program's own GLSL programs, and is linked from rewritten shaders.
 //! The program's own object stays as it is and answers all queries of the program.
 
-use crate::gl::{Active, Gl, consts as c};
+use crate::gl::{Active, Gl, ProgramName, ShaderName, consts as c};
 use crate::plan::{Flat, Shear};
 use crate::rewrite::{
     Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, rewrite,
@@ -74,7 +74,7 @@ pub enum NoVariant {
 /// A linked variant, with the locations of the layer's uniforms; -1 where it has none.
 #[derive(Debug)]
 pub struct Variant {
-    name: u32,
+    name: ProgramName,
     shift: i32,
     tile: i32,
     views: i32,
@@ -88,8 +88,17 @@ pub struct Variant {
     blocks: Vec<Option<u32>>,
 }
 
-/// How the draws of a program get their views. `texts` are those that it was linked from. Changes nothing of the program's state.
-pub fn drawn(gl: &Gl, program: u32, texts: &[Text], kind: VariantKind) -> Result<Drawn, NoVariant> {
+/// Finds how the draws of a program get their views, and links its variant where it needs one. `texts` are the sources that the program was
+/// linked from. Leaves the program's state as it is.
+///
+/// # Errors
+/// Why there is no variant.
+pub fn drawn(
+    gl: &Gl,
+    program: ProgramName,
+    texts: &[Text],
+    kind: VariantKind,
+) -> Result<Drawn, NoVariant> {
     let last = last_stage(texts)?;
     let (amplifier, target, views) = match kind {
         VariantKind::Alone => (Amplifier::Replay, Target::Whole, 1),
@@ -218,7 +227,7 @@ impl<'a> Rewritten<'a> {
         Ok(())
     }
 
-    fn compile(&self, gl: &Gl) -> Result<Vec<u32>, NoVariant> {
+    fn compile(&self, gl: &Gl) -> Result<Vec<ShaderName>, NoVariant> {
         let mut shaders = Vec::with_capacity(self.texts.len());
         for (kind, text) in &self.texts {
             match gl.compile(*kind, text) {
@@ -243,8 +252,8 @@ fn locations(actives: Vec<Active>, location: impl Fn(&CStr) -> i32) -> Vec<(CStr
     actives.into_iter().filter_map(place).collect()
 }
 
-/// The colours that a program's fragment shader writes under names of its own.
-fn outputs(gl: &Gl, program: u32) -> Vec<(CString, u32)> {
+/// The outputs that a program's fragment shader declares, with their locations.
+fn outputs(gl: &Gl, program: ProgramName) -> Vec<(CString, u32)> {
     let names = gl.program_outputs(program).into_iter();
     let place = |name: CString| {
         let at = u32::try_from(gl.output_location(program, &name)).ok()?;
@@ -254,7 +263,13 @@ fn outputs(gl: &Gl, program: u32) -> Vec<(CString, u32)> {
 }
 
 impl Variant {
-    fn of(gl: &Gl, program: u32, name: u32, shift: &Names, place: Option<&Names>) -> Variant {
+    fn of(
+        gl: &Gl,
+        program: ProgramName,
+        name: ProgramName,
+        shift: &Names,
+        place: Option<&Names>,
+    ) -> Variant {
         let ours = |names: &Names, uniform| {
             let text = CString::new(names.uniform(uniform)).unwrap_or_default();
             gl.uniform_location(name, &text)
@@ -286,13 +301,13 @@ impl Variant {
         }
     }
 
-    /// The name of the variant.
-    pub fn name(&self) -> u32 {
+    /// The program object of the variant.
+    pub fn name(&self) -> ProgramName {
         self.name
     }
 
-    /// Gives the variant, which is in use, the values that the program's uniforms have.
-    pub fn copy_uniforms(&self, gl: &Gl, program: u32) {
+    /// Copies the values of the program's uniforms and block bindings to the variant, which has to be in use.
+    pub fn copy_uniforms(&self, gl: &Gl, program: ProgramName) {
         for &(kind, from, to) in &self.uniforms {
             gl.copy_uniform(kind, (program, from), to);
         }

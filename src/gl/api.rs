@@ -3,6 +3,10 @@
 use super::consts as c;
 use super::held::Held;
 use super::immediate::{Ends, Recording};
+use super::object_names::{
+    Argument, BufferName, FramebufferName, ListName, ProgramName, QueryName, ShaderName,
+    TextureName, VertexArrayName,
+};
 use super::real::{Ptr, Real};
 use core::ffi::CStr;
 
@@ -34,7 +38,7 @@ macro_rules! plain {
                 pub fn $name(&self, $($a: $t),*) $(-> $r)? {
                     // SAFETY: a context of this provider is current (contract of `Gl::new`).
                     // SAFETY: the command takes no pointers and reads none that were given before; wrong values raise a GL error.
-                    unsafe { self.real.$gl($($a),*) }
+                    unsafe { self.real.$gl($($a.raw()),*) }
                 }
             )*
         }
@@ -68,42 +72,42 @@ plain! {
     pop_matrix = glPopMatrix();
     push_attrib = glPushAttrib(mask: u32);
     pop_attrib = glPopAttrib();
-    new_list = glNewList(list: u32, mode: u32);
+    new_list = glNewList(list: ListName, mode: u32);
     end_list = glEndList();
-    begin_query = glBeginQuery(target: u32, query: u32);
+    begin_query = glBeginQuery(target: u32, query: QueryName);
     end_query = glEndQuery(target: u32);
-    begin_conditional_render = glBeginConditionalRender(query: u32, mode: u32);
+    begin_conditional_render = glBeginConditionalRender(query: QueryName, mode: u32);
     end_conditional_render = glEndConditionalRender();
-    call_list = glCallList(list: u32);
+    call_list = glCallList(list: ListName);
     get_error = glGetError() -> u32;
     clear = glClear(mask: u32);
     flush = glFlush();
     finish = glFinish();
-    bind_framebuffer = glBindFramebuffer(target: u32, name: u32);
+    bind_framebuffer = glBindFramebuffer(target: u32, name: FramebufferName);
     draw_buffer = glDrawBuffer(buffer: u32);
     read_buffer = glReadBuffer(buffer: u32);
-    framebuffer_texture = glFramebufferTexture(target: u32, attachment: u32, texture: u32, level: i32);
-    framebuffer_texture_layer = glFramebufferTextureLayer(target: u32, attachment: u32, texture: u32, level: i32, layer: i32);
+    framebuffer_texture = glFramebufferTexture(target: u32, attachment: u32, texture: TextureName, level: i32);
+    framebuffer_texture_layer = glFramebufferTextureLayer(target: u32, attachment: u32, texture: TextureName, level: i32, layer: i32);
     check_framebuffer_status = glCheckFramebufferStatus(target: u32) -> u32;
     blit_framebuffer = glBlitFramebuffer(sx0: i32, sy0: i32, sx1: i32, sy1: i32, dx0: i32, dy0: i32, dx1: i32, dy1: i32, mask: u32, filter: u32);
-    bind_texture = glBindTexture(target: u32, name: u32);
+    bind_texture = glBindTexture(target: u32, name: TextureName);
     active_texture = glActiveTexture(unit: u32);
     tex_parameteri = glTexParameteri(target: u32, name: u32, value: i32);
     bind_sampler = glBindSampler(unit: u32, sampler: u32);
-    is_texture = glIsTexture(name: u32) -> u8;
-    is_framebuffer = glIsFramebuffer(name: u32) -> u8;
-    is_program = glIsProgram(name: u32) -> u8;
-    compile_shader = glCompileShader(shader: u32);
-    attach_shader = glAttachShader(program: u32, shader: u32);
-    link_program = glLinkProgram(program: u32);
-    use_program = glUseProgram(program: u32);
+    is_texture = glIsTexture(name: TextureName) -> u8;
+    is_framebuffer = glIsFramebuffer(name: FramebufferName) -> u8;
+    is_program = glIsProgram(name: ProgramName) -> u8;
+    compile_shader = glCompileShader(shader: ShaderName);
+    attach_shader = glAttachShader(program: ProgramName, shader: ShaderName);
+    link_program = glLinkProgram(program: ProgramName);
+    use_program = glUseProgram(program: ProgramName);
     bind_program_pipeline = glBindProgramPipeline(pipeline: u32);
     uniform_1i = glUniform1i(location: i32, v: i32);
     uniform_1f = glUniform1f(location: i32, v: f32);
     uniform_1ui = glUniform1ui(location: i32, v: u32);
     uniform_2ui = glUniform2ui(location: i32, x: u32, y: u32);
-    bind_buffer = glBindBuffer(target: u32, name: u32);
-    bind_vertex_array = glBindVertexArray(name: u32);
+    bind_buffer = glBindBuffer(target: u32, name: BufferName);
+    bind_vertex_array = glBindVertexArray(name: VertexArrayName);
     pixel_storei = glPixelStorei(name: u32, value: i32);
     color_maski = glColorMaski(index: u32, r: u8, g: u8, b: u8, a: u8);
     color_mask = glColorMask(r: u8, g: u8, b: u8, a: u8);
@@ -114,14 +118,14 @@ plain! {
 }
 
 macro_rules! generate {
-    ($($name:ident = $gl:ident, $held:ident;)*) => { $(
+    ($($name:ident = $gl:ident, $held:ident, $kind:ident;)*) => { $(
         /// One new name.
-        pub fn $name(&self) -> u32 {
+        pub fn $name(&self) -> $kind {
             let mut name = 0u32;
             // SAFETY: a context is current; the pointer is to one u32 that lives across the call.
             unsafe { self.real.$gl(1, (&raw mut name).cast()) };
             Held::$held.count(1);
-            name
+            $kind(name)
         }
     )* };
 }
@@ -151,10 +155,10 @@ impl Gl {
     }
 
     generate! {
-        gen_texture = glGenTextures, Texture;
-        gen_framebuffer = glGenFramebuffers, Framebuffer;
-        gen_query = glGenQueries, Query;
-        gen_vertex_array = glGenVertexArrays, VertexArray;
+        gen_texture = glGenTextures, Texture, TextureName;
+        gen_framebuffer = glGenFramebuffers, Framebuffer, FramebufferName;
+        gen_query = glGenQueries, Query, QueryName;
+        gen_vertex_array = glGenVertexArrays, VertexArray, VertexArrayName;
     }
 
     /// glDepthFunc
@@ -324,42 +328,42 @@ impl Gl {
     }
 
     /// glGetQueryiv of GL_CURRENT_QUERY.
-    pub fn current_query(&self, target: u32) -> u32 {
+    pub fn current_query(&self, target: u32) -> QueryName {
         let mut v = 0i32;
         // SAFETY: room for one value.
         unsafe {
             self.real
                 .glGetQueryiv(target, super::consts::CURRENT_QUERY, (&raw mut v).cast())
         };
-        v as u32
+        QueryName(v as u32)
     }
 
     /// glGetQueryObjectuiv
-    pub fn query_object(&self, query: u32, name: u32) -> u32 {
+    pub fn query_object(&self, query: QueryName, name: u32) -> u32 {
         let mut v = 0u32;
         // SAFETY: room for one value.
         unsafe {
             self.real
-                .glGetQueryObjectuiv(query, name, (&raw mut v).cast())
+                .glGetQueryObjectuiv(query.0, name, (&raw mut v).cast())
         };
         v
     }
 
     /// glIsList
-    pub fn is_list(&self, list: u32) -> bool {
+    pub fn is_list(&self, list: ListName) -> bool {
         // SAFETY: a context is current.
-        unsafe { self.real.glIsList(list) != 0 }
+        unsafe { self.real.glIsList(list.0) != 0 }
     }
 
     /// glDeleteLists of one list.
-    pub fn delete_list(&self, list: u32) {
+    pub fn delete_list(&self, list: ListName) {
         self.delete_lists(list, 1);
     }
 
     /// glDeleteLists
-    pub fn delete_lists(&self, first: u32, count: u32) {
+    pub fn delete_lists(&self, first: ListName, count: u32) {
         // SAFETY: a context is current.
-        unsafe { self.real.glDeleteLists(first, count as i32) };
+        unsafe { self.real.glDeleteLists(first.0, count as i32) };
     }
 
     /// glBlitFramebuffer with its arguments in order, moved to the right by pixels in the source and in the destination.
@@ -402,16 +406,16 @@ impl Gl {
     }
 
     /// glDeleteShader
-    pub fn delete_shader(&self, shader: u32) {
+    pub fn delete_shader(&self, shader: ShaderName) {
         // SAFETY: a context is current.
-        unsafe { self.real.glDeleteShader(shader) };
+        unsafe { self.real.glDeleteShader(shader.0) };
         Held::Shader.count(-1);
     }
 
     /// Source of a shader, compiled; the log on failure.
-    pub fn compile(&self, kind: u32, source: impl AsRef<[u8]>) -> Result<u32, String> {
+    pub fn compile(&self, kind: u32, source: impl AsRef<[u8]>) -> Result<ShaderName, String> {
         // SAFETY: a context is current.
-        let shader = unsafe { self.real.glCreateShader(kind) };
+        let shader = ShaderName(unsafe { self.real.glCreateShader(kind) });
         Held::Shader.count(1);
         let source = source.as_ref();
         let p = source.as_ptr();
@@ -419,7 +423,7 @@ impl Gl {
         // SAFETY: one string of the given length.
         unsafe {
             self.real
-                .glShaderSource(shader, 1, (&raw const p) as Ptr, (&raw const len) as Ptr)
+                .glShaderSource(shader.0, 1, (&raw const p) as Ptr, (&raw const len) as Ptr)
         };
         self.compile_shader(shader);
         let mut ok = 0i32;
@@ -427,10 +431,13 @@ impl Gl {
         let mut got = 0i32;
         // SAFETY: one integer; a buffer of the length given.
         unsafe {
-            self.real
-                .glGetShaderiv(shader, super::consts::COMPILE_STATUS, (&raw mut ok).cast());
+            self.real.glGetShaderiv(
+                shader.0,
+                super::consts::COMPILE_STATUS,
+                (&raw mut ok).cast(),
+            );
             self.real.glGetShaderInfoLog(
-                shader,
+                shader.0,
                 log.len() as i32,
                 (&raw mut got).cast(),
                 log.as_mut_ptr().cast(),
@@ -445,18 +452,18 @@ impl Gl {
     }
 
     /// A program of compiled shaders, linked; the log on failure. The shaders are released either way.
-    pub fn link(&self, shaders: &[u32]) -> Result<u32, String> {
+    pub fn link(&self, shaders: &[ShaderName]) -> Result<ProgramName, String> {
         self.link_with(shaders, |_| ())
     }
 
     /// The same; `before` is called with the program before it is linked.
     pub(super) fn link_with(
         &self,
-        shaders: &[u32],
-        before: impl FnOnce(u32),
-    ) -> Result<u32, String> {
+        shaders: &[ShaderName],
+        before: impl FnOnce(ProgramName),
+    ) -> Result<ProgramName, String> {
         // SAFETY: a context is current.
-        let program = unsafe { self.real.glCreateProgram() };
+        let program = ProgramName(unsafe { self.real.glCreateProgram() });
         Held::Shader.count(1);
         for &s in shaders {
             self.attach_shader(program, s);
@@ -472,9 +479,9 @@ impl Gl {
         // SAFETY: one integer; a buffer of the length given.
         unsafe {
             self.real
-                .glGetProgramiv(program, super::consts::LINK_STATUS, (&raw mut ok).cast());
+                .glGetProgramiv(program.0, super::consts::LINK_STATUS, (&raw mut ok).cast());
             self.real.glGetProgramInfoLog(
-                program,
+                program.0,
                 log.len() as i32,
                 (&raw mut got).cast(),
                 log.as_mut_ptr().cast(),
@@ -489,18 +496,18 @@ impl Gl {
     }
 
     /// glDeleteProgram
-    pub fn delete_program(&self, program: u32) {
+    pub fn delete_program(&self, program: ProgramName) {
         // SAFETY: a context is current.
-        unsafe { self.real.glDeleteProgram(program) };
+        unsafe { self.real.glDeleteProgram(program.0) };
         Held::Shader.count(-1);
     }
 
     /// glGetUniformLocation
-    pub fn uniform_location(&self, program: u32, name: &CStr) -> i32 {
+    pub fn uniform_location(&self, program: ProgramName, name: &CStr) -> i32 {
         // SAFETY: a string that ends in NUL.
         unsafe {
             self.real
-                .glGetUniformLocation(program, name.as_ptr() as Ptr)
+                .glGetUniformLocation(program.0, name.as_ptr() as Ptr)
         }
     }
 
@@ -527,7 +534,7 @@ impl Gl {
     }
 
     /// glDeleteFramebuffers of one name.
-    pub fn delete_framebuffer(&self, name: u32) {
+    pub fn delete_framebuffer(&self, name: FramebufferName) {
         // SAFETY: one name.
         unsafe { self.real.glDeleteFramebuffers(1, (&raw const name) as Ptr) };
         Held::Framebuffer.count(-1);
@@ -551,13 +558,13 @@ impl Gl {
     /// Sends recorded immediate mode between a glBegin and a glEnd, or lists that have them.
     pub fn replay(&self, mode: u32, recording: &Recording, ends: Ends) {
         match ends.opener {
-            0 => self.begin(mode),
+            ListName::ZERO => self.begin(mode),
             list => self.call_list(list),
         }
         // SAFETY: between glBegin and glEnd of the context it was recorded in (the caller keeps one per context).
         unsafe { recording.replay(self.real) };
         match ends.closer {
-            0 => self.end(),
+            ListName::ZERO => self.end(),
             list => self.call_list(list),
         }
     }

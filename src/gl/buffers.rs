@@ -1,9 +1,9 @@
 //! Buffer objects that pixels are read into.
 
-use super::Gl;
 use super::consts as c;
 use super::held::Held;
 use super::real::Ptr;
+use super::{BufferName, Gl};
 
 /// A sync object of the share group in which it was made: passed when all calls before it are done.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ impl Gl {
 
     /// One new buffer. Programs may number their buffers themselves instead of asking for names, and begin with 1: so ours is the
     /// last of many names, and the others are given back.
-    pub fn gen_buffer(&self) -> u32 {
+    pub fn gen_buffer(&self) -> BufferName {
         let mut names = [0u32; 1024];
         let (count, all) = (names.len() as i32, names.as_mut_ptr());
         // SAFETY: room for so many names; so many of them, less one, are given back.
@@ -44,7 +44,7 @@ impl Gl {
             self.real.glDeleteBuffers(count - 1, all.cast());
         }
         Held::Buffer.count(1);
-        names[names.len() - 1]
+        BufferName(names[names.len() - 1])
     }
 
     /// glBufferData without contents, for pixels to be read into.
@@ -115,7 +115,7 @@ impl Gl {
     }
 
     /// glDeleteBuffers of one name.
-    pub fn delete_buffer(&self, name: u32) {
+    pub fn delete_buffer(&self, name: BufferName) {
         // SAFETY: one name.
         unsafe { self.real.glDeleteBuffers(1, (&raw const name) as Ptr) };
         Held::Buffer.count(-1);

@@ -1,11 +1,11 @@
 //! Draws: the program's own once more, with its arrays and indices, and the triangle of the layer's passes.
 
 use super::indices::{Indices, Vertices};
-use super::{Gl, Ptr, consts as c};
+use super::{BufferName, Gl, Ptr, VertexArrayName, consts as c};
 
 impl Gl {
     /// A triangle without arrays, from a vertex array of the layer's, which stays bound: it enables none there.
-    pub fn draw_triangle(&self, vertex_array: u32) {
+    pub fn draw_triangle(&self, vertex_array: VertexArrayName) {
         self.bind_vertex_array(vertex_array);
         // SAFETY: a context is current; without arrays no memory is read.
         unsafe { self.real.glDrawArrays(c::TRIANGLES, 0, 3) }
@@ -75,8 +75,8 @@ impl Gl {
     /// # Safety
     /// The program has these vertices where its arrays are.
     unsafe fn draw_listed(&self, mode: u32, list: &[u32]) {
-        let bound = self.get_integer(c::ELEMENT_ARRAY_BUFFER_BINDING) as u32;
-        self.bind_buffer(c::ELEMENT_ARRAY_BUFFER, 0);
+        let bound = BufferName(self.get_integer(c::ELEMENT_ARRAY_BUFFER_BINDING) as u32);
+        self.bind_buffer(c::ELEMENT_ARRAY_BUFFER, BufferName::ZERO);
         let (count, kind) = (list.len() as i32, c::UNSIGNED_INT);
         // SAFETY: no element buffer is bound, so this is an address.
         // SAFETY: the driver has read as many indices as there are when it returns; the vertices are there (contract).

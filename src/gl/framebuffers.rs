@@ -1,7 +1,7 @@
 //! The program's own framebuffers: what is attached to them, and others like them.
 
 use super::consts as c;
-use super::{Gl, Held};
+use super::{Gl, Held, RenderbufferName, TextureName};
 
 /// An image at an attachment point of a framebuffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,9 +24,27 @@ pub struct Attachment {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Object {
     /// A texture.
-    Texture(u32),
+    Texture(TextureName),
     /// A renderbuffer.
-    Renderbuffer(u32),
+    Renderbuffer(RenderbufferName),
+}
+
+impl Object {
+    /// Its name where it is a texture.
+    pub fn texture(self) -> Option<TextureName> {
+        match self {
+            Object::Texture(name) => Some(name),
+            Object::Renderbuffer(_) => None,
+        }
+    }
+
+    /// As the driver takes it.
+    pub(super) fn name(self) -> u32 {
+        match self {
+            Object::Texture(name) => name.0,
+            Object::Renderbuffer(name) => name.0,
+        }
+    }
 }
 
 /// The store of a renderbuffer: internal format, width, height, samples.
@@ -71,7 +89,7 @@ impl Gl {
             layered: false,
         };
         if let Some(name) = name(c::RENDERBUFFER) {
-            return Some(plain(Object::Renderbuffer(name)));
+            return Some(plain(Object::Renderbuffer(RenderbufferName(name))));
         }
         let name = name(c::TEXTURE)?;
         Some(Attachment {
@@ -80,7 +98,7 @@ impl Gl {
             layer: ask(c::FRAMEBUFFER_ATTACHMENT_TEXTURE_LAYER),
             layered: self.since((3, 2), Some((3, 2)))
                 && ask(c::FRAMEBUFFER_ATTACHMENT_LAYERED) != 0,
-            ..plain(Object::Texture(name))
+            ..plain(Object::Texture(TextureName(name)))
         })
     }
 
@@ -93,21 +111,21 @@ impl Gl {
             match object {
                 Object::Renderbuffer(name) => {
                     self.real
-                        .glFramebufferRenderbuffer(to, point, c::RENDERBUFFER, name)
+                        .glFramebufferRenderbuffer(to, point, c::RENDERBUFFER, name.0)
                 }
-                Object::Texture(name) if like.layered => {
-                    self.real.glFramebufferTexture(to, point, name, like.level)
-                }
+                Object::Texture(name) if like.layered => self
+                    .real
+                    .glFramebufferTexture(to, point, name.0, like.level),
                 Object::Texture(name) if has_layers(target) => self
                     .real
-                    .glFramebufferTextureLayer(to, point, name, like.level, like.layer),
+                    .glFramebufferTextureLayer(to, point, name.0, like.level, like.layer),
                 Object::Texture(name) if target == c::TEXTURE_1D => self
                     .real
-                    .glFramebufferTexture1D(to, point, target, name, like.level),
+                    .glFramebufferTexture1D(to, point, target, name.0, like.level),
                 Object::Texture(name) => {
                     let plane = if like.face == 0 { target } else { like.face };
                     self.real
-                        .glFramebufferTexture2D(to, point, plane, name, like.level)
+                        .glFramebufferTexture2D(to, point, plane, name.0, like.level)
                 }
             }
         }
@@ -133,7 +151,7 @@ impl Gl {
     }
 
     /// A new renderbuffer with a store, which it leaves bound.
-    pub fn renderbuffer(&self, [format, width, height, samples]: Storage) -> u32 {
+    pub fn renderbuffer(&self, [format, width, height, samples]: Storage) -> RenderbufferName {
         let mut name = 0u32;
         // SAFETY: room for one name.
         unsafe {
@@ -153,17 +171,17 @@ impl Gl {
                     .glRenderbufferStorage(c::RENDERBUFFER, format as u32, width, height);
             }
         }
-        name
+        RenderbufferName(name)
     }
 
     /// glBindRenderbuffer
-    pub fn bind_renderbuffer(&self, name: u32) {
+    pub fn bind_renderbuffer(&self, name: RenderbufferName) {
         // SAFETY: no pointers.
-        unsafe { self.real.glBindRenderbuffer(c::RENDERBUFFER, name) };
+        unsafe { self.real.glBindRenderbuffer(c::RENDERBUFFER, name.0) };
     }
 
     /// glDeleteRenderbuffers of one name that [`Gl::renderbuffer`] made.
-    pub fn delete_renderbuffer(&self, name: u32) {
+    pub fn delete_renderbuffer(&self, name: RenderbufferName) {
         // SAFETY: one name.
         unsafe { self.real.glDeleteRenderbuffers(1, (&raw const name) as _) };
         Held::Framebuffer.count(-1);

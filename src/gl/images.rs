@@ -1,14 +1,14 @@
 //! Image units: textures that shaders load from and store to.
 
-use super::Gl;
 use super::consts as c;
+use super::{Gl, TextureName};
 
 /// What is bound to an image unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ImageUnit {
     unit: u32,
     /// The texture.
-    pub texture: u32,
+    pub texture: TextureName,
     level: i32,
     layered: bool,
     layer: i32,
@@ -27,8 +27,8 @@ impl Gl {
     /// What is bound to an image unit, counted from 0; none where that is nothing.
     pub fn image_unit(&self, unit: u32) -> Option<ImageUnit> {
         let ask = |name| self.get_integers_indexed::<1>(name, unit)[0];
-        let texture = ask(c::IMAGE_BINDING_NAME) as u32;
-        (texture != 0).then(|| ImageUnit {
+        let texture = TextureName(ask(c::IMAGE_BINDING_NAME) as u32);
+        (!texture.is_zero()).then(|| ImageUnit {
             unit,
             texture,
             level: ask(c::IMAGE_BINDING_LEVEL),
@@ -40,12 +40,12 @@ impl Gl {
     }
 
     /// glBindImageTexture of a texture in the place and the way of another one.
-    pub fn bind_image(&self, like: &ImageUnit, texture: u32) {
+    pub fn bind_image(&self, like: &ImageUnit, texture: TextureName) {
         // SAFETY: no pointers.
         unsafe {
             self.real.glBindImageTexture(
                 like.unit,
-                texture,
+                texture.0,
                 like.level,
                 u8::from(like.layered),
                 like.layer,

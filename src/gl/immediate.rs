@@ -1,5 +1,6 @@
 //! Immediate mode between glBegin and glEnd, kept as it came, so that it can be sent again for every view.
 
+use super::object_names::ListName;
 use super::real::{Ptr, Real};
 use super::table::{replay_one, slot};
 
@@ -159,9 +160,9 @@ impl Recording {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Ends {
     /// Has glBegin without glEnd.
-    pub opener: u32,
+    pub opener: ListName,
     /// Has glEnd without glBegin.
-    pub closer: u32,
+    pub closer: ListName,
 }
 
 /// Reads the words of a [`Recording`] back in the order of writing.

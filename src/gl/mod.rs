@@ -32,7 +32,10 @@ pub use held::{Count, Held};
 pub use images::ImageUnit;
 pub use immediate::{Ends, Recording};
 pub use indices::{Indices, Vertices};
-pub use object_names::{FramebufferName, ProgramName, TextureName};
+pub use object_names::{
+    BufferName, FramebufferName, ListName, ProgramName, QueryName, RenderbufferName, ShaderName,
+    TextureName, VertexArrayName,
+};
 pub use pixel_store::PixelStore;
 pub use programs::Active;
 pub use real::{Ptr, Real};

@@ -1,6 +1,6 @@
 //! How pixels lie in memory while the layer reads or uploads them: rows without gaps, in the layer's memory and not in a buffer.
 
-use super::{Gl, consts as c};
+use super::{BufferName, Gl, consts as c};
 
 /// The version of OpenGL ES from which on it knows a value; None where it never does.
 type Since = Option<(u32, u32)>;
@@ -28,8 +28,8 @@ const STORE: &[(u32, i32, Since)] = &[
 #[must_use = "the program's values come back by `leave`"]
 pub struct PixelStore {
     program: Vec<(u32, i32)>,
-    pack: u32,
-    unpack: u32,
+    pack: BufferName,
+    unpack: BufferName,
 }
 
 impl PixelStore {
@@ -47,13 +47,13 @@ impl PixelStore {
         let buffers = gl.since((2, 1), Some((3, 0)));
         let unbound = |binding, target| match buffers {
             true => {
-                let bound = gl.get_integer(binding) as u32;
-                if bound != 0 {
-                    gl.bind_buffer(target, 0);
+                let bound = BufferName(gl.get_integer(binding) as u32);
+                if !bound.is_zero() {
+                    gl.bind_buffer(target, BufferName::ZERO);
                 }
                 bound
             }
-            false => 0,
+            false => BufferName::ZERO,
         };
         PixelStore {
             program,
@@ -66,10 +66,10 @@ impl PixelStore {
     pub fn leave(self, gl: &Gl) {
         let values = self.program.iter();
         values.for_each(|&(name, value)| gl.pixel_storei(name, value));
-        if self.pack != 0 {
+        if !self.pack.is_zero() {
             gl.bind_buffer(c::PIXEL_PACK_BUFFER, self.pack);
         }
-        if self.unpack != 0 {
+        if !self.unpack.is_zero() {
             gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, self.unpack);
         }
     }

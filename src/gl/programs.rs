@@ -1,8 +1,8 @@
 //! Programs of shaders: what they were linked from, and the values of their uniforms.
 
-use super::Gl;
 use super::consts as c;
 use super::real::Ptr;
+use super::{BufferName, Gl, ProgramName, ShaderName};
 use std::ffi::{CStr, CString};
 
 /// An active uniform or attribute.
@@ -74,44 +74,44 @@ fn shape(kind: u32) -> Option<(Base, u32, u32)> {
 
 impl Gl {
     /// glGetProgramiv
-    pub fn program_parameter(&self, program: u32, name: u32) -> i32 {
+    pub fn program_parameter(&self, program: ProgramName, name: u32) -> i32 {
         let mut v = [0i32; 4];
         // SAFETY: no name asked for here gives more than three integers.
         unsafe {
             self.real
-                .glGetProgramiv(program, name, v.as_mut_ptr().cast())
+                .glGetProgramiv(program.0, name, v.as_mut_ptr().cast())
         };
         v[0]
     }
 
     /// glGetShaderiv
-    pub fn shader_parameter(&self, shader: u32, name: u32) -> i32 {
+    pub fn shader_parameter(&self, shader: ShaderName, name: u32) -> i32 {
         let mut v = 0i32;
         // SAFETY: one integer.
-        unsafe { self.real.glGetShaderiv(shader, name, (&raw mut v).cast()) };
+        unsafe { self.real.glGetShaderiv(shader.0, name, (&raw mut v).cast()) };
         v
     }
 
     /// The shader objects of a program.
-    pub fn attached_shaders(&self, program: u32) -> Vec<u32> {
+    pub fn attached_shaders(&self, program: ProgramName) -> Vec<ShaderName> {
         let count = self.program_parameter(program, c::ATTACHED_SHADERS);
         let mut names = vec![0u32; count.max(0) as usize];
         let mut got = 0i32;
         // SAFETY: room for as many names as there are.
         unsafe {
             self.real.glGetAttachedShaders(
-                program,
+                program.0,
                 count.max(0),
                 (&raw mut got).cast(),
                 names.as_mut_ptr().cast(),
             )
         };
         names.truncate(got.max(0) as usize);
-        names
+        names.into_iter().map(ShaderName).collect()
     }
 
     /// The text of a shader, empty where it has none.
-    pub fn shader_source(&self, shader: u32) -> Vec<u8> {
+    pub fn shader_source(&self, shader: ShaderName) -> Vec<u8> {
         let length = self
             .shader_parameter(shader, c::SHADER_SOURCE_LENGTH)
             .max(0);
@@ -120,7 +120,7 @@ impl Gl {
         // SAFETY: a buffer of the length given.
         unsafe {
             self.real.glGetShaderSource(
-                shader,
+                shader.0,
                 length,
                 (&raw mut got).cast(),
                 text.as_mut_ptr().cast(),
@@ -131,14 +131,14 @@ impl Gl {
     }
 
     /// The active uniforms of a program, those in blocks among them.
-    pub fn active_uniforms(&self, program: u32) -> Vec<Active> {
+    pub fn active_uniforms(&self, program: ProgramName) -> Vec<Active> {
         let longest = self.program_parameter(program, c::ACTIVE_UNIFORM_MAX_LENGTH);
         let count = self.program_parameter(program, c::ACTIVE_UNIFORMS);
         let ask = |at, length, got: Ptr, size: Ptr, kind: Ptr, name: Ptr| {
             // SAFETY: `actives` gives room for a name of that length, and for one of each of the others.
             unsafe {
                 self.real
-                    .glGetActiveUniform(program, at, length, got, size, kind, name)
+                    .glGetActiveUniform(program.0, at, length, got, size, kind, name)
             }
         };
         actives(count, longest, &ask)
@@ -163,31 +163,34 @@ impl Gl {
     }
 
     /// The active attributes of a program.
-    pub fn active_attributes(&self, program: u32) -> Vec<Active> {
+    pub fn active_attributes(&self, program: ProgramName) -> Vec<Active> {
         let longest = self.program_parameter(program, c::ACTIVE_ATTRIBUTE_MAX_LENGTH);
         let count = self.program_parameter(program, c::ACTIVE_ATTRIBUTES);
         let ask = |at, length, got: Ptr, size: Ptr, kind: Ptr, name: Ptr| {
             // SAFETY: as above.
             unsafe {
                 self.real
-                    .glGetActiveAttrib(program, at, length, got, size, kind, name)
+                    .glGetActiveAttrib(program.0, at, length, got, size, kind, name)
             }
         };
         actives(count, longest, &ask)
     }
 
     /// glGetAttribLocation
-    pub fn attribute_location(&self, program: u32, name: &CStr) -> i32 {
-        // SAFETY: a string that ends in NUL.
-        unsafe { self.real.glGetAttribLocation(program, name.as_ptr() as Ptr) }
-    }
-
-    /// glGetFragDataLocation
-    pub fn output_location(&self, program: u32, name: &CStr) -> i32 {
+    pub fn attribute_location(&self, program: ProgramName, name: &CStr) -> i32 {
         // SAFETY: a string that ends in NUL.
         unsafe {
             self.real
-                .glGetFragDataLocation(program, name.as_ptr() as Ptr)
+                .glGetAttribLocation(program.0, name.as_ptr() as Ptr)
+        }
+    }
+
+    /// glGetFragDataLocation
+    pub fn output_location(&self, program: ProgramName, name: &CStr) -> i32 {
+        // SAFETY: a string that ends in NUL.
+        unsafe {
+            self.real
+                .glGetFragDataLocation(program.0, name.as_ptr() as Ptr)
         }
     }
 
@@ -198,7 +201,7 @@ impl Gl {
     }
 
     /// The names of what a program's fragment shader writes; empty where the context cannot tell.
-    pub fn program_outputs(&self, program: u32) -> Vec<CString> {
+    pub fn program_outputs(&self, program: ProgramName) -> Vec<CString> {
         if !self.tells_outputs() {
             return Vec::new();
         }
@@ -207,7 +210,7 @@ impl Gl {
             // SAFETY: one integer.
             unsafe {
                 self.real.glGetProgramInterfaceiv(
-                    program,
+                    program.0,
                     c::PROGRAM_OUTPUT,
                     name,
                     (&raw mut v).cast(),
@@ -222,7 +225,7 @@ impl Gl {
             // SAFETY: a buffer of the length given, and one integer.
             unsafe {
                 self.real.glGetProgramResourceName(
-                    program,
+                    program.0,
                     c::PROGRAM_OUTPUT,
                     at,
                     buffer.len() as i32,
@@ -236,39 +239,39 @@ impl Gl {
     }
 
     /// glUniformBlockBinding
-    pub fn uniform_block_binding(&self, program: u32, block: u32, binding: u32) {
+    pub fn uniform_block_binding(&self, program: ProgramName, block: u32, binding: u32) {
         // SAFETY: a context is current.
-        unsafe { self.real.glUniformBlockBinding(program, block, binding) }
+        unsafe { self.real.glUniformBlockBinding(program.0, block, binding) }
     }
 
     /// A program of compiled shaders with attributes and fragment outputs at these places, linked; the log on failure. The shaders are
     /// released either way.
     pub fn link_at(
         &self,
-        shaders: &[u32],
+        shaders: &[ShaderName],
         attributes: &[(CString, u32)],
         outputs: &[(CString, u32)],
-    ) -> Result<u32, String> {
+    ) -> Result<ProgramName, String> {
         self.link_with(shaders, |program| {
             for (name, at) in attributes {
                 // SAFETY: a string that ends in NUL.
                 unsafe {
                     self.real
-                        .glBindAttribLocation(program, *at, name.as_ptr() as Ptr)
+                        .glBindAttribLocation(program.0, *at, name.as_ptr() as Ptr)
                 };
             }
             for (name, at) in outputs {
                 // SAFETY: as above.
                 unsafe {
                     self.real
-                        .glBindFragDataLocation(program, *at, name.as_ptr() as Ptr)
+                        .glBindFragDataLocation(program.0, *at, name.as_ptr() as Ptr)
                 };
             }
         })
     }
 
     /// Gives a uniform of the program in use the value that one of another program has, of the same type; one element.
-    pub fn copy_uniform(&self, kind: u32, from: (u32, i32), to: i32) {
+    pub fn copy_uniform(&self, kind: u32, from: (ProgramName, i32), to: i32) {
         let Some((base, columns, rows)) = shape(kind) else {
             return;
         };
@@ -280,10 +283,10 @@ impl Gl {
         // SAFETY: the type says how many values are read and written, at most 16 of 8 bytes.
         unsafe {
             match base {
-                Base::Float => real.glGetUniformfv(program, at, p),
-                Base::Double => real.glGetUniformdv(program, at, p),
-                Base::Int => real.glGetUniformiv(program, at, p),
-                Base::Uint => real.glGetUniformuiv(program, at, p),
+                Base::Float => real.glGetUniformfv(program.0, at, p),
+                Base::Double => real.glGetUniformdv(program.0, at, p),
+                Base::Int => real.glGetUniformiv(program.0, at, p),
+                Base::Uint => real.glGetUniformuiv(program.0, at, p),
             }
             match (base, columns, rows) {
                 (Base::Float, 1, 1) => real.glUniform1fv(to, 1, p),
@@ -326,12 +329,12 @@ impl Gl {
     }
 
     /// The value of a uniform that is one integer, such as the unit of a sampler.
-    pub fn uniform_int(&self, program: u32, location: i32) -> i32 {
+    pub fn uniform_int(&self, program: ProgramName, location: i32) -> i32 {
         let mut v = [0i32; 4];
         // SAFETY: room for the most integers that a location has.
         unsafe {
             self.real
-                .glGetUniformiv(program, location, v.as_mut_ptr().cast())
+                .glGetUniformiv(program.0, location, v.as_mut_ptr().cast())
         };
         v[0]
     }
@@ -346,25 +349,25 @@ impl Gl {
     }
 
     /// The value of a uniform of type GL_FLOAT_MAT4, column-major.
-    pub fn uniform_matrix(&self, program: u32, location: i32) -> [f32; 16] {
+    pub fn uniform_matrix(&self, program: ProgramName, location: i32) -> [f32; 16] {
         let mut v = [0f32; 16];
         // SAFETY: 16 values, as its type says.
         unsafe {
             self.real
-                .glGetUniformfv(program, location, v.as_mut_ptr().cast())
+                .glGetUniformfv(program.0, location, v.as_mut_ptr().cast())
         };
         v
     }
 
     /// Where an active uniform lies that is in a block: index of the block, offset in bytes. None for others and for matrices whose
     /// rows lie behind each other.
-    pub fn place_in_block(&self, program: u32, at: u32) -> Option<(u32, u32)> {
+    pub fn place_in_block(&self, program: ProgramName, at: u32) -> Option<(u32, u32)> {
         let ask = |name| {
             let mut v = 0i32;
             // SAFETY: one index, one integer.
             unsafe {
                 self.real.glGetActiveUniformsiv(
-                    program,
+                    program.0,
                     1,
                     (&raw const at) as Ptr,
                     name,
@@ -379,7 +382,11 @@ impl Gl {
     }
 
     /// A column-major matrix of single precision in the buffer that a block of a program is bound to. Waits for the driver.
-    pub fn block_matrix(&self, program: u32, (block, offset): (u32, u32)) -> Option<[f32; 16]> {
+    pub fn block_matrix(
+        &self,
+        program: ProgramName,
+        (block, offset): (u32, u32),
+    ) -> Option<[f32; 16]> {
         let binding = *self.block_bindings(program).get(block as usize)?;
         let [buffer] = self.get_integers_indexed::<1>(c::UNIFORM_BUFFER_BINDING, binding);
         let [start] = self.get_integers_indexed::<1>(c::UNIFORM_BUFFER_START, binding);
@@ -387,8 +394,8 @@ impl Gl {
             return None;
         }
         let at = usize::try_from(start).ok()? + offset as usize;
-        let before = self.get_integer(c::COPY_READ_BUFFER) as u32;
-        self.bind_buffer(c::COPY_READ_BUFFER, buffer as u32);
+        let before = BufferName(self.get_integer(c::COPY_READ_BUFFER) as u32);
+        self.bind_buffer(c::COPY_READ_BUFFER, BufferName(buffer as u32));
         let mut v = [0f32; 16];
         self.get_buffer_floats(c::COPY_READ_BUFFER, at, &mut v);
         self.bind_buffer(c::COPY_READ_BUFFER, before);
@@ -396,7 +403,7 @@ impl Gl {
     }
 
     /// The binding points of a program's uniform blocks, by index.
-    pub fn block_bindings(&self, program: u32) -> Vec<u32> {
+    pub fn block_bindings(&self, program: ProgramName) -> Vec<u32> {
         let count = self
             .program_parameter(program, c::ACTIVE_UNIFORM_BLOCKS)
             .max(0) as u32;
@@ -405,7 +412,7 @@ impl Gl {
             // SAFETY: one integer.
             unsafe {
                 self.real.glGetActiveUniformBlockiv(
-                    program,
+                    program.0,
                     at,
                     c::UNIFORM_BLOCK_BINDING,
                     (&raw mut v).cast(),
@@ -417,19 +424,19 @@ impl Gl {
     }
 
     /// The index of a block of another program in this one.
-    pub fn same_block(&self, from: u32, at: u32, to: u32) -> Option<u32> {
+    pub fn same_block(&self, from: ProgramName, at: u32, to: ProgramName) -> Option<u32> {
         let mut name = [0u8; 1024];
         let mut got = 0i32;
         // SAFETY: a buffer of the length given, which the driver ends with a NUL; it is read as a string that does.
         let index = unsafe {
             self.real.glGetActiveUniformBlockName(
-                from,
+                from.0,
                 at,
                 name.len() as i32,
                 (&raw mut got).cast(),
                 name.as_mut_ptr().cast(),
             );
-            self.real.glGetUniformBlockIndex(to, name.as_ptr() as Ptr)
+            self.real.glGetUniformBlockIndex(to.0, name.as_ptr() as Ptr)
         };
         (index != u32::MAX).then_some(index)
     }

@@ -1,7 +1,7 @@
 //! The layer's calls about textures.
 
 use super::consts as c;
-use super::{Gl, Held, Ptr};
+use super::{Gl, Held, Object, Ptr, TextureName};
 
 /// The store of a level of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -329,17 +329,17 @@ impl Gl {
     pub fn texture_view(
         &self,
         target: u32,
-        of: u32,
+        of: TextureName,
         internal: u32,
         levels: i32,
         layer: u32,
-    ) -> u32 {
+    ) -> TextureName {
         let name = self.gen_texture();
         let levels = levels.max(1).unsigned_abs();
         // SAFETY: no pointers.
         unsafe {
             self.real
-                .glTextureView(name, target, of, internal, 0, levels, layer, 1)
+                .glTextureView(name.0, target, of.0, internal, 0, levels, layer, 1)
         };
         name
     }
@@ -347,8 +347,8 @@ impl Gl {
     /// glCopyImageSubData of a level of one layer; a name, a target and a layer each.
     pub fn copy_layer(
         &self,
-        (from, from_target, from_layer): (u32, u32, u32),
-        (to, to_target, to_layer): (u32, u32, u32),
+        (from, from_target, from_layer): (Object, u32, u32),
+        (to, to_target, to_layer): (Object, u32, u32),
         level: i32,
         [w, h]: [i32; 2],
     ) {
@@ -356,13 +356,13 @@ impl Gl {
         // SAFETY: no pointers.
         unsafe {
             self.real.glCopyImageSubData(
-                from,
+                from.name(),
                 from_target,
                 level,
                 0,
                 0,
                 from_layer,
-                to,
+                to.name(),
                 to_target,
                 level,
                 0,
@@ -376,7 +376,15 @@ impl Gl {
     }
 
     /// glCopyImageSubData of a whole level: width, height and layers. `target` is GL_RENDERBUFFER for those.
-    pub fn copy_image(&self, target: u32, level: i32, from: u32, to: u32, [w, h, d]: [i32; 3]) {
+    pub fn copy_image(
+        &self,
+        target: u32,
+        level: i32,
+        from: Object,
+        to: Object,
+        [w, h, d]: [i32; 3],
+    ) {
+        let (from, to) = (from.name(), to.name());
         // SAFETY: no pointers.
         unsafe {
             self.real.glCopyImageSubData(
@@ -388,14 +396,14 @@ impl Gl {
     /// glCopyImageSubData of a rectangle of the first layer, over its whole height, to another column of the same.
     pub fn copy_inside(
         &self,
-        (name, target): (u32, u32),
+        (name, target): (TextureName, u32),
         (from, to): (i32, i32),
         [w, h]: [i32; 2],
     ) {
         // SAFETY: no pointers.
         unsafe {
             self.real.glCopyImageSubData(
-                name, target, 0, from, 0, 0, name, target, 0, to, 0, 0, w, h, 1,
+                name.0, target, 0, from, 0, 0, name.0, target, 0, to, 0, 0, w, h, 1,
             )
         };
     }
@@ -552,7 +560,7 @@ impl Gl {
     }
 
     /// glDeleteTextures of one name.
-    pub fn delete_texture(&self, name: u32) {
+    pub fn delete_texture(&self, name: TextureName) {
         // SAFETY: one name.
         unsafe { self.real.glDeleteTextures(1, (&raw const name) as Ptr) };
         Held::Texture.count(-1);

@@ -6,7 +6,7 @@ use super::{Interleaver, PanelPlacement, Program, Source};
 use crate::atlas::{Atlas, Grid, Limits, Names, Tiles};
 use crate::config::{Config, Output};
 use crate::display::Placement;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 use crate::state::{Buffers, Neutral, Window};
 use crate::view::ViewIndex;
 use serde::{Deserialize, Serialize};
@@ -144,12 +144,12 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
 
 /// A picture in a 2D texture.
 struct Plain {
-    texture: u32,
-    framebuffer: u32,
+    texture: TextureName,
+    framebuffer: FramebufferName,
 }
 
 impl Plain {
-    fn new(gl: &Gl, texture: u32, (width, height): (u32, u32)) -> Self {
+    fn new(gl: &Gl, texture: TextureName, (width, height): (u32, u32)) -> Self {
         let framebuffer = gl.gen_framebuffer();
         gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
         gl.bind_texture(c::TEXTURE_2D, texture);

@@ -9,7 +9,7 @@ use super::{Depth, Disparities, Form, Layout, Program, reference, rgbd};
 use crate::atlas::{Names, PyramidTextures, ReferenceTextures, Tiles, ViewSet};
 use crate::config::{Config, DisocclusionSource, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, TextureName, VertexArrayName, consts as c};
 use crate::state::Neutral;
 use crate::view::ViewIndex;
 use image::RgbImage;
@@ -20,13 +20,13 @@ pub struct Source<'a> {
     /// Places of the views.
     pub tiles: Tiles,
     /// The array texture.
-    pub texture: u32,
-    /// Its rows run top down.
+    pub texture: TextureName,
+    /// Row 0 of the texture is the top row.
     pub top_down: bool,
-    /// The array texture of their depths, 0 where the window has none, and what is in it of the own view; only where the output
-    /// shows it.
-    pub depth: Option<(u32, &'a Depth)>,
-    /// The own view alone was drawn: the textures of its disparities, measured, and what they are; only a panel's picture is made of it.
+    /// The array texture of the depths, 0 where the window has none, and the depths of the own view; only where the output shows
+    /// them.
+    pub depth: Option<(TextureName, &'a Depth)>,
+    /// Only where the panel's picture is synthesised straight from the drawn views: their disparity pyramids and disparities.
     pub pyramid: Option<(PyramidTextures, Disparities)>,
     /// Colours of the atlas are stored as sRGB, and so are the window's.
     pub srgb: bool,
@@ -47,8 +47,8 @@ type Of = (Output, Placement, Option<Lens>);
 /// Programs and mask of one context.
 #[derive(Debug)]
 pub struct Interleaver {
-    vertex_array: u32,
-    /// None where the CPU does it.
+    vertex_array: VertexArrayName,
+    /// Empty where the CPU computes pictures.
     programs: Vec<(Pass, Program)>,
     /// The last mask, and the inputs that it was made for.
     mask: Option<(Of, Mask)>,
@@ -56,7 +56,7 @@ pub struct Interleaver {
     shown: ViewSet,
     /// The mask has no black subpixels.
     lit: bool,
-    mask_texture: u32,
+    mask_texture: TextureName,
     uploaded: Option<Uploaded>,
     cpu: Option<String>,
 }
@@ -103,10 +103,10 @@ pub fn bind_reference(gl: &Gl, textures: Option<ReferenceTextures>) {
     }
 }
 
-/// A texture name that is taken from now on.
-fn reserve(gl: &Gl, names: &mut Names) -> u32 {
+/// A texture name that is reserved by binding it once.
+fn reserve(gl: &Gl, names: &mut Names) -> TextureName {
     let name = names.texture(gl);
-    let bound = gl.get_integer(c::TEXTURE_BINDING_2D) as u32;
+    let bound = TextureName(gl.get_integer(c::TEXTURE_BINDING_2D) as u32);
     gl.bind_texture(c::TEXTURE_2D, name);
     gl.bind_texture(c::TEXTURE_2D, bound);
     name
@@ -122,12 +122,12 @@ impl Interleaver {
         synthesis: Option<DisocclusionSource>,
     ) -> Self {
         let mut i = Interleaver {
-            vertex_array: 0,
+            vertex_array: VertexArrayName::ZERO,
             programs: Vec::new(),
             mask: None,
             shown: ViewSet::ALL,
             lit: false,
-            mask_texture: 0,
+            mask_texture: TextureName::ZERO,
             uploaded: None,
             cpu: None,
         };
@@ -187,19 +187,19 @@ impl Interleaver {
         known && self.lit
     }
 
-    /// The name of the mask's texture, 0 for none.
-    pub fn texture(&self) -> u32 {
+    /// The GL name of the mask's texture, 0 for none.
+    pub fn texture(&self) -> TextureName {
         self.mask_texture
     }
 
-    /// The names of its programs.
-    pub fn programs(&self) -> impl Iterator<Item = u32> {
+    /// The GL names of all programs.
+    pub fn programs(&self) -> impl Iterator<Item = ProgramName> {
         self.programs.iter().map(|(_, program)| program.name())
     }
 
     /// Gives the mask's texture another name, whose contents are then uploaded anew.
     pub fn rename(&mut self, gl: &Gl, names: &mut Names) {
-        if self.mask_texture != 0 {
+        if !self.mask_texture.is_zero() {
             gl.delete_texture(self.mask_texture);
             self.mask_texture = reserve(gl, names);
             self.uploaded = None;
@@ -348,7 +348,7 @@ impl Interleaver {
         places: Option<Tiles>,
         eyes: Option<u32>,
     ) -> Option<Uploaded> {
-        if self.mask_texture == 0 {
+        if self.mask_texture.is_zero() {
             return None;
         }
         gl.active_texture(c::TEXTURE0 + MASK_UNIT);

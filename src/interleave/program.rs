@@ -1,13 +1,13 @@
 //! A pass as a GL program.
 
 use super::shader::{self, GlslVersion, Pass, Stage};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, consts as c};
 use std::ffi::CString;
 
 /// A compiled pass.
 #[derive(Debug)]
 pub struct Program {
-    name: u32,
+    name: ProgramName,
     /// Location and words of each uniform.
     uniforms: Vec<(i32, shader::UniformSlot)>,
 }
@@ -26,7 +26,7 @@ impl Program {
         let v = gl.compile(c::VERTEX_SHADER, &vertex.source)?;
         let f = gl.compile(c::FRAGMENT_SHADER, &fragment.source)?;
         let name = gl.link(&[v, f])?;
-        let current = gl.get_integer(c::CURRENT_PROGRAM) as u32;
+        let current = ProgramName(gl.get_integer(c::CURRENT_PROGRAM) as u32);
         let location = |n: &str| CString::new(n).map_or(-1, |n| gl.uniform_location(name, &n));
         gl.use_program(name);
         for t in &fragment.textures {
@@ -43,8 +43,8 @@ impl Program {
         Ok(Program { name, uniforms })
     }
 
-    /// Its name.
-    pub fn name(&self) -> u32 {
+    /// The GL name.
+    pub fn name(&self) -> ProgramName {
         self.name
     }
 

@@ -4,7 +4,7 @@ use super::Layer;
 use super::draw::Request;
 use crate::accumulation::{Accumulation, Operation, Region};
 use crate::atlas::ViewSet;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, TextureName, consts as c};
 use crate::plan::Kind;
 use crate::state::Neutral;
 use crate::state::{Command, Run, Touch};
@@ -111,7 +111,7 @@ impl Layer {
             let (window, f) = (&self.state.window, &self.state.framebuffers);
             let from = self.targets.atlas.sampled(f.read_image());
             let images = f.draw_images().into_iter().filter(|&i| i != c::NONE);
-            let to: Vec<u32> = images.map(|i| self.targets.atlas.drawn(i)).collect();
+            let to: Vec<TextureName> = images.map(|i| self.targets.atlas.drawn(i)).collect();
             buffer.apply(gl, neutral, operation, window, (from, &to), &regions);
         }
     }
@@ -127,7 +127,14 @@ impl Layer {
             Ok(mut made) => {
                 let whole = self.rows();
                 let clear = Operation::Clear(self.targets.accumulated.cleared);
-                made.apply(gl, neutral, clear, &self.state.window, (0, &[]), &whole);
+                made.apply(
+                    gl,
+                    neutral,
+                    clear,
+                    &self.state.window,
+                    (TextureName::ZERO, &[]),
+                    &whole,
+                );
                 self.targets.accumulated.buffer = Some(made);
             }
             Err(e) => {

@@ -2,7 +2,7 @@
 
 use super::Layer;
 use crate::atlas::Tiles;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::state::{Command, Run, Touch};
 use crate::view::ViewIndex;
 
@@ -17,17 +17,18 @@ impl Layer {
         }
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
-        if read == 0 && draw != 0 {
+        if read.is_zero() && !draw.is_zero() {
             self.synthesise_views(gl);
         }
         let split = self.targets.offscreen.is_split(gl, read);
-        if draw != 0 {
-            let differs = split || (read == 0 && self.session.config.views > 1 && !self.is_mono());
+        if !draw.is_zero() {
+            let differs =
+                split || (read.is_zero() && self.session.config.views > 1 && !self.is_mono());
             return match differs && self.split(gl, draw)
                 || self.targets.offscreen.is_split(gl, draw)
             {
                 true => self.blit_aside(gl, blit),
-                false if read == 0 => self.read(gl, 0, 0, &mut || blit(0, 0)),
+                false if read.is_zero() => self.read(gl, 0, 0, &mut || blit(0, 0)),
                 false => blit(0, 0),
             };
         }
@@ -46,7 +47,7 @@ impl Layer {
     fn blit_aside(&mut self, gl: &Gl, blit: &mut dyn FnMut(i32, i32)) {
         self.state.refresh(gl);
         let (draw, read) = (self.state.framebuffers.draw, self.state.framebuffers.read);
-        if read != 0 {
+        if !read.is_zero() {
             self.split(gl, read);
         }
         let tiles = Tiles {
@@ -54,11 +55,11 @@ impl Layer {
             ..self.targets.atlas.tiles
         };
         for view in tiles.order() {
-            if read == 0 {
+            if read.is_zero() {
                 self.take_single(gl, view);
             }
             for (target, name) in [(c::DRAW_FRAMEBUFFER, draw), (c::READ_FRAMEBUFFER, read)] {
-                if name != 0 {
+                if !name.is_zero() {
                     let name = self.targets.offscreen.view(gl, name, view);
                     gl.bind_framebuffer(target, name);
                 }
@@ -88,7 +89,7 @@ impl Layer {
             }
             let x = self.targets.atlas.enter(gl, view);
             let from = match self.state.framebuffers.read {
-                0 => self.targets.atlas.target(view).0,
+                FramebufferName::ZERO => self.targets.atlas.target(view).0,
                 read => self.targets.offscreen.view(gl, read, view),
             };
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);

@@ -4,7 +4,7 @@ use super::Layer;
 use super::frame::tile;
 use crate::config::{Capture, CaptureWhat, Output};
 use crate::display::QuiltName;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::interleave::{Form, Layout, Source, reference, rgbd};
 use crate::present::capture;
 use crate::state::Neutral;
@@ -67,7 +67,7 @@ impl Layer {
                         .and_then(|i| capture::write(&i, &path))
                 }
                 _ => {
-                    gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
+                    gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
                     capture::write(&capture::read_rgb(gl, neutral, 0, 0, width, height), &path)
                 }
             },
@@ -91,7 +91,7 @@ impl Layer {
                 )
             }
         };
-        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         written.map(|()| path)
     }
 

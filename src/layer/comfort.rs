@@ -3,7 +3,7 @@
 use super::{Layer, keep_bindings};
 use crate::config::{Camera, Config};
 use crate::display::Budget;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{BufferName, Gl, consts as c};
 use crate::plan::decide::DepthWatch;
 use crate::plan::depths::{DepthMapping, Distances};
 use crate::plan::{DepthMappings, comfort, parallax};
@@ -84,7 +84,7 @@ impl Layer {
         if self.cameras.comfort.sent.is_empty() || !self.targets.atlas.depths_are_there(gl) {
             return;
         }
-        let pack = gl.get_integer(c::PIXEL_PACK_BUFFER_BINDING) as u32;
+        let pack = BufferName(gl.get_integer(c::PIXEL_PACK_BUFFER_BINDING) as u32);
         self.read_depths(gl);
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, pack);
         self.set_measured_cameras();

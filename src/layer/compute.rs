@@ -2,7 +2,7 @@
 
 use super::{Layer, keep_bindings};
 use crate::atlas::Tiles;
-use crate::gl::{Gl, ImageUnit, Object};
+use crate::gl::{Gl, ImageUnit, Object, ProgramName};
 
 impl Layer {
     /// glDispatchCompute: dispatches once, or for each view with its textures and images. Buffers are written by every dispatch. A shader
@@ -14,8 +14,8 @@ impl Layer {
         self.state.refresh(gl);
         let program = self.state.in_use.program;
         let (sampled, images) = match program {
-            // Of a pipeline nothing is known.
-            0 => Default::default(),
+            // Nothing is known of a program pipeline.
+            ProgramName::ZERO => Default::default(),
             program => {
                 let units = self.units_of(gl, program).into_iter();
                 let sampled = self.targets.offscreen.bound_among(gl, units);

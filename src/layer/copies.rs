@@ -4,7 +4,7 @@
 //! Motion blur, water, heat: the program copies what it has drawn into a texture and draws that over the scene again.
 
 use super::{Layer, keep_bindings};
-use crate::gl::{Gl, Object, consts as c};
+use crate::gl::{FramebufferName, Gl, Object, RenderbufferName, TextureName, consts as c};
 use crate::view::ViewIndex;
 
 impl Layer {
@@ -19,11 +19,11 @@ impl Layer {
     ) {
         let from = self.state.framebuffers.read;
         let differs = match from {
-            0 => self.session.config.views > 1,
+            FramebufferName::ZERO => self.session.config.views > 1,
             _ => self.targets.offscreen.is_split(gl, from),
         };
         let texture = self.bound_texture(gl, target);
-        if self.compiles() || !differs || texture == 0 {
+        if self.compiles() || !differs || texture.is_zero() {
             return self.read(gl, x, width, call);
         }
         self.leave_mono(gl);
@@ -41,7 +41,7 @@ impl Layer {
             return; // a wrong call is as wrong in the other views
         }
         self.state.refresh(gl);
-        if from != 0 {
+        if !from.is_zero() {
             self.split(gl, from);
         }
         let own = self.targets.atlas.tiles.own();
@@ -50,7 +50,7 @@ impl Layer {
         for (view, name) in views.zip(self.targets.offscreen.views(texture)) {
             if name != texture && (view == own || shown.has(view)) {
                 match from {
-                    0 => self.take_single(gl, view),
+                    FramebufferName::ZERO => self.take_single(gl, view),
                     from => {
                         let from = self.targets.offscreen.view(gl, from, view);
                         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
@@ -66,14 +66,14 @@ impl Layer {
         self.rebind(gl);
     }
 
-    /// The texture that is bound at a target that copies may have.
-    fn bound_texture(&self, gl: &Gl, target: u32) -> u32 {
-        match target {
+    /// The texture that is bound at `target`; 0 where that is no target whose textures are copied per view.
+    fn bound_texture(&self, gl: &Gl, target: u32) -> TextureName {
+        TextureName(match target {
             c::TEXTURE_2D => gl.get_integer(c::TEXTURE_BINDING_2D) as u32,
             c::TEXTURE_RECTANGLE => gl.get_integer(c::TEXTURE_BINDING_RECTANGLE) as u32,
             c::TEXTURE_1D => gl.get_integer(c::TEXTURE_BINDING_1D) as u32,
             _ => 0,
-        }
+        })
     }
 
     /// After glGenerateMipmap: makes the mipmaps of the other views' textures, too.
@@ -88,8 +88,8 @@ impl Layer {
         gl.bind_texture(target, texture);
     }
 
-    /// The same of a texture that is named.
-    pub fn mipmaps_of(&mut self, gl: &Gl, texture: u32, call: &mut dyn FnMut(u32)) {
+    /// The same for a command that names its texture.
+    pub fn mipmaps_of(&mut self, gl: &Gl, texture: TextureName, call: &mut dyn FnMut(TextureName)) {
         self.state.keep_errors(gl);
         for name in self.targets.offscreen.views(texture) {
             if name != texture {
@@ -124,18 +124,18 @@ impl Layer {
 
     /// The renderbuffer that is bound gets another storage.
     pub fn storage_changed(&mut self, gl: &Gl) {
-        let name = gl.get_integer(c::RENDERBUFFER_BINDING) as u32;
+        let name = RenderbufferName(gl.get_integer(c::RENDERBUFFER_BINDING) as u32);
         self.written(gl, Object::Renderbuffer(name));
     }
 
     /// glDeleteTextures.
-    pub fn deleted_textures(&mut self, gl: &Gl, textures: &[u32]) {
+    pub fn deleted_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
         let all = textures.iter().map(|&name| Object::Texture(name));
         self.targets.offscreen.forget(gl, all);
     }
 
     /// glDeleteRenderbuffers.
-    pub fn deleted_renderbuffers(&mut self, gl: &Gl, names: &[u32]) {
+    pub fn deleted_renderbuffers(&mut self, gl: &Gl, names: &[RenderbufferName]) {
         let all = names.iter().map(|&name| Object::Renderbuffer(name));
         self.targets.offscreen.forget(gl, all);
     }

@@ -4,7 +4,7 @@ use super::Layer;
 use super::draw::{Decided, Request};
 use crate::atlas::Surface;
 use crate::draw::{Current, enter_own, others};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ListName, consts as c};
 use crate::offscreen::Target;
 use crate::plan::decide::Demand;
 use crate::plan::{Kind, Method, Shear};
@@ -36,7 +36,7 @@ impl Layer {
             .targets
             .offscreen
             .take(framebuffer, self.wanted_views());
-        if !self.state.makes_pictures() || (framebuffer != 0 && target.is_none()) {
+        if !self.state.makes_pictures() || (!framebuffer.is_zero() && target.is_none()) {
             return;
         }
         self.diagnostics.proving.refuse_lists();
@@ -55,8 +55,8 @@ impl Layer {
         });
     }
 
-    /// After the driver has ended it; `name` is the list.
-    pub(super) fn finish_own(&mut self, gl: &Gl, name: u32) {
+    /// After the driver has ended that list, which is `name`: draws the other views.
+    pub(super) fn finish_own(&mut self, gl: &Gl, name: ListName) {
         let Some(mut own) = self.lists.executed.take() else {
             return;
         };

@@ -265,8 +265,8 @@ impl Explained {
                 target(facts.target),
                 number(Some(facts.program).filter(|&p| p != 0)),
                 shader,
-                known(number(Some(facts.texture).filter(|&t| t != 0))),
-                number(facts.list),
+                known(number(Some(facts.texture.0).filter(|&t| t != 0))),
+                number(facts.list.map(|list| list.0)),
                 known(depth(facts)),
                 facts.rule(classed).unwrap_or_else(|| "-".to_owned()),
             );

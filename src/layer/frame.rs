@@ -4,7 +4,7 @@ use super::{Layer, OnScreen};
 use crate::atlas::ViewSet;
 use crate::config::Output;
 use crate::display::Placement;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, ListName, consts as c};
 use crate::interleave::{Depth, PanelPlacement, Source};
 use crate::present::capture;
 use crate::state::{BACK, FRONT, Neutral};
@@ -14,8 +14,8 @@ use image::RgbImage;
 /// What has happened in the frame so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Frame {
-    /// The list that is called.
-    pub(super) list: Option<u32>,
+    /// The display list that is being called.
+    pub(super) list: Option<ListName>,
     /// Something was drawn that is to be shown.
     pub(super) drawn: bool,
     /// A draw since the last swap was made by another strategy than replay.
@@ -61,8 +61,8 @@ impl Layer {
         self.reading(gl, image, |layer| layer.present(gl, image, neutral));
         self.leave_scene();
         if !swap || !self.state.window.buffers.double_buffered {
-            // Mesa shows the front buffer of what is bound when it flushes.
-            gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+            // At a flush Mesa shows the front buffer of the framebuffer that is bound.
+            gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
             gl.flush();
         }
         if image == FRONT {
@@ -88,7 +88,7 @@ impl Layer {
         }
         let output = self.output();
         let depth = (output == Output::Rgbd).then(|| self.own_depth(gl, neutral));
-        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         if image == FRONT {
             gl.draw_buffer(c::FRONT);
             gl.read_buffer(c::FRONT);
@@ -162,7 +162,7 @@ impl Layer {
         let (width, height) = (tiles.width, tiles.height);
         let reversed = self.known.frame.nearer_is_larger.unwrap_or(false);
         let mut values = Vec::with_capacity(width as usize * height as usize);
-        if self.targets.atlas.depth != 0 {
+        if !self.targets.atlas.depth.is_zero() {
             self.targets.atlas.resolve(
                 gl,
                 &self.targets.atlas.tiles.own_alone(),
@@ -180,10 +180,10 @@ impl Layer {
     pub(super) fn rebind(&mut self, gl: &Gl) {
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
-        if draw != 0 {
+        if !draw.is_zero() {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw);
         }
-        if read != 0 {
+        if !read.is_zero() {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
         }
         self.bind_draw(gl, true, true);

@@ -3,7 +3,7 @@
 use super::draw::Request;
 use super::{Layer, as_they_are, keep_bindings};
 use crate::atlas::Atlas;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::plan::Kind;
 use crate::state::{BACK, Command, Run, Segment, Touch};
 use crate::view::ViewIndex;
@@ -41,9 +41,10 @@ impl Layer {
         self.targets.pushed.retain(|p| p.depth < depth);
         self.targets.pushed.push(Pushed {
             depth,
-            draw_buffers: (mask & c::COLOR_BUFFER_BIT != 0 && f.draw == 0)
+            draw_buffers: (mask & c::COLOR_BUFFER_BIT != 0 && f.draw.is_zero())
                 .then(|| f.draw_buffers.clone()),
-            read_buffer: (mask & c::PIXEL_MODE_BIT != 0 && f.read == 0).then_some(f.read_buffer),
+            read_buffer: (mask & c::PIXEL_MODE_BIT != 0 && f.read.is_zero())
+                .then_some(f.read_buffer),
         });
     }
 
@@ -80,10 +81,10 @@ impl Layer {
         };
         let f = &mut self.state.framebuffers;
         let before = (f.draw_buffers.clone(), f.read_buffer);
-        if let (Some(b), 0) = (saved.draw_buffers, f.draw) {
+        if let (Some(b), FramebufferName::ZERO) = (saved.draw_buffers, f.draw) {
             f.draw_buffers = b;
         }
-        if let (Some(b), 0) = (saved.read_buffer, f.read) {
+        if let (Some(b), FramebufferName::ZERO) = (saved.read_buffer, f.read) {
             f.read_buffer = b;
         }
         if before != (f.draw_buffers.clone(), f.read_buffer) {
@@ -92,7 +93,12 @@ impl Layer {
     }
 
     /// glBindFramebuffer. `bind` makes the call for a target and a name.
-    pub fn bind_framebuffer(&mut self, target: u32, name: u32, bind: &mut dyn FnMut(u32, u32)) {
+    pub fn bind_framebuffer(
+        &mut self,
+        target: u32,
+        name: FramebufferName,
+        bind: &mut dyn FnMut(u32, FramebufferName),
+    ) {
         let (draw, read) = match target {
             c::FRAMEBUFFER => (true, true),
             c::DRAW_FRAMEBUFFER => (true, false),
@@ -101,7 +107,7 @@ impl Layer {
         };
         bind(
             target,
-            if name == 0 {
+            if name.is_zero() {
                 self.targets.atlas.framebuffer()
             } else {
                 name
@@ -118,18 +124,18 @@ impl Layer {
         }
     }
 
-    /// glDeleteFramebuffers of a bound one binds framebuffer 0.
-    pub fn deleted_framebuffers(&mut self, gl: &Gl, names: &[u32]) {
+    /// After glDeleteFramebuffers, which binds framebuffer 0 in the place of one that was bound.
+    pub fn deleted_framebuffers(&mut self, gl: &Gl, names: &[FramebufferName]) {
         let f = &mut self.state.framebuffers;
         let (draw, read) = (
-            f.draw != 0 && names.contains(&f.draw),
-            f.read != 0 && names.contains(&f.read),
+            !f.draw.is_zero() && names.contains(&f.draw),
+            !f.read.is_zero() && names.contains(&f.read),
         );
         if draw {
-            f.draw = 0;
+            f.draw = FramebufferName::ZERO;
         }
         if read {
-            f.read = 0;
+            f.read = FramebufferName::ZERO;
         }
         self.targets.offscreen.forget_targets(gl, names);
         self.bind_draw(gl, draw, read);
@@ -138,11 +144,11 @@ impl Layer {
     /// Binds the atlas where the program has framebuffer 0 bound.
     pub(super) fn bind_draw(&mut self, gl: &Gl, draw: bool, read: bool) {
         let f = &self.state.framebuffers;
-        if draw && f.draw == 0 {
+        if draw && f.draw.is_zero() {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.targets.atlas.framebuffer());
             self.targets.atlas.forget_row();
         }
-        if read && f.read == 0 {
+        if read && f.read.is_zero() {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.targets.atlas.framebuffer());
         }
     }
@@ -150,13 +156,13 @@ impl Layer {
     /// Runs a call with the true framebuffer 0 bound where the program has framebuffer 0 bound at `target`.
     pub fn with_true_zero(&mut self, gl: &Gl, target: u32, call: &mut dyn FnMut()) {
         let f = &self.state.framebuffers;
-        let draw = [c::FRAMEBUFFER, c::DRAW_FRAMEBUFFER].contains(&target) && f.draw == 0;
-        let read = target == c::READ_FRAMEBUFFER && f.read == 0;
+        let draw = [c::FRAMEBUFFER, c::DRAW_FRAMEBUFFER].contains(&target) && f.draw.is_zero();
+        let read = target == c::READ_FRAMEBUFFER && f.read.is_zero();
         if draw {
-            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, 0);
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, FramebufferName::ZERO);
         }
         if read {
-            gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
         }
         call();
         self.bind_draw(gl, draw, read);
@@ -262,8 +268,8 @@ impl Layer {
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw_images(), f.read_image());
         let (bound_draw, bound_read) = (
-            gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32,
-            gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32,
+            FramebufferName(gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32),
+            FramebufferName(gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32),
         );
         for target in self.atlases().flat_map(Atlas::targets) {
             gl.bind_framebuffer(c::FRAMEBUFFER, target);
@@ -278,8 +284,8 @@ impl Layer {
     pub fn with_bound<R>(
         &mut self,
         gl: &Gl,
-        draw: u32,
-        read: Option<u32>,
+        draw: FramebufferName,
+        read: Option<FramebufferName>,
         f: impl FnOnce(&mut Self) -> R,
     ) -> R {
         let old = (self.state.framebuffers.draw, self.state.framebuffers.read);
@@ -298,36 +304,36 @@ impl Layer {
 
     /// Whether framebuffer 0 is bound for drawing.
     pub fn draws_to_zero(&self) -> bool {
-        self.state.framebuffers.draw == 0
+        self.state.framebuffers.draw.is_zero()
     }
 
     /// Whether framebuffer 0 is bound for reading.
     pub fn reads_from_zero(&self) -> bool {
-        self.state.framebuffers.read == 0
+        self.state.framebuffers.read.is_zero()
     }
 
     /// The answer of glGet for state that the layer stands in for: framebuffer bindings, framebuffer 0, the list that is compiled, formats of
     /// program binaries. None for all other names.
     pub fn answer(&self, name: u32) -> Option<i64> {
         let f = &self.state.framebuffers;
-        let zero = f.draw == 0;
+        let zero = f.draw.is_zero();
         let es = self.state.window.buffers.es;
         let buffer = |i: usize| i64::from(f.draw_buffers.get(i).copied().unwrap_or(c::NONE));
         match (name, &self.state.list) {
-            (c::LIST_INDEX, Some(list)) => return Some(list.list.into()),
+            (c::LIST_INDEX, Some(list)) => return Some(list.list.0.into()),
             (c::LIST_MODE, Some(list)) => return Some(list.mode.into()),
             // No variant can be made from a program binary. Without a format for binaries programs come with their sources.
             (c::NUM_PROGRAM_BINARY_FORMATS, _) if self.refuses_binaries() => return Some(0),
             _ => {}
         }
         match name {
-            c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.into()),
-            c::READ_FRAMEBUFFER_BINDING => Some(f.read.into()),
+            c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.0.into()),
+            c::READ_FRAMEBUFFER_BINDING => Some(f.read.0.into()),
             c::DRAW_BUFFER if zero && !es => Some(buffer(0)),
             c::DRAW_BUFFER0..=c::DRAW_BUFFER15 if zero => {
                 Some(buffer((name - c::DRAW_BUFFER0) as usize))
             }
-            c::READ_BUFFER if f.read == 0 => Some(f.read_buffer.into()),
+            c::READ_BUFFER if f.read.is_zero() => Some(f.read_buffer.into()),
             c::ACCUM_RED_BITS..=c::ACCUM_ALPHA_BITS if zero && !es => {
                 let at = (name - c::ACCUM_RED_BITS) as usize;
                 let bits = self.state.window.accumulation.get(at);
@@ -347,7 +353,7 @@ impl Layer {
             return call();
         }
         let read = self.state.framebuffers.read;
-        if read != 0 && self.targets.offscreen.is_split(gl, read) {
+        if !read.is_zero() && self.targets.offscreen.is_split(gl, read) {
             self.split(gl, read);
             let own = self
                 .targets
@@ -362,13 +368,13 @@ impl Layer {
         let beside =
             self.targets.atlas.tiles.columns > 1 && x.saturating_add(width) > self.tile_size()[0];
         let other = self.targets.atlas.multisampled() || !self.targets.atlas.tiles.grid.is_full();
-        if self.state.framebuffers.read != 0 || !(other || beside) {
+        if !self.state.framebuffers.read.is_zero() || !(other || beside) {
             return call();
         }
         self.state.refresh(gl);
         self.take_single(gl, self.targets.atlas.tiles.own());
         let draw = match self.state.framebuffers.draw {
-            0 => self.targets.atlas.framebuffer(),
+            FramebufferName::ZERO => self.targets.atlas.framebuffer(),
             other => other,
         };
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw);

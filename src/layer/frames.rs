@@ -1,7 +1,7 @@
 //! One view: the program draws it itself; frames are only counted and captured.
 
 use crate::config::{CaptureWhat, Config};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::present::capture;
 use crate::report::Report;
 use crate::state::Neutral;
@@ -46,12 +46,12 @@ impl Frames {
         let neutral = Neutral::enter(gl, false);
         let framebuffers = gl.version() >= (3, 0);
         let read = if framebuffers {
-            gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32
+            FramebufferName(gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32)
         } else {
-            0
+            FramebufferName::ZERO
         };
-        if read != 0 {
-            gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
+        if !read.is_zero() {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
         }
         let written = match wanted.what {
             CaptureWhat::Depth => capture::write(
@@ -66,7 +66,7 @@ impl Frames {
         if let Err(e) = written {
             self.report.note(format!("capture of frame {frame}: {e}"));
         }
-        if read != 0 {
+        if !read.is_zero() {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
         }
         neutral.leave(gl);

@@ -8,7 +8,7 @@ use crate::atlas::{Tiles, ViewSet};
 use crate::config::Optimisation;
 use crate::draw::{Drawing, ReplayHazard};
 use crate::gl::consts as c;
-use crate::gl::{Ends, Gl, Recording};
+use crate::gl::{Ends, Gl, ListName, Recording};
 use crate::plan::{Bounds, Kind, Plan};
 use crate::state::{Begin, Command, Effect, Immediate, Touch};
 use crate::view::ViewIndex;
@@ -130,7 +130,7 @@ impl Layer {
             || unknown
             || !triangles
             || !tiles.grid.is_full()
-            || state.in_use.program != 0
+            || !state.in_use.program.is_zero()
             || state.in_use.pipeline != 0
         {
             return all;
@@ -164,7 +164,7 @@ impl Layer {
         recording: &Recording,
         hazard: ReplayHazard,
         views: ViewSet,
-    ) -> Option<u32> {
+    ) -> Option<ListName> {
         let sets = self.lists.immediate.sets();
         let pays = !self.session.config.disabled.has(Optimisation::Lists)
             && recording.calls() >= MANY

@@ -3,7 +3,7 @@
 use super::Layer;
 use super::draw::{Decided, Draw, Request, UNKNOWN};
 use crate::draw::{Drawing, ReplayHazard};
-use crate::gl::{Gl, consts as c, slot};
+use crate::gl::{Gl, ListName, consts as c, slot};
 use crate::plan::Kind;
 use crate::plan::decide::Demand;
 use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Start, Touch};
@@ -12,10 +12,10 @@ use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Start,
 const NESTING: u32 = 64;
 
 impl Layer {
-    /// glNewList, on a name and mode that the driver may take: answers the name of the driver's list of the first run. `None`: the
-    /// call is the driver's own.
-    pub fn new_list(&mut self, gl: &Gl, list: u32, mode: u32) -> Option<u32> {
-        let known = [c::COMPILE, c::COMPILE_AND_EXECUTE].contains(&mode) && list != 0;
+    /// glNewList. Returns the name of the driver's list that the first run is compiled into; `None` where the driver will refuse the call,
+    /// which then goes to it unchanged.
+    pub fn new_list(&mut self, gl: &Gl, list: ListName, mode: u32) -> Option<ListName> {
+        let known = [c::COMPILE, c::COMPILE_AND_EXECUTE].contains(&mode) && !list.is_zero();
         if !known || self.state.list.is_some() || self.state.begin != Begin::Outside {
             return None;
         }
@@ -24,12 +24,12 @@ impl Layer {
         Some(name)
     }
 
-    pub(super) fn list_name(&self, gl: &Gl) -> u32 {
+    pub(super) fn list_name(&self, gl: &Gl) -> ListName {
         self.session.group.lists().name(|name| gl.is_list(name))
     }
 
-    /// A list of ours is of no use any more.
-    pub(super) fn drop_list(&self, gl: &Gl, name: u32) {
+    /// Deletes a list of ours and keeps its name for another one.
+    pub(super) fn drop_list(&self, gl: &Gl, name: ListName) {
         gl.delete_list(name);
         let mut lists = self.session.group.lists();
         lists.spare(name);
@@ -158,13 +158,14 @@ impl Layer {
     }
 
     /// Whether a display list is one of ours.
-    pub fn owns_list(&self, name: u32) -> bool {
+    pub fn owns_list(&self, name: ListName) -> bool {
         let lists = self.session.group.lists();
         lists.owns(name)
     }
 
-    /// glGenLists, after the driver's own answer `first`: the names that it would have found without ours.
-    pub fn generated_lists(&mut self, gl: &Gl, first: u32, count: u32) -> u32 {
+    /// After the driver's glGenLists, which has returned `first`: returns the first of the names that the driver would have chosen if ours
+    /// did not exist.
+    pub fn generated_lists(&mut self, gl: &Gl, first: ListName, count: u32) -> ListName {
         let free = self.session.group.lists().free(count);
         let mut names = first;
         // The lock is not held here, because the run that ends may ask for a name.
@@ -172,8 +173,8 @@ impl Layer {
             self.outside_list(gl, |_| {
                 gl.delete_lists(first, count);
                 names = free;
-                for name in free..free + count {
-                    gl.new_list(name, c::COMPILE);
+                for name in free.0..free.0 + count {
+                    gl.new_list(ListName(name), c::COMPILE);
                     gl.end_list();
                 }
             });
@@ -182,20 +183,20 @@ impl Layer {
         names
     }
 
-    /// glDeleteLists, after the driver's own.
-    pub fn deleted_lists(&mut self, gl: &Gl, first: u32, count: u32) {
+    /// After the driver's glDeleteLists.
+    pub fn deleted_lists(&mut self, gl: &Gl, first: ListName, count: u32) {
         let unused = self.session.group.lists().delete(first, count);
         unused.into_iter().for_each(|name| gl.delete_list(name));
     }
 
-    /// glCallList, glCallLists outside of lists: `lists` are the names where they are known, `call` the driver's own call.
-    pub fn call_lists(&mut self, gl: &Gl, lists: Option<&[u32]>, call: &mut dyn FnMut()) {
+    /// glCallList and glCallLists outside of lists. `lists` has the names where they are known; `call` is the driver's own call.
+    pub fn call_lists(&mut self, gl: &Gl, lists: Option<&[ListName]>, call: &mut dyn FnMut()) {
         self.frame.list = lists.and_then(|lists| lists.first().copied());
         self.execute_lists(gl, lists, call);
         self.frame.list = None;
     }
 
-    fn execute_lists(&mut self, gl: &Gl, lists: Option<&[u32]>, call: &mut dyn FnMut()) {
+    fn execute_lists(&mut self, gl: &Gl, lists: Option<&[ListName]>, call: &mut dyn FnMut()) {
         self.state.refresh(gl);
         let bodies = lists.and_then(|names| {
             names
@@ -243,8 +244,8 @@ impl Layer {
         }
     }
 
-    /// The runs of a list; of one that does not exist none. `None`: only the driver knows what is in it.
-    fn body(&self, gl: &Gl, list: u32) -> Option<Body> {
+    /// The runs of a list: empty for a list that does not exist, `None` where only the driver knows its contents.
+    fn body(&self, gl: &Gl, list: ListName) -> Option<Body> {
         let lists = self.session.group.lists();
         let known = lists.body(list);
         known.or_else(|| (!gl.is_list(list)).then(Body::default))
@@ -266,7 +267,8 @@ impl Layer {
             Run::List(list) => self.nested(gl, &[list], depth),
             Run::Lists => {
                 let base = gl.get_integer(c::LIST_BASE) as u32;
-                let names: Vec<u32> = segment.names.iter().map(|n| n.wrapping_add(base)).collect();
+                let names = segment.names.iter();
+                let names: Vec<ListName> = names.map(|n| ListName(n.wrapping_add(base))).collect();
                 self.nested(gl, &names, depth);
             }
             Run::State | Run::Draw | Run::Clear | Run::Raster | Run::Read | Run::Copy => {
@@ -358,12 +360,12 @@ impl Layer {
             self.end(gl);
         } else {
             self.record(slot::glCallList, Effect::UNKNOWN)
-                .u32(segment.name);
+                .u32(segment.name.0);
         }
     }
 
     /// Whether a list that is called within a primitive ends it.
-    pub fn closes(&self, list: u32) -> bool {
+    pub fn closes(&self, list: ListName) -> bool {
         let lists = self.session.group.lists();
         let mut next = list;
         for _ in 0..NESTING {
@@ -380,12 +382,12 @@ impl Layer {
         false
     }
 
-    /// A list that ends the primitive that is being recorded; the driver stands outside of it.
-    pub fn close_by_list(&mut self, gl: &Gl, list: u32) {
+    /// Calls a list that ends the primitive that is being recorded. The driver must be outside of glBegin and glEnd.
+    pub fn close_by_list(&mut self, gl: &Gl, list: ListName) {
         self.nested(gl, &[list], 0);
     }
 
-    fn nested(&mut self, gl: &Gl, lists: &[u32], depth: u32) {
+    fn nested(&mut self, gl: &Gl, lists: &[ListName], depth: u32) {
         if depth >= NESTING {
             return;
         }

@@ -50,7 +50,7 @@ pub use tracked::Primitive;
 use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Optimisation, Strategy, profile};
 use crate::draw::{Driver, Programs};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{BufferName, FramebufferName, Gl, TextureName, consts as c};
 use crate::plan::Rig;
 use crate::plan::decide::{Known, Mono};
 use crate::report::{Proof, Report};
@@ -231,8 +231,8 @@ impl Layer {
     }
 
     /// Whether a texture is one of ours.
-    pub fn owns_texture(&self, name: u32) -> bool {
-        name != 0
+    pub fn owns_texture(&self, name: TextureName) -> bool {
+        !name.is_zero()
             && (self.atlases().any(|atlas| atlas.owns(name))
                 || self.targets.interleaver.texture() == name
                 || self.targets.offscreen.owns_texture(name)
@@ -245,9 +245,9 @@ impl Layer {
     }
 
     /// Whether a framebuffer object is one of ours.
-    pub fn owns_framebuffer(&self, name: u32) -> bool {
+    pub fn owns_framebuffer(&self, name: FramebufferName) -> bool {
         let accumulation = self.targets.accumulated.buffer.as_ref();
-        name != 0
+        !name.is_zero()
             && (self
                 .atlases()
                 .any(|atlas| atlas.framebuffers().any(|t| t == name))
@@ -255,11 +255,11 @@ impl Layer {
                 || accumulation.is_some_and(|a| a.framebuffer() == name))
     }
 
-    /// The program is about to bind a texture, or to compile that into a list.
-    pub fn binds_texture(&mut self, gl: &Gl, name: u32) {
+    /// The program is about to bind a texture, or to compile the binding into a list.
+    pub fn binds_texture(&mut self, gl: &Gl, name: TextureName) {
         if self.owns_texture(name) {
             self.yield_names(gl);
-        } else if name != 0 {
+        } else if !name.is_zero() {
             self.targets.names.promise(name);
         }
     }
@@ -384,8 +384,8 @@ impl Layer {
             (c::DRAW_FRAMEBUFFER, self.state.framebuffers.draw),
             (c::READ_FRAMEBUFFER, self.state.framebuffers.read),
         ] {
-            if bound == 0 {
-                gl.bind_framebuffer(target, 0);
+            if bound.is_zero() {
+                gl.bind_framebuffer(target, FramebufferName::ZERO);
             }
         }
     }
@@ -457,20 +457,21 @@ fn as_they_are<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
 
 /// Runs `make` with no pixel unpack buffer bound, and then restores the bindings of textures and framebuffers that making an atlas changes.
 fn keep_bindings<R>(gl: &Gl, make: impl FnOnce() -> R) -> R {
-    let saved = Names::TARGETS.map(|(target, binding)| (target, gl.get_integer(binding) as u32));
-    let unpack = gl.get_integer(c::PIXEL_UNPACK_BUFFER_BINDING) as u32;
-    if unpack != 0 {
-        gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, 0);
+    let saved = Names::TARGETS
+        .map(|(target, binding)| (target, TextureName(gl.get_integer(binding) as u32)));
+    let unpack = BufferName(gl.get_integer(c::PIXEL_UNPACK_BUFFER_BINDING) as u32);
+    if !unpack.is_zero() {
+        gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, BufferName::ZERO);
     }
-    let read = gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32;
-    let draw = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;
+    let read = FramebufferName(gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32);
+    let draw = FramebufferName(gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32);
     let made = make();
     gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
     gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw);
     for (target, name) in saved {
         gl.bind_texture(target, name);
     }
-    if unpack != 0 {
+    if !unpack.is_zero() {
         gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, unpack);
     }
     made

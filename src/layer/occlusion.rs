@@ -12,7 +12,7 @@ use super::programs::{Entered, VariantUse};
 use super::{Layer, keep_bindings};
 use crate::config::Word;
 use crate::draw::{Drawing, Rays, draw_to_reference};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, consts as c};
 use crate::interleave::Disparities;
 use crate::plan::{Flat, Reason};
 use crate::present::capture::read_rgb;
@@ -59,11 +59,11 @@ impl Layer {
             ..draw.drawing
         };
         let rays = Rays {
-            map: next.map.0,
+            map: next.map,
             disparities: next.disparities,
         };
         let drawn = match self.state.in_use.program {
-            0 => self.draw_surface_to_reference(gl, draw, &drawing, &rays),
+            ProgramName::ZERO => self.draw_surface_to_reference(gl, draw, &drawing, &rays),
             _ => self.draw_variant_to_reference(gl, draw, &drawing, &rays),
         };
         match drawn {

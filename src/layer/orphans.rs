@@ -1,7 +1,7 @@
 //! Orphaned GL objects: a destroyed context leaves them in its share group, and another context of the group deletes them.
 
 use super::{Layer, Member};
-use crate::gl::{Gl, Held, Object, consts as c};
+use crate::gl::{FramebufferName, Gl, Held, Object, consts as c};
 use crate::offscreen::Images;
 use crate::state::Orphans;
 
@@ -9,7 +9,7 @@ impl Layer {
     /// The context is destroyed: leaves the objects that its share group keeps to the other contexts.
     pub fn leave(mut self) {
         let mut lists = self.session.group.lists();
-        let mask = Some(self.targets.interleaver.texture()).filter(|&t| t != 0);
+        let mask = Some(self.targets.interleaver.texture()).filter(|t| !t.is_zero());
         for atlas in self.atlases() {
             lists.orphans.framebuffers.extend(atlas.framebuffers());
         }
@@ -42,7 +42,7 @@ impl Layer {
 pub(super) fn delete_orphans(gl: &Gl, group: &Member) {
     let orphans = std::mem::take(&mut group.lists().orphans);
     if !orphans.framebuffers.is_empty() {
-        let bound = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;
+        let bound = FramebufferName(gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32);
         for &framebuffer in &orphans.framebuffers {
             // A driver need not share framebuffer objects: the name may be one of the program's by now.
             if is_attached(gl, framebuffer, &orphans, &group.images()) {
@@ -68,8 +68,8 @@ pub(super) fn delete_orphans(gl: &Gl, group: &Member) {
     }
 }
 
-/// Whether a framebuffer object has something of ours attached. Changes the draw framebuffer.
-fn is_attached(gl: &Gl, framebuffer: u32, orphans: &Orphans, images: &Images) -> bool {
+/// Whether a texture or renderbuffer of ours is attached to a framebuffer object. Changes the draw framebuffer.
+fn is_attached(gl: &Gl, framebuffer: FramebufferName, orphans: &Orphans, images: &Images) -> bool {
     if gl.is_framebuffer(framebuffer) == 0 {
         return false;
     }

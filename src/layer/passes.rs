@@ -6,7 +6,7 @@
 //! Whatever samples, copies or blits from one that differs between the views makes its own target differ.
 
 use super::{Layer, keep_bindings};
-use crate::gl::Gl;
+use crate::gl::{FramebufferName, Gl, ProgramName};
 use crate::offscreen::Bound;
 use crate::plan::camera;
 use crate::plan::class::Target;
@@ -25,7 +25,7 @@ impl Layer {
         if !self.state.makes_pictures() {
             return (Target::Nothing, None);
         }
-        if name == 0 {
+        if name.is_zero() {
             return (Target::Window, None);
         }
         let number = self.targets.offscreen.number(gl, name);
@@ -39,9 +39,14 @@ impl Layer {
         }
     }
 
-    /// Whether what is drawn into a framebuffer of the program's with its camera of now is what the window's viewer sees; and A of that
-    /// camera.
-    fn is_pass(&mut self, gl: &Gl, framebuffer: u32, shaders: &Shaders) -> (bool, Option<f64>) {
+    /// Whether a draw into a framebuffer of the program's, with the current camera, is a part of the window's picture; and A of that camera,
+    /// where it may be the window's.
+    fn is_pass(
+        &mut self,
+        gl: &Gl,
+        framebuffer: FramebufferName,
+        shaders: &Shaders,
+    ) -> (bool, Option<f64>) {
         let camera = match shaders {
             Shaders::Variant(variant) => variant.camera,
             _ => camera::equivalent(&self.state.matrices.projection),
@@ -105,7 +110,7 @@ impl Layer {
         self.state.touched = self.state.touched.without(Touch::UNITS);
         let bound = match program {
             _ if self.targets.offscreen.is_empty() => Vec::new(),
-            0 => self.targets.offscreen.bound(gl),
+            ProgramName::ZERO => self.targets.offscreen.bound(gl),
             program => {
                 let units = self.units_of(gl, program);
                 self.targets.offscreen.bound_among(gl, units.into_iter())
@@ -115,8 +120,8 @@ impl Layer {
         self.variants.sampled.clone()
     }
 
-    /// Each view gets a framebuffer like this one of the program's; false where the driver makes none.
-    pub(super) fn split(&mut self, gl: &Gl, framebuffer: u32) -> bool {
+    /// Splits a framebuffer of the program's: each view gets one like it. False where the driver makes none.
+    pub(super) fn split(&mut self, gl: &Gl, framebuffer: FramebufferName) -> bool {
         if self.targets.offscreen.is_made(gl, framebuffer) {
             return true;
         }

@@ -15,9 +15,10 @@ use std::sync::Arc;
 /// The programs that were drawn with, by name.
 #[derive(Debug, Default)]
 pub(super) struct OwnVariants {
-    known: HashMap<u32, ProgramRecord>,
-    /// Deleted while in use: such a program lives until another one is in use, and so it must when the layer uses one.
-    doomed: Vec<u32>,
+    known: HashMap<ProgramName, ProgramRecord>,
+    /// Programs that were deleted while in use. Such a program has to live until the program uses another one, so the layer deletes it only
+    /// then: the layer itself uses others before.
+    doomed: Vec<ProgramName>,
 }
 
 /// What a variant is wanted for.
@@ -87,8 +88,8 @@ struct ProgramRecord {
 }
 
 impl ProgramRecord {
-    /// Its variants.
-    fn variants(&self) -> impl Iterator<Item = u32> {
+    /// Names of its variants.
+    fn variants(&self) -> impl Iterator<Item = ProgramName> {
         let whole = match &self.how {
             Ok(Drawn::ByVariant(variant)) => Some(variant),
             _ => None,
@@ -104,9 +105,13 @@ impl ProgramRecord {
 }
 
 impl OwnVariants {
-    /// The variant of a program, in use, with the values of its uniforms; with layers only where one is there that chooses
-    /// them.
-    pub(super) fn enter(&mut self, gl: &Gl, program: u32, with: VariantUse) -> Option<Entered> {
+    /// Puts a variant of a program in use, with the values of the program's uniforms. None where the program has no such variant.
+    pub(super) fn enter(
+        &mut self,
+        gl: &Gl,
+        program: ProgramName,
+        with: VariantUse,
+    ) -> Option<Entered> {
         let known = self.known.get_mut(&program)?;
         let [alone, layer, instances, rays] = &mut known.followed;
         let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
@@ -132,8 +137,8 @@ impl OwnVariants {
         Some(Entered { variant, layers })
     }
 
-    /// The names of all variants, and of what waits to be deleted.
-    pub(super) fn names(&self) -> impl Iterator<Item = u32> {
+    /// The names of all variants, and of the programs that wait to be deleted.
+    pub(super) fn names(&self) -> impl Iterator<Item = ProgramName> {
         let doomed = self.doomed.iter().copied();
         doomed.chain(self.known.values().flat_map(ProgramRecord::variants))
     }
@@ -141,7 +146,7 @@ impl OwnVariants {
 
 impl Layer {
     /// After glLinkProgram.
-    pub fn linked(&mut self, gl: &Gl, program: u32) {
+    pub fn linked(&mut self, gl: &Gl, program: ProgramName) {
         if let Some(texts) = texts(gl, program) {
             self.shaders(|shaders| shaders.linked(program, texts));
         }
@@ -152,14 +157,15 @@ impl Layer {
         self.session.config.views > 1
     }
 
-    /// A program got its executable in another way.
-    pub fn forget_program(&mut self, program: u32) {
+    /// A program has got its executable in another way than by glLinkProgram: forgets its sources.
+    pub fn forget_program(&mut self, program: ProgramName) {
         self.shaders(|shaders| shaders.forget(program));
     }
 
-    /// Whether glDeleteProgram has to wait, because the program is in use.
-    pub fn dooms(&mut self, gl: &Gl, program: u32) -> bool {
-        let used = program != 0 && gl.get_integer(c::CURRENT_PROGRAM) as u32 == program;
+    /// Whether glDeleteProgram has to wait because the program is in use, which is noted.
+    pub fn dooms(&mut self, gl: &Gl, program: ProgramName) -> bool {
+        let used =
+            !program.is_zero() && ProgramName(gl.get_integer(c::CURRENT_PROGRAM) as u32) == program;
         if used && !self.is_doomed(program) {
             Held::Shader.count(1);
             self.variants.own.doomed.push(program);
@@ -173,14 +179,14 @@ impl Layer {
     }
 
     /// Whether a program waits to be deleted.
-    pub fn is_doomed(&self, program: u32) -> bool {
+    pub fn is_doomed(&self, program: ProgramName) -> bool {
         self.variants.own.doomed.contains(&program)
     }
 
     /// After glUseProgram: deletes the programs that have waited for it.
     pub fn delete_doomed(&mut self, gl: &Gl) {
-        let used = gl.get_integer(c::CURRENT_PROGRAM) as u32;
-        let (kept, gone): (Vec<u32>, Vec<u32>) = self
+        let used = ProgramName(gl.get_integer(c::CURRENT_PROGRAM) as u32);
+        let (kept, gone): (Vec<ProgramName>, Vec<ProgramName>) = self
             .variants
             .own
             .doomed
@@ -193,8 +199,8 @@ impl Layer {
         }
     }
 
-    /// After glDeleteProgram.
-    pub fn deleted_program(&mut self, gl: &Gl, program: u32) {
+    /// After glDeleteProgram: deletes the program's variants, if the program is gone.
+    pub fn deleted_program(&mut self, gl: &Gl, program: ProgramName) {
         if gl.is_program(program) != 0 {
             return;
         }
@@ -213,16 +219,16 @@ impl Layer {
 
     /// Facts of a program that is in use. They come from its variant for one view, whichever variant it is drawn with.
     pub(super) fn variant_facts(&mut self, gl: &Gl, program: ProgramName) -> Shaders {
-        if !self.is_known(program.0) {
+        if !self.is_known(program) {
             return Shaders::Unlinked(program);
         }
-        let Some(camera) = self.camera_of(gl, program.0) else {
+        let Some(camera) = self.camera_of(gl, program) else {
             return Shaders::WithoutVariant(program);
         };
         // Asked only where all views may be drawn at once.
         let instances = self.session.strategy == Strategy::Instanced;
         let divides = instances && self.variants.divides && gl.has_divisors();
-        let Some(known) = self.variants.own.known.get(&program.0) else {
+        let Some(known) = self.variants.own.known.get(&program) else {
             return Shaders::Unlinked(program);
         };
         let linked = |made: &Option<Option<Arc<Variant>>>| match made {
@@ -242,7 +248,7 @@ impl Layer {
     }
 
     /// Whether a program has a variant that chooses the layer of one view.
-    pub(super) fn chooses_layers(&self, program: u32) -> bool {
+    pub(super) fn chooses_layers(&self, program: ProgramName) -> bool {
         let known = self.variants.own.known.get(&program);
         known.is_some_and(|known| matches!(known.layered[0], Some(Some(_))))
     }
@@ -255,7 +261,7 @@ impl Layer {
     /// The projection of the camera of a program with a variant, column-major: `Some(None)` where no camera is found, `None` for a program
     /// without a variant.
     #[allow(clippy::option_option, reason = "a variant, and a camera")]
-    pub(super) fn camera_of(&mut self, gl: &Gl, program: u32) -> Option<Option<[f32; 16]>> {
+    pub(super) fn camera_of(&mut self, gl: &Gl, program: ProgramName) -> Option<Option<[f32; 16]>> {
         let aspect = self.aspect();
         let Some(ProgramRecord {
             how: Ok(Drawn::ByVariant(_)),
@@ -319,8 +325,12 @@ impl Layer {
         camera.map_or_else(fixed, |camera| [camera.matrix, camera.projection])
     }
 
-    /// The matrices by which a program computes positions from depths, with their locations.
-    pub(super) fn unprojections_of(&mut self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
+    /// The matrices by which a program computes positions from depths, with their uniform locations.
+    pub(super) fn unprojections_of(
+        &mut self,
+        gl: &Gl,
+        program: ProgramName,
+    ) -> Vec<(i32, [f32; 16])> {
         let (change, aspect) = (uniform_change(), self.aspect());
         let Some(known) = self.variants.own.known.get_mut(&program) else {
             return Vec::new();
@@ -334,7 +344,7 @@ impl Layer {
     }
 
     /// The texture units that a program samples, counted from 0, with the targets.
-    pub(super) fn units_of(&mut self, gl: &Gl, program: u32) -> Vec<(u32, u32)> {
+    pub(super) fn units_of(&mut self, gl: &Gl, program: ProgramName) -> Vec<(u32, u32)> {
         self.know(gl, program);
         let Some(known) = self.variants.own.known.get_mut(&program) else {
             return Vec::new();
@@ -347,7 +357,7 @@ impl Layer {
     }
 
     /// What is bound to the image units that a program loads and stores.
-    pub(super) fn images_of(&mut self, gl: &Gl, program: u32) -> Vec<ImageUnit> {
+    pub(super) fn images_of(&mut self, gl: &Gl, program: ProgramName) -> Vec<ImageUnit> {
         self.know(gl, program);
         let known = self.variants.own.known.get(&program);
         let units = known.map_or_else(Vec::new, |known| known.samplers.image_units(gl, program));
@@ -357,14 +367,14 @@ impl Layer {
             .collect()
     }
 
-    /// The number of a program, counted as they are linked, and the sum of its shaders' texts; 0 where they are not known.
-    pub(super) fn told_of(&self, program: u32) -> (u32, u64) {
+    /// The number of a program, counted as they are linked, and the hash of its shaders' sources; 0 where they are not known.
+    pub(super) fn told_of(&self, program: ProgramName) -> (u32, u64) {
         let linked = self.linked_from(program);
         linked.map_or((0, 0), |linked| (linked.link as u32, linked.sum))
     }
 
-    /// What a program was linked from.
-    pub(super) fn linked_from(&self, program: u32) -> Option<Linked> {
+    /// The sources that a program was linked from.
+    pub(super) fn linked_from(&self, program: ProgramName) -> Option<Linked> {
         self.shaders(|shaders| shaders.of(program))
     }
 
@@ -373,8 +383,8 @@ impl Layer {
         self.shaders(|shaders| shaders.with(sum))
     }
 
-    /// Whether it is known how a program is drawn, since it was linked.
-    fn is_known(&mut self, program: u32) -> bool {
+    /// Whether the record of a program is of its last link.
+    fn is_known(&mut self, program: ProgramName) -> bool {
         let checked = link_change();
         let Some(known) = self.variants.own.known.get_mut(&program) else {
             return false;
@@ -390,8 +400,8 @@ impl Layer {
         same
     }
 
-    /// Learns how a program is drawn, once for each of its links.
-    pub(super) fn know(&mut self, gl: &Gl, program: u32) {
+    /// Makes the record of a program, with its variant for one view, once for each of its links.
+    pub(super) fn know(&mut self, gl: &Gl, program: ProgramName) {
         if self.is_known(program) {
             return;
         }
@@ -441,8 +451,8 @@ impl Layer {
         }
     }
 
-    /// Makes the variant that distorts rays, once for each link; or why there is none.
-    pub(super) fn link_distorting(&mut self, gl: &Gl, program: u32) -> Result<(), String> {
+    /// Makes the variant that distorts rays, once for each link. The error says why there is none.
+    pub(super) fn link_distorting(&mut self, gl: &Gl, program: ProgramName) -> Result<(), String> {
         let told = |made: &Result<Arc<Variant>, NoVariant>| match made {
             Ok(_) => Ok(()),
             Err(reason) => Err(reason.to_string()),
@@ -475,8 +485,8 @@ impl Layer {
         answer
     }
 
-    /// Makes the variant that chooses layers, for one view or for all, where the driver can and once for each link; whether it is there.
-    pub(super) fn know_layers(&mut self, gl: &Gl, program: u32, all: bool) -> bool {
+    /// Makes the variant that chooses layers, for one view or for all, once for each link. False where the driver cannot have one.
+    pub(super) fn know_layers(&mut self, gl: &Gl, program: ProgramName, all: bool) -> bool {
         let at = usize::from(all);
         let known = self.variants.own.known.get(&program);
         match known.and_then(|known| known.layered.get(at)) {

@@ -10,7 +10,7 @@ use super::{Layer, explain, frame::tile, keep_bindings, make_atlas};
 use crate::atlas::{Atlas, Grid, ViewSet};
 use crate::config::{Output, Strategy, Word};
 use crate::draw::{ReplayHazard, replay};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::metric::triptych;
 use crate::plan::{Kind, Method, Plan, Shear, Traits};
 use crate::present::capture;
@@ -121,8 +121,8 @@ impl Search {
             kind: explain::kind(drawn.facts.kind),
             class: drawn.class.to_owned(),
             method: super::draw::method_name(drawn.method).to_owned(),
-            texture: drawn.facts.texture,
-            list: drawn.facts.list,
+            texture: drawn.facts.texture.0,
+            list: drawn.facts.list.map(|list| list.0),
         })
     }
 }
@@ -274,7 +274,7 @@ impl Layer {
         self.targets
             .atlas
             .resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
-        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         self.draw_picture(gl, image, None, neutral);
         self.change_places();
         Some(self.window_picture(gl, neutral))
@@ -282,7 +282,7 @@ impl Layer {
 
     fn window_picture(&self, gl: &Gl, neutral: &Neutral) -> RgbImage {
         let (width, height) = self.size();
-        gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
         capture::read_rgb(gl, neutral, 0, 0, width, height)
     }
 
@@ -355,7 +355,7 @@ impl Layer {
             }
             views.push(difference);
         }
-        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         let picture = worst_pair.and_then(|[exact, shown]| self.draw_failure(&exact, &shown));
         let carried = self.diagnostics.proving.carries;
         self.tell(|proof| {

@@ -4,26 +4,26 @@
 //! that is begun again forgets its count. After the first draw a query object of ours therefore continues it, and the program gets the sum.
 
 use super::Layer;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, QueryName, consts as c};
 use std::collections::HashMap;
 
 /// Active and ended queries of a context.
 #[derive(Debug, Default)]
 pub(super) struct Queries {
     active: Vec<Active>,
-    /// By the program's query: ours that counted on, and what they are.
-    more: HashMap<u32, (u32, Vec<u32>)>,
-    spare: Vec<u32>,
+    /// By the name of the program's query: its target, and our query objects that have continued it.
+    more: HashMap<QueryName, (u32, Vec<QueryName>)>,
+    spare: Vec<QueryName>,
     /// The query and mode of conditional rendering, while it is on.
-    condition: Option<(u32, u32)>,
+    condition: Option<(QueryName, u32)>,
 }
 
 #[derive(Debug)]
 struct Active {
     target: u32,
-    query: u32,
+    query: QueryName,
     counted: bool,
-    more: Vec<u32>,
+    more: Vec<QueryName>,
 }
 
 /// The part of a query's result that our query objects hold.
@@ -87,7 +87,7 @@ impl Queries {
         }
     }
 
-    fn forget(&mut self, query: u32) {
+    fn forget(&mut self, query: QueryName) {
         if let Some((_, names)) = self.more.remove(&query) {
             self.spare.extend(names);
         }
@@ -95,12 +95,16 @@ impl Queries {
 }
 
 impl Layer {
-    /// glBeginQuery, after the driver's own.
-    pub fn begun_query(&mut self, gl: &Gl, target: u32, query: u32) {
+    /// After the driver's glBeginQuery.
+    pub fn begun_query(&mut self, gl: &Gl, target: u32, query: QueryName) {
         let q = &mut self.queries;
         let known = q.active.iter().any(|a| a.target == target);
         // The driver may have refused it.
-        if !TARGETS.contains(&target) || known || gl.current_query(target) != query || query == 0 {
+        if !TARGETS.contains(&target)
+            || known
+            || gl.current_query(target) != query
+            || query.is_zero()
+        {
             return;
         }
         q.forget(query);
@@ -124,19 +128,20 @@ impl Layer {
     }
 
     /// glDeleteQueries.
-    pub fn deleted_queries(&mut self, queries: &[u32]) {
+    pub fn deleted_queries(&mut self, queries: &[QueryName]) {
         queries.iter().for_each(|&q| self.queries.forget(q));
     }
 
-    /// What glGetQueryiv answers for GL_CURRENT_QUERY of a target, if a query of ours may count there.
-    pub fn current_query(&self, target: u32) -> Option<u32> {
+    /// The answer of glGetQueryiv for GL_CURRENT_QUERY of a target, if a query of ours may be active there.
+    pub fn current_query(&self, target: u32) -> Option<QueryName> {
         let active = self.queries.active.iter().find(|a| a.target == target);
         active.map(|a| a.query)
     }
 
-    /// Before glBeginConditionalRender: the query that stands for all that the program's has counted. One that is not zero where there
-    /// is one, since the driver asks for no more than that; so it waits for the result, which every mode allows.
-    pub fn condition(&mut self, gl: &Gl, query: u32) -> u32 {
+    /// Before glBeginConditionalRender: the query for the driver in the place of the program's. The driver asks only whether the result is
+    /// zero. So it is a query of ours with another result than zero if there is one, or else the program's. This waits for results, which
+    /// every mode allows.
+    pub fn condition(&mut self, gl: &Gl, query: QueryName) -> QueryName {
         self.catch_up(gl);
         self.state.keep_errors(gl);
         let q = &self.queries;
@@ -145,12 +150,12 @@ impl Layer {
             return self.asked_query(query);
         }
         let more = q.more.get(&query).map_or(&[][..], |(_, names)| names);
-        let counted = |&q: &u32| gl.query_object(q, c::QUERY_RESULT) != 0;
+        let counted = |&q: &QueryName| gl.query_object(q, c::QUERY_RESULT) != 0;
         more.iter().copied().find(counted).unwrap_or(query)
     }
 
-    /// glBeginConditionalRender, after the driver's own.
-    pub fn begun_condition(&mut self, gl: &Gl, query: u32, mode: u32) {
+    /// After the driver's glBeginConditionalRender.
+    pub fn begun_condition(&mut self, gl: &Gl, query: QueryName, mode: u32) {
         match gl.get_error() {
             c::NO_ERROR if !self.compiles() => self.queries.condition = Some((query, mode)),
             c::NO_ERROR => {}
@@ -165,14 +170,14 @@ impl Layer {
         self.queries.condition = None;
     }
 
-    /// The query to ask the driver about in the place of one of the program's: while ours counts on, the program's is active.
-    pub fn asked_query(&self, query: u32) -> u32 {
+    /// The query to ask the driver about in the place of one of the program's: while a query of ours continues that, ours is the active one.
+    pub fn asked_query(&self, query: QueryName) -> QueryName {
         let active = self.queries.active.iter().find(|a| a.query == query);
         active.and_then(|a| a.more.last().copied()).unwrap_or(query)
     }
 
-    /// What our queries add to the answer about one of the program's, if there are any.
-    pub fn query_answer(&self, gl: &Gl, query: u32, name: u32) -> Option<Answer> {
+    /// The part of a result of the program's query that our queries hold, if there are any.
+    pub fn query_answer(&self, gl: &Gl, query: QueryName, name: u32) -> Option<Answer> {
         let (target, more) = self.queries.more.get(&query)?;
         // The driver itself writes results into a query buffer, where nothing can be added.
         if self.session.support.version >= (4, 4) && gl.get_integer(c::QUERY_BUFFER_BINDING) != 0 {

@@ -12,7 +12,7 @@ use super::occlusion::{REACH, ReferenceImage};
 use super::{Layer, keep_bindings};
 use crate::atlas::{PyramidTextures, ViewSet};
 use crate::config::{CaptureWhat, Config, DisocclusionSource, Filter, Output, TrueViews};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, consts as c};
 use crate::interleave::{Cleared, Disparities, Places, Sources};
 use crate::plan::Governor;
 use crate::plan::decide::{DisparityMapping, Scene};
@@ -101,7 +101,7 @@ impl Synthesis {
     }
 
     /// The names of its programs.
-    pub(super) fn programs(&self) -> impl Iterator<Item = u32> {
+    pub(super) fn programs(&self) -> impl Iterator<Item = ProgramName> {
         self.passes.iter().flat_map(Passes::programs)
     }
 
@@ -148,7 +148,7 @@ impl Layer {
     /// Whether atlas, output and settings allow that views are synthesised.
     pub(super) fn may_synthesise(&self) -> bool {
         self.session.config.prove.is_none()
-            && self.targets.atlas.depth != 0
+            && !self.targets.atlas.depth.is_zero()
             && self.targets.atlas.tiles.grid.is_full()
             && !self.targets.atlas.has_front()
             && self.targets.accumulated.buffer.is_none()

@@ -1,7 +1,7 @@
 //! State that hooks report call by call, because the program sets it often and the driver would have to be asked for it.
 
 use super::Layer;
-use crate::gl::consts as c;
+use crate::gl::{ListName, consts as c};
 use crate::state::{Begin, Touch};
 
 /// Whether the program is between glBegin and glEnd, and in which primitive the driver is, so that it answers as the program expects.
@@ -35,8 +35,9 @@ impl Layer {
         }
     }
 
-    /// A list that was called between glBegin and glEnd, whose calls go to the driver, has ended the primitive if it [`Layer::closes`] it.
-    pub fn closed_in_driver(&mut self, list: u32) -> bool {
+    /// After a list was called between glBegin and glEnd, with calls that go to the driver. Returns whether it has ended the primitive (see
+    /// [`Layer::closes`]).
+    pub fn closed_in_driver(&mut self, list: ListName) -> bool {
         let closes = self.closes(list);
         if closes {
             self.state.begin = Begin::Outside;

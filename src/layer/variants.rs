@@ -2,6 +2,7 @@
 
 use super::programs::OwnVariants;
 use crate::draw::{Driver, FixedState, Programs};
+use crate::gl::ProgramName;
 use crate::offscreen::Bound;
 use std::sync::Arc;
 
@@ -17,9 +18,9 @@ pub(super) struct Variants {
     pub(super) own: OwnVariants,
     /// The textures that the last draw sampled and that differ between the views.
     pub(super) sampled: Arc<[Bound]>,
-    /// The program, and the changes of uniforms and images, up to which that is known.
-    pub(super) sampled_by: Option<(u32, u64, u64)>,
-    /// The program has attributes that advance by instances.
+    /// The program that `sampled` was found for, and the counts of changes of uniforms and of images at that time.
+    pub(super) sampled_by: Option<(ProgramName, u64, u64)>,
+    /// The program has set some attribute to advance by instances.
     pub(super) divides: bool,
 }
 

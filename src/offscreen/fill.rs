@@ -13,8 +13,6 @@ pub(super) fn fill(gl: &Gl, target: u32, (from, to): (Object, Object), at: i32, 
     }
     .max(1);
     if gl.since((4, 3), Some((3, 2))) {
-        let (Object::Texture(from) | Object::Renderbuffer(from)) = from;
-        let (Object::Texture(to) | Object::Renderbuffer(to)) = to;
         return gl.copy_image(target, at, from, to, [w, h, layers]);
     }
     let scissor = gl.is_enabled(c::SCISSOR_TEST);

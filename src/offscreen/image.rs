@@ -6,7 +6,7 @@
 
 use super::fill::fill;
 use crate::atlas::{Names, Tiles};
-use crate::gl::{Gl, Level, Object, consts as c, is_multisampled};
+use crate::gl::{Gl, Level, Object, RenderbufferName, TextureName, consts as c, is_multisampled};
 use crate::view::ViewIndex;
 
 /// A split object: one image per view.
@@ -14,9 +14,9 @@ use crate::view::ViewIndex;
 pub(super) struct Image {
     /// The target of the textures, or GL_RENDERBUFFER.
     pub(super) target: u32,
-    /// By view; without an array the program's own object is that of its own view.
-    pub(super) views: Vec<u32>,
-    /// The array of which the views are layers.
+    /// The objects by view; without an array, the program's own object is the one of the own view.
+    pub(super) views: Vec<Object>,
+    /// The array whose layers are the views, if there is one.
     pub(super) array: Option<Array>,
     /// The program's own object is out of date.
     pub(super) stale: bool,
@@ -28,8 +28,8 @@ pub(super) struct Image {
 #[derive(Clone, Debug)]
 pub(super) struct Array {
     /// The array texture.
-    pub(super) name: u32,
-    /// Of one layer, by level.
+    pub(super) name: TextureName,
+    /// The mipmap levels of one layer.
     levels: Vec<Level>,
 }
 
@@ -97,16 +97,21 @@ pub(super) fn binding(target: u32) -> Option<u32> {
 /// Targets that OpenGL ES does not have.
 const DESKTOP: [u32; 2] = [c::TEXTURE_RECTANGLE, c::TEXTURE_1D];
 
-/// Runs with a texture bound at its target, which is tried out; none where it has none that is known. The caller keeps errors.
-pub(super) fn with_texture<R>(gl: &Gl, name: u32, work: impl FnOnce(u32) -> R) -> Option<R> {
+/// Runs `work` with a texture bound at its target, which is found by trying all targets; none where no target fits. The caller preserves
+/// errors.
+pub(super) fn with_texture<R>(
+    gl: &Gl,
+    name: TextureName,
+    work: impl FnOnce(u32) -> R,
+) -> Option<R> {
     let es = gl.is_es();
     let targets = TARGETS.into_iter();
     for (target, binding) in targets.filter(|(target, _)| !(es && DESKTOP.contains(target))) {
-        let before = gl.get_integer(binding) as u32;
+        let before = TextureName(gl.get_integer(binding) as u32);
         if before != name {
             gl.bind_texture(target, name);
         }
-        if gl.get_error() == c::NO_ERROR && gl.get_integer(binding) as u32 == name {
+        if gl.get_error() == c::NO_ERROR && TextureName(gl.get_integer(binding) as u32) == name {
             let done = work(target);
             gl.bind_texture(target, before);
             return Some(done);
@@ -129,7 +134,7 @@ fn complete<R>(gl: &Gl, target: u32, work: impl FnOnce() -> R) -> R {
 }
 
 impl Image {
-    fn new(target: u32, views: Vec<u32>, array: Option<Array>) -> Image {
+    fn new(target: u32, views: Vec<Object>, array: Option<Array>) -> Image {
         Image {
             target,
             looks: vec![u64::MAX; views.len()],
@@ -139,8 +144,8 @@ impl Image {
         }
     }
 
-    /// The names of ours that are of the program's kind of object.
-    pub(super) fn others(&self, own: u32) -> impl Iterator<Item = u32> + use<> {
+    /// The objects of the views that belong to the layer.
+    pub(super) fn others(&self, own: Object) -> impl Iterator<Item = Object> + use<> {
         let views = self.views.clone();
         let array = self.array.is_some();
         views.into_iter().filter(move |&name| array || name != own)
@@ -151,9 +156,9 @@ impl Image {
         let Some(array) = self.array.as_ref().filter(|_| self.stale) else {
             return;
         };
-        let (to, kind) = match object {
-            Object::Texture(name) => (name, self.target),
-            Object::Renderbuffer(name) => (name, c::RENDERBUFFER),
+        let kind = match object {
+            Object::Texture(_) => self.target,
+            Object::Renderbuffer(_) => c::RENDERBUFFER,
         };
         let first = array.levels.first();
         let (_, layered) = first.map_or((c::NONE, c::TEXTURE_2D_ARRAY), Level::layered);
@@ -163,13 +168,14 @@ impl Image {
                 if kind != c::RENDERBUFFER && gl.tex_level(kind, at) != Some(*level) {
                     break; // never made by the program
                 }
-                let from = (array.name, layered, own_layer);
-                gl.copy_layer(from, (to, kind, 0), at, [w, h]);
+                let from = (Object::Texture(array.name), layered, own_layer);
+                gl.copy_layer(from, (object, kind, 0), at, [w, h]);
             }
         };
         match object {
             Object::Texture(name) => {
                 let before = binding(kind).map_or(0, |b| gl.get_integer(b) as u32);
+                let before = TextureName(before);
                 gl.bind_texture(kind, name);
                 complete(gl, kind, copy);
                 gl.bind_texture(kind, before);
@@ -186,10 +192,12 @@ impl Image {
         gl: &Gl,
         support: &ImageSupport,
         looks: u64,
-        (own, view): (u32, ViewIndex),
+        (own, view): (TextureName, ViewIndex),
     ) {
         let at = view.0 as usize;
-        let (Some(&name), Some(look)) = (self.views.get(at), self.looks.get_mut(at)) else {
+        let (Some(&Object::Texture(name)), Some(look)) =
+            (self.views.get(at), self.looks.get_mut(at))
+        else {
             return;
         };
         if name != own && *look != looks && !is_multisampled(self.target) {
@@ -254,7 +262,7 @@ impl ImageSupport {
         &self,
         gl: &Gl,
         names: &mut Names,
-        (target, texture): (u32, u32),
+        (target, texture): (u32, TextureName),
         tiles: &Tiles,
     ) -> Option<Image> {
         binding(target)?;
@@ -263,21 +271,22 @@ impl ImageSupport {
             .map_while(|at| gl.tex_level(target, at))
             .take(if samples { 1 } else { 16 })
             .collect();
+        let own = Object::Texture(texture);
         let mut like = || {
             let name = names.texture(gl);
             gl.bind_texture(target, name);
             complete(gl, target, || {
                 gl.tex_levels_empty(target, &levels);
                 for (at, level) in (0..).zip(&levels) {
-                    let objects = (Object::Texture(texture), Object::Texture(name));
+                    let objects = (own, Object::Texture(name));
                     fill(gl, target, objects, at, level);
                 }
             });
             gl.bind_texture(target, texture);
-            name
+            Object::Texture(name)
         };
         let views = ViewIndex::all(tiles.views).map(|view| match view == tiles.own() {
-            true => texture,
+            true => own,
             false => like(),
         });
         let views = complete(gl, target, || views.collect());
@@ -289,7 +298,7 @@ impl ImageSupport {
     pub(super) fn texture_layers(
         &self,
         gl: &Gl,
-        (target, texture): (u32, u32),
+        (target, texture): (u32, TextureName),
         tiles: &Tiles,
     ) -> Option<Image> {
         let samples = is_multisampled(target);
@@ -316,9 +325,14 @@ impl ImageSupport {
         self.layers(gl, Object::Texture(texture), target, levels, tiles)
     }
 
-    /// Layers like the program's renderbuffer, with what is in it.
-    pub(super) fn renderbuffer_layers(&self, gl: &Gl, name: u32, tiles: &Tiles) -> Option<Image> {
-        let before = gl.get_integer(c::RENDERBUFFER_BINDING) as u32;
+    /// An array with a layer for each view, with the contents of the program's renderbuffer.
+    pub(super) fn renderbuffer_layers(
+        &self,
+        gl: &Gl,
+        name: RenderbufferName,
+        tiles: &Tiles,
+    ) -> Option<Image> {
+        let before = RenderbufferName(gl.get_integer(c::RENDERBUFFER_BINDING) as u32);
         gl.bind_renderbuffer(name);
         let level = Level::of_renderbuffer(gl.renderbuffer_storage());
         gl.bind_renderbuffer(before);
@@ -344,7 +358,7 @@ impl ImageSupport {
         let (plane, layered) = first.layered();
         let count = levels.len() as i32;
         let binding = binding(layered)?;
-        let before = gl.get_integer(binding) as u32;
+        let before = TextureName(gl.get_integer(binding) as u32);
         let array = gl.gen_texture();
         gl.bind_texture(layered, array);
         gl.tex_storage_layers(layered, count, internal, tiles.views, &first);
@@ -352,12 +366,9 @@ impl ImageSupport {
             gl.tex_parameteri(layered, c::TEXTURE_MIN_FILTER, c::NEAREST as i32);
         }
         gl.bind_texture(layered, before);
-        let views: Vec<u32> = ViewIndex::all(tiles.views)
+        let views: Vec<TextureName> = ViewIndex::all(tiles.views)
             .map(|view| gl.texture_view(plane, array, internal, count, tiles.slot(view)))
             .collect();
-        let own = match own {
-            Object::Texture(name) | Object::Renderbuffer(name) => name,
-        };
         let copy = || {
             for (at, level) in (0..).zip(&levels) {
                 let [w, h, _] = level.size;
@@ -365,7 +376,8 @@ impl ImageSupport {
                     break;
                 }
                 for layer in 0..tiles.views {
-                    gl.copy_layer((own, kind, 0), (array, layered, layer), at, [w, h]);
+                    let to = (Object::Texture(array), layered, layer);
+                    gl.copy_layer((own, kind, 0), to, at, [w, h]);
                 }
             }
         };
@@ -377,31 +389,31 @@ impl ImageSupport {
             name: array,
             levels,
         };
-        let image = Image::new(plane, views, Some(of));
         if gl.get_error() != c::NO_ERROR {
-            image.others(own).for_each(|name| gl.delete_texture(name));
+            views.iter().for_each(|&name| gl.delete_texture(name));
             gl.delete_texture(array);
             return None;
         }
-        Some(image)
+        let views = views.into_iter().map(Object::Texture).collect();
+        Some(Image::new(plane, views, Some(of)))
     }
 
-    /// Renderbuffers like the program's, with what is in it.
-    pub(super) fn renderbuffer(&self, gl: &Gl, name: u32, tiles: &Tiles) -> Image {
-        let before = gl.get_integer(c::RENDERBUFFER_BINDING) as u32;
+    /// A renderbuffer like the program's for each other view, with its contents.
+    pub(super) fn renderbuffer(&self, gl: &Gl, name: RenderbufferName, tiles: &Tiles) -> Image {
+        let before = RenderbufferName(gl.get_integer(c::RENDERBUFFER_BINDING) as u32);
         gl.bind_renderbuffer(name);
         let storage = gl.renderbuffer_storage();
         let level = Level::of_renderbuffer(storage);
         let views = ViewIndex::all(tiles.views).map(|view| {
+            let own = Object::Renderbuffer(name);
             if view == tiles.own() {
-                return name;
+                return own;
             }
-            let new = gl.renderbuffer(storage);
-            let objects = (Object::Renderbuffer(name), Object::Renderbuffer(new));
-            fill(gl, c::RENDERBUFFER, objects, 0, &level);
+            let new = Object::Renderbuffer(gl.renderbuffer(storage));
+            fill(gl, c::RENDERBUFFER, (own, new), 0, &level);
             new
         });
-        let views: Vec<u32> = views.collect();
+        let views: Vec<Object> = views.collect();
         gl.bind_renderbuffer(before);
         Image::new(c::RENDERBUFFER, views, None)
     }

@@ -2,7 +2,7 @@
 
 use super::image::{Image, ImageSupport};
 use crate::atlas::{Names, Tiles};
-use crate::gl::{Gl, Object};
+use crate::gl::{Gl, Object, TextureName};
 use crate::view::ViewIndex;
 use std::collections::{HashMap, HashSet};
 
@@ -10,9 +10,9 @@ use std::collections::{HashMap, HashSet};
 #[derive(Debug, Default)]
 pub struct Images {
     all: HashMap<Object, Image>,
-    /// The textures among them that are not the program's own.
-    ours: HashSet<u32>,
-    /// Changes of attachments, of buffers that are drawn to, and of images.
+    /// The textures of the images that belong to the layer.
+    ours: HashSet<TextureName>,
+    /// Number of changes of attachments, draw buffers and images.
     pub(super) changes: u64,
     /// Number of changes of texture parameters.
     pub(super) looks: u64,
@@ -39,12 +39,10 @@ impl Images {
     pub fn owns(&self, object: Object) -> bool {
         match object {
             Object::Texture(name) => self.ours.contains(&name),
-            Object::Renderbuffer(name) => self.all.iter().any(|(object, image)| match object {
-                Object::Renderbuffer(own) => {
-                    image.array.is_none() && *own != name && image.views.contains(&name)
-                }
-                Object::Texture(_) => false,
-            }),
+            Object::Renderbuffer(_) => self
+                .all
+                .iter()
+                .any(|(own, image)| *own != object && image.views.contains(&object)),
         }
     }
 
@@ -55,7 +53,7 @@ impl Images {
         gl: &Gl,
         support: &ImageSupport,
         names: &mut Names,
-        (target, texture): (u32, u32),
+        (target, texture): (u32, TextureName),
         tiles: &Tiles,
     ) -> bool {
         if self.has(Object::Texture(texture)) {
@@ -69,12 +67,9 @@ impl Images {
     }
 
     pub(super) fn insert(&mut self, object: Object, image: Image) {
-        match object {
-            Object::Texture(own) => self.ours.extend(image.others(own)),
-            // Those in an array are textures as well.
-            Object::Renderbuffer(_) if image.array.is_some() => self.ours.extend(&image.views),
-            Object::Renderbuffer(_) => {}
-        }
+        // The layers of a renderbuffer's array are textures as well.
+        let textures = image.others(object).filter_map(Object::texture);
+        self.ours.extend(textures);
         self.ours
             .extend(image.array.as_ref().map(|array| array.name));
         self.all.insert(object, image);
@@ -95,8 +90,14 @@ impl Images {
         }
     }
 
-    /// Binds a view's texture at the active unit, where the program's own is bound or another view's.
-    pub(super) fn bind(&mut self, gl: &Gl, support: &ImageSupport, texture: u32, view: ViewIndex) {
+    /// Binds a view's texture at the active unit, in place of the program's own or another view's.
+    pub(super) fn bind(
+        &mut self,
+        gl: &Gl,
+        support: &ImageSupport,
+        texture: TextureName,
+        view: ViewIndex,
+    ) {
         let looks = self.looks;
         if let Some(image) = self.all.get_mut(&Object::Texture(texture)) {
             image.bind(gl, support, looks, (texture, view));
@@ -110,16 +111,15 @@ impl Images {
                 continue;
             };
             self.changes += 1;
-            let (Object::Texture(own) | Object::Renderbuffer(own)) = object;
-            let array = image.array.as_ref().map(|array| array.name);
-            // Both kinds of objects may have the same name.
-            let textures = matches!(object, Object::Texture(_)) || array.is_some();
-            for name in image.others(own).chain(array) {
-                if textures {
-                    self.ours.remove(&name);
-                    gl.delete_texture(name);
-                } else {
-                    gl.delete_renderbuffer(name);
+            let array = image.array.as_ref();
+            let array = array.map(|array| Object::Texture(array.name));
+            for other in image.others(object).chain(array) {
+                match other {
+                    Object::Texture(name) => {
+                        self.ours.remove(&name);
+                        gl.delete_texture(name);
+                    }
+                    Object::Renderbuffer(name) => gl.delete_renderbuffer(name),
                 }
             }
         }

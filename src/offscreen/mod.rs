@@ -18,7 +18,7 @@ pub use images::Images;
 pub use target::Target;
 
 use crate::atlas::{Grid, Names, Tiles, ViewSet};
-use crate::gl::{Gl, Object, consts as c};
+use crate::gl::{FramebufferName, Gl, Object, TextureName, consts as c};
 use crate::view::ViewIndex;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -30,8 +30,8 @@ pub type SharedImages = Arc<Mutex<Images>>;
 #[derive(Debug)]
 pub struct Offscreen {
     images: SharedImages,
-    targets: HashMap<u32, Target>,
-    /// Framebuffers so far.
+    targets: HashMap<FramebufferName, Target>,
+    /// Framebuffers numbered so far (see [`Offscreen::number`]).
     count: u32,
     support: image::ImageSupport,
     /// The places of the views in a framebuffer: one view in each layer.
@@ -48,7 +48,7 @@ pub const STRIDE: u32 = 1 << 20;
 pub struct Bound {
     unit: u32,
     target: u32,
-    texture: u32,
+    texture: TextureName,
 }
 
 impl Offscreen {
@@ -84,18 +84,18 @@ impl Offscreen {
         self.images().is_empty()
     }
 
-    /// Whether a texture is one of ours.
-    pub fn owns_texture(&self, name: u32) -> bool {
+    /// Whether a texture belongs to the layer.
+    pub fn owns_texture(&self, name: TextureName) -> bool {
         self.images().owns(Object::Texture(name))
     }
 
-    /// Whether a framebuffer is one of ours.
-    pub fn owns_framebuffer(&self, name: u32) -> bool {
+    /// Whether a framebuffer belongs to the layer.
+    pub fn owns_framebuffer(&self, name: FramebufferName) -> bool {
         self.framebuffers().any(|f| f == name)
     }
 
-    /// The framebuffers that are ours.
-    pub fn framebuffers(&self) -> impl Iterator<Item = u32> {
+    /// The framebuffers that belong to the layer.
+    pub fn framebuffers(&self) -> impl Iterator<Item = FramebufferName> {
         self.targets.values().flat_map(Target::others)
     }
 
@@ -119,16 +119,17 @@ impl Offscreen {
         self.images().has(object)
     }
 
-    /// The textures of the views, by view; none where it is the same in all of them.
-    pub fn views(&self, texture: u32) -> Vec<u32> {
+    /// The textures of the views, by view; empty where the texture is not split.
+    pub fn views(&self, texture: TextureName) -> Vec<TextureName> {
         let images = self.images();
         let image = images.get(Object::Texture(texture));
-        image.map_or_else(Vec::new, |image| image.views.clone())
+        let views = image.into_iter().flat_map(|image| &image.views);
+        views.filter_map(|view| view.texture()).collect()
     }
 
-    /// The texture with an image per view that is bound at a target.
-    pub fn bound_at(&self, gl: &Gl, target: u32) -> Option<u32> {
-        let texture = gl.get_integer(image::binding(target)?) as u32;
+    /// The split texture that is bound at a target of the active unit.
+    pub fn bound_at(&self, gl: &Gl, target: u32) -> Option<TextureName> {
+        let texture = TextureName(gl.get_integer(image::binding(target)?) as u32);
         self.has(Object::Texture(texture)).then_some(texture)
     }
 
@@ -138,15 +139,15 @@ impl Offscreen {
         &mut self,
         gl: &Gl,
         names: &mut Names,
-        (target, texture): (u32, u32),
+        (target, texture): (u32, TextureName),
     ) -> bool {
         let at = (target, texture);
         self.images()
             .split_texture(gl, &self.support, names, at, &self.tiles)
     }
 
-    /// The same of a texture by its name, whatever its target.
-    pub fn split_named(&mut self, gl: &Gl, names: &mut Names, texture: u32) -> bool {
+    /// Splits a texture by its name, whatever its target. As [`Offscreen::split_texture`].
+    pub fn split_named(&mut self, gl: &Gl, names: &mut Names, texture: TextureName) -> bool {
         let split = |target| self.split_texture(gl, names, (target, texture));
         image::with_texture(gl, texture, split).unwrap_or(false)
     }
@@ -165,13 +166,13 @@ impl Offscreen {
         }
     }
 
-    /// The same for a texture.
-    pub fn written(&mut self, texture: u32) {
+    /// Takes note that a split texture is written.
+    pub fn written(&mut self, texture: TextureName) {
         self.images().written(Object::Texture(texture));
     }
 
-    /// All objects of a framebuffer get an image per view. As [`Offscreen::split_texture`].
-    pub fn split(&mut self, gl: &Gl, names: &mut Names, framebuffer: u32) -> bool {
+    /// Splits a framebuffer and all objects that are attached to it. As [`Offscreen::split_texture`].
+    pub fn split(&mut self, gl: &Gl, names: &mut Names, framebuffer: FramebufferName) -> bool {
         let attachments = self.target(gl, framebuffer).attachments.clone();
         // A layer of an array needs a name from glGenTextures, which high names are not.
         let mut support = self.support.clone();
@@ -212,31 +213,31 @@ impl Offscreen {
         target.is_some_and(|target| target.make(gl, &locked(&shared)))
     }
 
-    /// Whether the views have framebuffers of their own.
-    pub fn is_made(&mut self, gl: &Gl, framebuffer: u32) -> bool {
+    /// Whether a framebuffer has one framebuffer per view.
+    pub fn is_made(&mut self, gl: &Gl, framebuffer: FramebufferName) -> bool {
         self.target(gl, framebuffer).is_made()
     }
 
-    /// Whether the driver has refused to make them.
-    pub fn is_refused(&mut self, gl: &Gl, framebuffer: u32) -> bool {
+    /// Whether a framebuffer cannot be split.
+    pub fn is_refused(&mut self, gl: &Gl, framebuffer: FramebufferName) -> bool {
         self.target(gl, framebuffer).refused
     }
 
-    /// The views are not to have framebuffers of their own.
-    pub fn refuse(&mut self, gl: &Gl, framebuffer: u32) {
+    /// Takes note that a framebuffer is not to be split.
+    pub fn refuse(&mut self, gl: &Gl, framebuffer: FramebufferName) {
         self.target(gl, framebuffer).refused = true;
     }
 
-    /// What is known of a framebuffer of the program's.
-    pub fn target(&mut self, gl: &Gl, framebuffer: u32) -> &mut Target {
+    /// The state of a framebuffer of the program's, brought up to date.
+    pub fn target(&mut self, gl: &Gl, framebuffer: FramebufferName) -> &mut Target {
         let target = self.targets.entry(framebuffer);
         let target = target.or_insert_with(|| Target::new(framebuffer, self.tiles));
         target.reattach(gl, &locked(&self.images));
         target
     }
 
-    /// The number of a framebuffer that is drawn to: they are counted from 1, as that happens for the first time.
-    pub fn number(&mut self, gl: &Gl, framebuffer: u32) -> u32 {
+    /// The number of a framebuffer that is drawn to, from 1 in the order of first use.
+    pub fn number(&mut self, gl: &Gl, framebuffer: FramebufferName) -> u32 {
         let next = self.count + 1;
         let target = self.target(gl, framebuffer);
         let number = *target.number.get_or_insert(next);
@@ -244,21 +245,26 @@ impl Offscreen {
         number
     }
 
-    /// Whether the views differ in what a framebuffer holds.
-    pub fn is_split(&mut self, gl: &Gl, framebuffer: u32) -> bool {
-        framebuffer != 0 && !self.is_empty() && self.target(gl, framebuffer).is_split()
+    /// Whether a framebuffer has a split object attached.
+    pub fn is_split(&mut self, gl: &Gl, framebuffer: FramebufferName) -> bool {
+        !framebuffer.is_zero() && !self.is_empty() && self.target(gl, framebuffer).is_split()
     }
 
-    /// The framebuffer of a view; the program's own where it is the only one.
-    pub fn view(&mut self, gl: &Gl, framebuffer: u32, view: ViewIndex) -> u32 {
+    /// The framebuffer of a view; the program's own where it is not split.
+    pub fn view(
+        &mut self,
+        gl: &Gl,
+        framebuffer: FramebufferName,
+        view: ViewIndex,
+    ) -> FramebufferName {
         match self.is_split(gl, framebuffer) {
             true => self.target(gl, framebuffer).view(view),
             false => framebuffer,
         }
     }
 
-    /// Takes the framebuffers of the views, where there are some, for as long as they are drawn to.
-    pub fn take(&mut self, framebuffer: u32, shown: ViewSet) -> Option<Target> {
+    /// Takes out the framebuffers of the views, where there are some, while they are drawn to; `shown`: the views that are drawn.
+    pub fn take(&mut self, framebuffer: FramebufferName, shown: ViewSet) -> Option<Target> {
         self.targets.get(&framebuffer).filter(|t| t.is_made())?;
         let mut target = self.targets.remove(&framebuffer)?;
         target.show(shown);
@@ -297,13 +303,17 @@ impl Offscreen {
                 gl.active_texture(unit);
             }
             let texture = image::binding(target).map_or(0, |b| gl.get_integer(b) as u32);
+            let texture = TextureName(texture);
             let image = images.get(Object::Texture(texture));
             let new = Bound {
                 unit,
                 target,
                 texture,
             };
-            if texture != 0 && image.is_some_and(|i| i.target == target) && !bound.contains(&new) {
+            if !texture.is_zero()
+                && image.is_some_and(|i| i.target == target)
+                && !bound.contains(&new)
+            {
                 bound.push(new);
             }
         }
@@ -345,8 +355,8 @@ impl Offscreen {
         self.images().forget(gl, objects);
     }
 
-    /// glDeleteFramebuffers.
-    pub fn forget_targets(&mut self, gl: &Gl, names: &[u32]) {
+    /// Drops framebuffers at glDeleteFramebuffers.
+    pub fn forget_targets(&mut self, gl: &Gl, names: &[FramebufferName]) {
         for target in names.iter().filter_map(|name| self.targets.remove(name)) {
             target.delete(gl);
         }

@@ -3,35 +3,35 @@
 use super::image::Image;
 use super::images::Images;
 use crate::atlas::{Surface, Tiles, ViewSet};
-use crate::gl::{Attachment, Gl, Object, consts as c};
+use crate::gl::{Attachment, FramebufferName, Gl, Object, TextureName, consts as c};
 use crate::view::ViewIndex;
 
 /// One framebuffer of the program's.
 #[derive(Debug)]
 pub struct Target {
-    own: u32,
-    /// Which it is of those that were drawn to; names depend on ours.
+    own: FramebufferName,
+    /// Its number in the order of first use. Names are not used, because they depend on the layer's own.
     pub(super) number: Option<u32>,
-    /// By view, the program's own among them; empty where it is the only one.
-    views: Vec<u32>,
-    /// Up to which change the rest is known.
+    /// The framebuffers by view, of which the program's may be one; empty where it is not split.
+    views: Vec<FramebufferName>,
+    /// The number of the last change (see [`Images`]) after which the fields below were read.
     seen: u64,
     /// The attachments of the program's framebuffer.
     pub attachments: Vec<Attachment>,
     draw_buffers: Vec<u32>,
     read_buffer: u32,
-    /// The objects that are attached for each view.
-    objects: Vec<Option<Vec<u32>>>,
+    /// For each attachment, the objects by view; none where it is not split.
+    objects: Vec<Option<Vec<Object>>>,
     tiles: Tiles,
-    /// One with all views as layers, and whether that is what is drawn to now.
-    layered: Option<u32>,
+    /// The framebuffer with all views as layers.
+    layered: Option<FramebufferName>,
     in_layers: bool,
     /// It cannot be split.
     pub(super) refused: bool,
 }
 
 impl Target {
-    pub(super) fn new(own: u32, tiles: Tiles) -> Target {
+    pub(super) fn new(own: FramebufferName, tiles: Tiles) -> Target {
         Target {
             own,
             number: None,
@@ -49,19 +49,19 @@ impl Target {
         }
     }
 
-    /// The program's name of it.
-    pub fn own(&self) -> u32 {
+    /// The program's name of the framebuffer.
+    pub fn own(&self) -> FramebufferName {
         self.own
     }
 
-    /// Our names.
-    pub(super) fn others(&self) -> impl Iterator<Item = u32> {
+    /// The framebuffers of the views that belong to the layer.
+    pub(super) fn others(&self) -> impl Iterator<Item = FramebufferName> {
         let views = self.views.iter().copied().chain(self.layered);
         views.filter(|&name| name != self.own)
     }
 
-    /// The one with all views as layers, the layer of each as its slot in [`Surface::tiles`].
-    pub fn layered(&self) -> Option<u32> {
+    /// The framebuffer with all views as layers, if there is one. The layer of a view is its slot in [`Surface::tiles`].
+    pub fn layered(&self) -> Option<FramebufferName> {
         self.layered
     }
 
@@ -71,7 +71,7 @@ impl Target {
     }
 
     /// The framebuffer of a view.
-    pub fn view(&self, view: ViewIndex) -> u32 {
+    pub fn view(&self, view: ViewIndex) -> FramebufferName {
         self.views.get(view.0 as usize).copied().unwrap_or(self.own)
     }
 
@@ -106,7 +106,7 @@ impl Target {
             (c::DRAW_FRAMEBUFFER, c::DRAW_FRAMEBUFFER_BINDING),
             (c::READ_FRAMEBUFFER, c::READ_FRAMEBUFFER_BINDING),
         ]
-        .map(|(target, binding)| (target, gl.get_integer(binding) as u32));
+        .map(|(target, binding)| (target, FramebufferName(gl.get_integer(binding) as u32)));
         gl.bind_framebuffer(c::FRAMEBUFFER, self.own);
         let attachments = gl.attachments(c::DRAW_FRAMEBUFFER);
         let buffers = gl.get_integer(c::MAX_DRAW_BUFFERS).clamp(1, 16) as u32;
@@ -183,8 +183,8 @@ impl Target {
                         let layer = self.tiles.slot(view) as i32;
                         (Object::Texture(array.name), c::TEXTURE_2D_ARRAY, layer)
                     }
-                    (None, c::RENDERBUFFER) => (Object::Renderbuffer(new), image.target, 0),
-                    (None, target) => (Object::Texture(new), target, attachment.layer),
+                    (None, c::RENDERBUFFER) => (new, image.target, 0),
+                    (None, target) => (new, target, attachment.layer),
                 };
                 let like = Attachment {
                     layer,
@@ -196,7 +196,8 @@ impl Target {
         self.views = views.collect();
         if !self.attachments.is_empty() && self.attachments.iter().all(arrays) {
             self.layered = Some(framebuffer(&|attachment, image| {
-                let name = image.array.as_ref().map_or(0, |array| array.name);
+                let array = image.array.as_ref();
+                let name = array.map_or(TextureName::ZERO, |array| array.name);
                 let layered = Attachment {
                     layered: true,
                     ..*attachment

@@ -4,8 +4,8 @@ use super::fill::fill;
 use super::image::TARGETS;
 use super::*;
 use crate::atlas::Surface;
-use crate::gl::Gl;
 use crate::gl::fake::{Fake, Scope};
+use crate::gl::{Gl, RenderbufferName};
 
 const KINDS: [&str; 3] = ["Textures", "Framebuffers", "Renderbuffers"];
 
@@ -15,9 +15,9 @@ struct Stage {
     gl: Gl,
     offscreen: Offscreen,
     names: Names,
-    framebuffer: u32,
-    texture: u32,
-    renderbuffer: u32,
+    framebuffer: FramebufferName,
+    texture: TextureName,
+    renderbuffer: RenderbufferName,
 }
 
 impl Stage {
@@ -29,7 +29,7 @@ impl Stage {
             gl.tex_image_rgba8_empty(c::TEXTURE_2D, 32, 16);
             gl.tex_parameteri(c::TEXTURE_2D, c::TEXTURE_MIN_FILTER, c::LINEAR as i32);
             let renderbuffer = gl.renderbuffer([c::DEPTH_COMPONENT24 as i32, 32, 16, 0]);
-            gl.bind_renderbuffer(0);
+            gl.bind_renderbuffer(RenderbufferName::ZERO);
             gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
             gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, texture, 0);
             let point = crate::gl::Attachment {
@@ -41,9 +41,9 @@ impl Stage {
                 layered: false,
             };
             gl.attach_like(&point, point.object, c::RENDERBUFFER);
-            [framebuffer, texture, renderbuffer]
+            (framebuffer, texture, renderbuffer)
         });
-        let [framebuffer, texture, renderbuffer] = made;
+        let (framebuffer, texture, renderbuffer) = made;
         Stage {
             offscreen: Offscreen::new(&gl, 4, true, SharedImages::default()),
             names: Names::default(),
@@ -104,7 +104,7 @@ fn each_view_gets_a_framebuffer_and_all_names_are_given_back() {
         let differences = before.differences(&stage.fake.state());
         assert_eq!(differences, [""; 0], "{version}");
         let (gl, framebuffer) = (stage.gl, stage.framebuffer);
-        let mut views: Vec<u32> = (0..4)
+        let mut views: Vec<FramebufferName> = (0..4)
             .map(|view| stage.offscreen.view(&gl, framebuffer, ViewIndex(view)))
             .collect();
         let target = stage
@@ -180,14 +180,14 @@ fn what_a_framebuffer_holds_is_copied_to_each_view() {
         2,
         "back to the program's own"
     );
-    let to: Vec<i64> = stage
+    let to: Vec<u32> = stage
         .fake
         .calls()
         .iter()
         .filter(|call| call.name == "glCopyImageSubData")
-        .map(|call| call.int(6))
+        .map(|call| call.int(6) as u32)
         .collect();
-    assert!(to.contains(&stage.texture.into()) && to.contains(&stage.renderbuffer.into()));
+    assert!(to.contains(&stage.texture.0) && to.contains(&stage.renderbuffer.0));
     stage.fake.assert_restored(&before);
     stage.fake.forget();
     stage.offscreen.write_back(&stage.gl);
@@ -226,7 +226,8 @@ fn a_views_texture_is_bound_for_its_draw() {
     for (view, &name) in (0..).zip(&views) {
         stage.offscreen.bind(&gl, &bound, ViewIndex(view));
         let state = stage.fake.state();
-        assert_eq!(state.int(Scope::Unit(5), c::TEXTURE_BINDING_2D), name);
+        let bound = state.int(Scope::Unit(5), c::TEXTURE_BINDING_2D);
+        assert_eq!(bound, name.0);
         let filter = state.int(Scope::Texture(name), c::TEXTURE_MIN_FILTER);
         assert_eq!(filter, c::LINEAR, "it looks like the program's");
     }
@@ -278,7 +279,7 @@ fn a_target_draws_to_its_views_or_to_all_layers() {
     for view in 0..4 {
         assert_eq!(target.enter(&gl, ViewIndex(view)), 0);
         let bound = stage.fake.value(c::DRAW_FRAMEBUFFER_BINDING);
-        assert_eq!(bound, [f64::from(target.view(ViewIndex(view)))]);
+        assert_eq!(bound, [f64::from(target.view(ViewIndex(view)).0)]);
     }
     target.take_layers(true);
     stage.fake.forget();
@@ -306,7 +307,7 @@ fn an_image_is_copied_by_framebuffers_where_there_is_no_other_way() {
                 name
             })
         });
-        gl.bind_texture(c::TEXTURE_2D, 0);
+        gl.bind_texture(c::TEXTURE_2D, TextureName::ZERO);
         let like = {
             let name = gl.gen_texture();
             gl.bind_texture(c::TEXTURE_2D, name);

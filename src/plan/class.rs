@@ -5,6 +5,7 @@
 
 use super::Kind;
 use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport, Word};
+use crate::gl::{FramebufferName, ListName, TextureName};
 use crate::state::{State, Touch};
 
 /// The properties of a draw that decide its class. More than 12 fields: one for each condition of a rule.
@@ -17,7 +18,7 @@ pub struct Traits {
     /// Its number in the frame, counted from 1; clears are not counted.
     pub draw: u32,
     /// The display list that is called.
-    pub list: Option<u32>,
+    pub list: Option<ListName>,
     /// The projection under which the raster position was placed.
     pub raster: Projection,
     /// The projection matrix.
@@ -31,8 +32,8 @@ pub struct Traits {
     /// The depth range, where asked for.
     pub range: DepthRange,
     /// The 2D texture of the active unit, 0 for none; where asked for.
-    pub texture: u32,
-    /// The program of shaders that is in use, counted as they are linked, 0 for none; where asked for.
+    pub texture: TextureName,
+    /// The number of the program object in use, in the order of linking, 0 for none; where asked for.
     pub program: u32,
     /// The hash of its sources; where asked for.
     pub shader: u64,
@@ -255,8 +256,8 @@ fn matches(rule: &Rule, facts: &Traits) -> bool {
     let any = |names: &[u32], name: Option<u32>| {
         names.is_empty() || name.is_some_and(|name| names.contains(&name))
     };
-    any(&rule.texture, Some(facts.texture))
-        && any(&rule.list, facts.list)
+    any(&rule.texture, Some(facts.texture.0))
+        && any(&rule.list, facts.list.map(|list| list.0))
         && rule.projection.is_none_or(|p| p == facts.projection)
         && rule.viewport.is_none_or(|v| v == facts.viewport)
         && rule.depth_state.is_none_or(|d| d == facts.depth_state)
@@ -277,8 +278,8 @@ impl Traits {
             kind,
             target: match state.framebuffers.draw {
                 _ if state.draws_to_window() => Target::Window,
-                0 => Target::Nothing,
-                name => Target::Framebuffer(name),
+                FramebufferName::ZERO => Target::Nothing,
+                name => Target::Framebuffer(name.0),
             },
             draw: 0,
             list: None,
@@ -319,7 +320,7 @@ impl Traits {
             keys.push(format!("list = {list}"));
         }
         // Shaders are the same in every run, names of textures are not.
-        if self.texture != 0 && self.shader == 0 {
+        if !self.texture.is_zero() && self.shader == 0 {
             keys.push(format!("texture = {}", self.texture));
         }
         if keys.is_empty() || (self.shader == 0 && pass != 0 && keys.len() == 1) {

@@ -2,7 +2,7 @@
 
 use super::{State, Touch};
 use crate::config::{DepthRange, DepthState, Projection, Viewport};
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, TextureName, consts as c};
 
 /// State by which draws are classified. A group is valid once [`State::read_classification`] was asked for it, until a command
 /// touches it.
@@ -25,7 +25,7 @@ pub struct ClassificationState {
     /// The polygon stipple is on.
     pub stipple: bool,
     /// The 2D texture that the active unit samples; 0 for none.
-    pub texture: u32,
+    pub texture: TextureName,
     /// GL_MODELVIEW_MATRIX.
     pub modelview: [f32; 16],
 }
@@ -41,7 +41,7 @@ impl Default for ClassificationState {
             blends: false,
             stencil: false,
             stipple: false,
-            texture: 0,
+            texture: TextureName::ZERO,
             modelview: glam::Mat4::IDENTITY.to_cols_array(),
         }
     }
@@ -52,7 +52,7 @@ impl State {
     pub fn read_classification(&mut self, gl: &Gl, groups: Touch) {
         let stale = |group: Touch| groups.has(group) && self.touched.has(group);
         if stale(Touch::DEPTH) {
-            let buffer = self.framebuffers.draw != 0 || self.window.bits[4] > 0;
+            let buffer = !self.framebuffers.draw.is_zero() || self.window.bits[4] > 0;
             self.classification.depth = if !buffer || !gl.is_enabled(c::DEPTH_TEST) {
                 DepthState::Off
             } else if gl.get_integer(c::DEPTH_WRITEMASK) == 0 {
@@ -76,13 +76,14 @@ impl State {
                 self.has.compatibility && gl.is_enabled(c::POLYGON_STIPPLE);
         }
         if stale(Touch::TEXTURE) {
-            // Programs sample without it being enabled.
-            let sampled =
-                self.in_use.program != 0 || !self.has.compatibility || gl.is_enabled(c::TEXTURE_2D);
+            // Shaders sample a texture whether or not its target is enabled.
+            let sampled = !self.in_use.program.is_zero()
+                || !self.has.compatibility
+                || gl.is_enabled(c::TEXTURE_2D);
             self.classification.texture = if sampled {
-                gl.get_integer(c::TEXTURE_BINDING_2D) as u32
+                TextureName(gl.get_integer(c::TEXTURE_BINDING_2D) as u32)
             } else {
-                0
+                TextureName::ZERO
             };
         }
         if stale(Touch::MODELVIEW) && self.has.compatibility {
@@ -118,8 +119,8 @@ impl State {
 /// Where a near value of glDepthRange means that only a sky is drawn. Scenes use nearer ranges; that of Trigger Rally ends at 0.999.
 const FAR: f32 = 0.99;
 
-fn depth_range([near, far]: [f32; 2]) -> DepthRange {
 /// The part of the depth buffer between two values of glDepthRange.
+fn depth_range([near, far]: [f32; 2]) -> DepthRange {
     match (near.min(far), near.max(far)) {
         (0.0, 1.0) => DepthRange::Whole,
         (FAR.., _) => DepthRange::Far,

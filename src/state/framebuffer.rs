@@ -1,6 +1,6 @@
 //! Framebuffer 0 as the program sees it.
 
-use crate::gl::{Gl, consts as c};
+use crate::gl::{FramebufferName, Gl, consts as c};
 
 /// Which buffers a drawable has, and their names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,9 +125,9 @@ pub const FRONT: u32 = c::COLOR_ATTACHMENT1;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Framebuffers {
     /// GL_DRAW_FRAMEBUFFER_BINDING.
-    pub draw: u32,
+    pub draw: FramebufferName,
     /// GL_READ_FRAMEBUFFER_BINDING.
-    pub read: u32,
+    pub read: FramebufferName,
     /// glDrawBuffers of framebuffer 0.
     pub draw_buffers: Vec<u32>,
     /// glReadBuffer of framebuffer 0.
@@ -140,8 +140,8 @@ impl Framebuffers {
     /// The bindings and buffers of a new context.
     pub fn new(window: &Window) -> Self {
         Framebuffers {
-            draw: 0,
-            read: 0,
+            draw: FramebufferName::ZERO,
+            read: FramebufferName::ZERO,
             draw_buffers: vec![window.buffers.default_draw],
             read_buffer: window.buffers.default_read,
             buffers: window.buffers,
@@ -202,7 +202,7 @@ impl Framebuffers {
 
     /// Reads the draw buffer again: glPopAttrib may have restored another one of the atlas.
     pub(super) fn reread(&mut self, gl: &Gl) {
-        if self.draw != 0 {
+        if !self.draw.is_zero() {
             return;
         }
         let none = gl.get_integer(c::DRAW_BUFFER0) as u32 == c::NONE;

@@ -6,7 +6,9 @@
 
 use super::Shaders;
 use super::{Effect, Immediate, Touch};
-use crate::gl::{Fence, consts as c};
+use crate::gl::{
+    BufferName, Fence, FramebufferName, ListName, ProgramName, QueryName, TextureName, consts as c,
+};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -31,8 +33,8 @@ pub enum Run {
     Read,
     /// glCopyPixels.
     Copy,
-    /// glCallList of another list, known when it is called.
-    List(u32),
+    /// glCallList of another list, whose contents are looked up at the time of the call.
+    List(ListName),
     /// glDrawBuffer and glDrawBuffers: 0 or 1, and the program's names of the buffers, are in [`Segment::names`].
     DrawBuffers,
     /// glReadBuffer.
@@ -42,7 +44,7 @@ pub enum Run {
     /// glBlitFramebuffer: its arguments are in [`Segment::names`].
     Blit,
     /// glBeginQuery of a target and a query.
-    BeginQuery(u32, u32),
+    BeginQuery(u32, QueryName),
     /// glEndQuery of a target.
     EndQuery(u32),
 }
@@ -80,8 +82,8 @@ impl Run {
 pub struct Segment {
     /// Its kind.
     pub run: Run,
-    /// The driver's list that holds it.
-    pub name: u32,
+    /// The driver's list with its commands.
+    pub name: ListName,
     /// State groups that are stale after it.
     pub touch: Touch,
     /// The names of glCallLists, the buffers of glDrawBuffers, the arguments of glBlitFramebuffer, glClear and glAccum.
@@ -115,14 +117,14 @@ pub type Body = Arc<[Segment]>;
 /// Objects of the layer that stay in the share group when their context is destroyed; another context deletes them.
 #[derive(Debug, Default)]
 pub struct Orphans {
-    /// Framebuffer objects, which drivers share although they need not.
-    pub framebuffers: Vec<u32>,
+    /// Framebuffer objects, which some drivers share although the specification does not ask for it.
+    pub framebuffers: Vec<FramebufferName>,
     /// Textures.
-    pub textures: Vec<u32>,
+    pub textures: Vec<TextureName>,
     /// Programs.
-    pub programs: Vec<u32>,
+    pub programs: Vec<ProgramName>,
     /// Buffer objects.
-    pub buffers: Vec<u32>,
+    pub buffers: Vec<BufferName>,
     /// Sync objects.
     pub fences: Vec<Fence>,
 }
@@ -134,8 +136,8 @@ pub struct Lists {
     pub orphans: Orphans,
     /// The programs of the share group.
     pub shaders: Shaders,
-    bodies: HashMap<u32, Body>,
-    spare: Vec<u32>,
+    bodies: HashMap<ListName, Body>,
+    spare: Vec<ListName>,
     next: u32,
     highest: u32,
 }
@@ -159,24 +161,24 @@ impl Default for Lists {
 
 impl Lists {
     /// The runs of a list; `None` if it was not compiled under the layer.
-    pub fn body(&self, list: u32) -> Option<Body> {
+    pub fn body(&self, list: ListName) -> Option<Body> {
         self.bodies.get(&list).cloned()
     }
 
     /// A name for a run. `taken` says whether the driver knows a name already.
-    pub fn name(&mut self, mut taken: impl FnMut(u32) -> bool) -> u32 {
+    pub fn name(&mut self, mut taken: impl FnMut(ListName) -> bool) -> ListName {
         if let Some(name) = self.spare.pop() {
             return name;
         }
-        while taken(self.next) {
+        while taken(ListName(self.next)) {
             self.next -= 1;
         }
         self.next -= 1;
-        self.next + 1
+        ListName(self.next + 1)
     }
 
-    /// A name that is of no use any more.
-    pub fn spare(&mut self, name: u32) {
+    /// Gives back a name that no run uses any more.
+    pub fn spare(&mut self, name: ListName) {
         self.spare.push(name);
     }
 
@@ -185,45 +187,46 @@ impl Lists {
         TOP - self.next - self.spare.len() as u32
     }
 
-    /// Whether a name is one of ours.
-    pub fn owns(&self, name: u32) -> bool {
-        (self.next + 1..=TOP).contains(&name) && !self.bodies.contains_key(&name)
+    /// Whether a name is that of a run, not one of the program's.
+    pub fn owns(&self, name: ListName) -> bool {
+        (self.next + 1..=TOP).contains(&name.0) && !self.bodies.contains_key(&name)
     }
 
-    /// Where glGenLists would go on without us: above the highest name that the program has used (measured on Mesa 22.3).
-    pub fn free(&self, count: u32) -> Option<u32> {
+    /// The first of `count` names that glGenLists would give without the layer: above the highest name that the program has used
+    /// (measured on Mesa 22.3). `None` if they would meet the names of runs.
+    pub fn free(&self, count: u32) -> Option<ListName> {
         let first = self.highest + 1;
-        (self.next - first >= count).then_some(first)
+        (self.next - first >= count).then_some(ListName(first))
     }
 
-    /// The program has these names from glGenLists.
-    pub fn generated(&mut self, first: u32, count: u32) {
-        let last = first.saturating_add(count - 1);
-        self.used(last);
+    /// Notes names that the program has got from glGenLists; their lists are empty.
+    pub fn generated(&mut self, first: ListName, count: u32) {
+        let last = first.0.saturating_add(count - 1);
+        self.used(ListName(last));
         let empty = Body::default();
         self.bodies
-            .extend((first..=last).map(|name| (name, empty.clone())));
+            .extend((first.0..=last).map(|name| (ListName(name), empty.clone())));
     }
 
-    fn used(&mut self, name: u32) {
-        self.highest = self.highest.max(name.min(TOP - 1));
+    fn used(&mut self, name: ListName) {
+        self.highest = self.highest.max(name.0.min(TOP - 1));
     }
 
-    /// A list has been compiled; answers the names of the runs that nothing calls any more.
-    pub fn define(&mut self, list: u32, body: Body) -> Vec<u32> {
+    /// Notes a list that has been compiled; returns the names of the runs that nothing calls any more.
+    pub fn define(&mut self, list: ListName, body: Body) -> Vec<ListName> {
         self.used(list);
         let old = self.bodies.insert(list, body);
         self.release(old)
     }
 
-    /// Lists are deleted; answers the names of their runs.
-    pub fn delete(&mut self, first: u32, count: u32) -> Vec<u32> {
-        let range = first..first.saturating_add(count);
-        let gone: Vec<u32> = if count as usize > self.bodies.len() {
+    /// Notes that lists are deleted; returns the names of their runs.
+    pub fn delete(&mut self, first: ListName, count: u32) -> Vec<ListName> {
+        let range = first.0..first.0.saturating_add(count);
+        let gone: Vec<ListName> = if count as usize > self.bodies.len() {
             let known = self.bodies.keys().copied();
-            known.filter(|l| range.contains(l)).collect()
+            known.filter(|l| range.contains(&l.0)).collect()
         } else {
-            range.collect()
+            range.map(ListName).collect()
         };
         gone.into_iter()
             .flat_map(|list| {
@@ -233,8 +236,8 @@ impl Lists {
             .collect()
     }
 
-    fn release(&mut self, body: Option<Body>) -> Vec<u32> {
-        let names: Vec<u32> = body.iter().flat_map(|b| b.iter().map(|s| s.name)).collect();
+    fn release(&mut self, body: Option<Body>) -> Vec<ListName> {
+        let names: Vec<ListName> = body.iter().flat_map(|b| b.iter().map(|s| s.name)).collect();
         self.spare.extend(&names);
         names
     }
@@ -268,7 +271,7 @@ impl Start {
 #[derive(Debug)]
 pub struct Compiling {
     /// The program's name for it.
-    pub list: u32,
+    pub list: ListName,
     /// The mode that the program gave.
     pub mode: u32,
     /// The list is between glBegin and glEnd, where a run cannot end.
@@ -310,7 +313,7 @@ pub enum Command {
     PopAttrib,
 }
 
-fn fresh(name: u32) -> Segment {
+fn fresh(name: ListName) -> Segment {
     Segment {
         run: Run::Open,
         name,
@@ -328,7 +331,7 @@ fn fresh(name: u32) -> Segment {
 
 impl Compiling {
     /// glNewList. `name` is the driver's list of the first run.
-    pub fn new(list: u32, mode: u32, name: u32) -> Self {
+    pub fn new(list: ListName, mode: u32, name: ListName) -> Self {
         Compiling {
             list,
             mode,
@@ -366,7 +369,7 @@ impl Compiling {
     }
 
     /// The driver has ended the open run's list and begun another one.
-    pub fn split(&mut self, name: u32) {
+    pub fn split(&mut self, name: ListName) {
         let closed = std::mem::replace(&mut self.open, fresh(name));
         self.close(closed);
         (self.used, self.matrices) = (false, 0);
@@ -394,7 +397,7 @@ impl Compiling {
     }
 
     /// The driver's list of the open run.
-    pub fn name(&self) -> u32 {
+    pub fn name(&self) -> ListName {
         self.open.name
     }
 
@@ -464,7 +467,7 @@ impl Compiling {
 
     /// glEndList: closes the last run.
     pub fn finish(&mut self) {
-        self.split(0);
+        self.split(ListName::ZERO);
     }
 
     /// All runs, after [`Compiling::finish`].

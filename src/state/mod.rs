@@ -18,7 +18,7 @@ pub use shaders::{
     Linked, Matrices, Samplers, Shaders, Text, link_change, texts, uniform_change, uniform_changes,
 };
 
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, consts as c};
 
 /// Groups of driver state that a command may have changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,7 +124,7 @@ pub struct Primitives {
 #[derive(Debug, Default)]
 pub struct InUse {
     /// glUseProgram.
-    pub program: u32,
+    pub program: ProgramName,
     /// glBindProgramPipeline, which counts where no program is in use.
     pub pipeline: u32,
 }
@@ -246,7 +246,7 @@ impl State {
             self.matrices.mode = gl.get_integer(c::MATRIX_MODE) as u32;
         }
         if touched.has(Touch::OBJECTS) {
-            self.in_use.program = gl.get_integer(c::CURRENT_PROGRAM) as u32;
+            self.in_use.program = ProgramName(gl.get_integer(c::CURRENT_PROGRAM) as u32);
             if self.has.pipelines {
                 self.in_use.pipeline = gl.get_integer(c::PROGRAM_PIPELINE_BINDING) as u32;
             }
@@ -273,7 +273,7 @@ impl State {
 
     /// Whether a draw now makes a picture in framebuffer 0: not in a display list, selection, feedback or a framebuffer object.
     pub fn draws_to_window(&self) -> bool {
-        self.framebuffers.draw == 0 && self.makes_pictures()
+        self.framebuffers.draw.is_zero() && self.makes_pictures()
     }
 
     /// Whether a draw now makes a picture, in any framebuffer.

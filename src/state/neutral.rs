@@ -2,7 +2,7 @@
 //!
 //! Every pass of the layer takes a [`Neutral`] as an argument, so that none can run in the program's state.
 
-use crate::gl::{Gl, PixelStore, consts as c};
+use crate::gl::{Gl, PixelStore, ProgramName, TextureName, VertexArrayName, consts as c};
 
 /// Capabilities that would spoil a copy of colours; off while we draw.
 const CAPABILITIES: &[(u32, Needs)] = &[
@@ -205,12 +205,12 @@ impl Colours {
 /// The program, the program pipeline, the vertex array, and the bindings of the texture units from which passes sample.
 #[derive(Debug)]
 struct Objects {
-    program: u32,
+    program: ProgramName,
     pipeline: u32,
-    vertex_array: u32,
+    vertex_array: VertexArrayName,
     active: u32,
     /// By unit: 2D, 2D array and 2D multisample array texture, and sampler.
-    textures: Vec<[u32; 4]>,
+    textures: Vec<([TextureName; 3], u32)>,
     samplers: bool,
     sampled_arrays: bool,
 }
@@ -228,15 +228,16 @@ impl Objects {
                 true => name(c::SAMPLER_BINDING),
                 false => 0,
             };
-            textures.push([
-                name(c::TEXTURE_BINDING_2D),
-                name(c::TEXTURE_BINDING_2D_ARRAY),
+            let texture = |binding| TextureName(name(binding));
+            let bound = [
+                texture(c::TEXTURE_BINDING_2D),
+                texture(c::TEXTURE_BINDING_2D_ARRAY),
                 match sampled_arrays {
-                    true => name(c::TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY),
-                    false => 0,
+                    true => texture(c::TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY),
+                    false => TextureName::ZERO,
                 },
-                sampler,
-            ]);
+            ];
+            textures.push((bound, sampler));
             if sampler != 0 {
                 gl.bind_sampler(unit, 0);
             }
@@ -246,9 +247,9 @@ impl Objects {
             false => 0,
         };
         Objects {
-            program: name(c::CURRENT_PROGRAM),
+            program: ProgramName(name(c::CURRENT_PROGRAM)),
             pipeline,
-            vertex_array: name(c::VERTEX_ARRAY_BINDING),
+            vertex_array: VertexArrayName(name(c::VERTEX_ARRAY_BINDING)),
             active,
             textures,
             samplers,
@@ -257,15 +258,15 @@ impl Objects {
     }
 
     fn leave(&self, gl: &Gl) {
-        for (unit, t) in self.textures.iter().enumerate() {
+        for (unit, (t, sampler)) in self.textures.iter().enumerate() {
             gl.active_texture(c::TEXTURE0 + unit as u32);
             gl.bind_texture(c::TEXTURE_2D, t[0]);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, t[1]);
             if self.sampled_arrays {
                 gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, t[2]);
             }
-            if self.samplers && t[3] != 0 {
-                gl.bind_sampler(unit as u32, t[3]);
+            if self.samplers && *sampler != 0 {
+                gl.bind_sampler(unit as u32, *sampler);
             }
         }
         gl.active_texture(self.active);

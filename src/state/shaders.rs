@@ -1,6 +1,6 @@
 //! The sources from which the programs of a share group were linked.
 
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, consts as c};
 use crate::rewrite::Stage;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub struct Linked {
 /// The programs of a share group.
 #[derive(Debug, Default)]
 pub struct Shaders {
-    programs: HashMap<u32, Linked>,
+    programs: HashMap<ProgramName, Linked>,
     links: u64,
 }
 
@@ -57,8 +57,8 @@ pub fn link_change() -> u64 {
     LINKS.load(Ordering::Relaxed)
 }
 
-/// What a program has just been linked from. None where that failed, which leaves the executable that was there before.
-pub fn texts(gl: &Gl, program: u32) -> Option<Arc<[Text]>> {
+/// The sources from which a program has just been linked. `None` if linking failed; the program then keeps its earlier executable.
+pub fn texts(gl: &Gl, program: ProgramName) -> Option<Arc<[Text]>> {
     if gl.program_parameter(program, c::LINK_STATUS) == 0 {
         return None;
     }
@@ -75,8 +75,8 @@ pub fn texts(gl: &Gl, program: u32) -> Option<Arc<[Text]>> {
 }
 
 impl Shaders {
-    /// A program was linked.
-    pub fn linked(&mut self, program: u32, texts: Arc<[Text]>) {
+    /// Notes that a program was linked.
+    pub fn linked(&mut self, program: ProgramName, texts: Arc<[Text]>) {
         self.links += 1;
         LINKS.fetch_add(1, Ordering::Relaxed);
         let sum = sum(&texts);
@@ -84,8 +84,8 @@ impl Shaders {
         self.programs.insert(program, Linked { link, texts, sum });
     }
 
-    /// A program got its executable in another way, or is no more.
-    pub fn forget(&mut self, program: u32) {
+    /// Notes that a program got its executable in another way, or is deleted.
+    pub fn forget(&mut self, program: ProgramName) {
         LINKS.fetch_add(1, Ordering::Relaxed);
         self.programs.remove(&program);
     }
@@ -96,8 +96,8 @@ impl Shaders {
         found.cloned()
     }
 
-    /// What a program was linked from; none where that was not seen.
-    pub fn of(&self, program: u32) -> Option<Linked> {
+    /// The sources from which a program was linked; `None` if the layer has not seen it linked.
+    pub fn of(&self, program: ProgramName) -> Option<Linked> {
         self.programs.get(&program).cloned()
     }
 }
@@ -112,8 +112,8 @@ pub struct Matrices {
 }
 
 impl Matrices {
-    /// Of a program that is linked; of arrays the first.
-    pub fn of(gl: &Gl, program: u32) -> Matrices {
+    /// The matrices of a program that is linked; only the first of an array.
+    pub fn of(gl: &Gl, program: ProgramName) -> Matrices {
         let mut found = Matrices::default();
         for (index, active) in (0..).zip(gl.active_uniforms(program)) {
             if active.kind != c::FLOAT_MAT4 {
@@ -127,8 +127,8 @@ impl Matrices {
         found
     }
 
-    /// Those that are plain uniforms, with their locations.
-    pub fn uniforms(&self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
+    /// The locations and current values of those that are plain uniforms; values are column-major.
+    pub fn uniforms(&self, gl: &Gl, program: ProgramName) -> Vec<(i32, [f32; 16])> {
         let all = self.uniforms.iter();
         all.map(|&at| (at, gl.uniform_matrix(program, at)))
             .collect()
@@ -139,15 +139,15 @@ impl Matrices {
         !self.in_blocks.is_empty()
     }
 
-    /// One of them as it is now, in the order of [`Matrices::values`]; none for one in a buffer.
-    pub fn value(&self, gl: &Gl, program: u32, at: usize) -> Option<[f32; 16]> {
+    /// The current value of one of them, numbered as in [`Matrices::values`]; `None` for one in a buffer.
+    pub fn value(&self, gl: &Gl, program: ProgramName, at: usize) -> Option<[f32; 16]> {
         let location = self.uniforms.get(at)?;
         Some(gl.uniform_matrix(program, *location))
     }
 
     /// The current values, column-major. With `blocks` those in buffers follow: reading them waits for the driver and may raise an
     /// error.
-    pub fn values(&self, gl: &Gl, program: u32, blocks: bool) -> Vec<[f32; 16]> {
+    pub fn values(&self, gl: &Gl, program: ProgramName, blocks: bool) -> Vec<[f32; 16]> {
         let uniforms = self.uniforms.iter();
         let mut all: Vec<_> = uniforms.map(|&at| gl.uniform_matrix(program, at)).collect();
         if blocks {
@@ -168,8 +168,8 @@ pub struct Samplers {
 }
 
 impl Samplers {
-    /// Of a program that is linked.
-    pub fn of(gl: &Gl, program: u32) -> Samplers {
+    /// The samplers and images of a program that is linked.
+    pub fn of(gl: &Gl, program: ProgramName) -> Samplers {
         let mut found = Samplers::default();
         for active in gl.active_uniforms(program) {
             let (target, image) = (sampled(active.kind), is_image(active.kind));
@@ -188,15 +188,15 @@ impl Samplers {
         found
     }
 
-    /// Image units, counted from 0.
-    pub fn image_units(&self, gl: &Gl, program: u32) -> Vec<u32> {
+    /// The image units in use, counted from 0.
+    pub fn image_units(&self, gl: &Gl, program: ProgramName) -> Vec<u32> {
         let all = self.images.iter();
         all.map(|&at| gl.uniform_int(program, at).max(0).unsigned_abs())
             .collect()
     }
 
-    /// Texture units, counted from 0, and targets.
-    pub fn units(&self, gl: &Gl, program: u32) -> Vec<(u32, u32)> {
+    /// The texture units in use, counted from 0, and their targets.
+    pub fn units(&self, gl: &Gl, program: ProgramName) -> Vec<(u32, u32)> {
         let all = self.uniforms.iter();
         all.map(|&(at, target)| (gl.uniform_int(program, at).max(0).unsigned_abs(), target))
             .collect()

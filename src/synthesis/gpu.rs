@@ -7,7 +7,7 @@
 
 use crate::atlas::{Atlas, DistortionTarget, PyramidTarget, PyramidTextures, Tiles};
 use crate::config::DisocclusionSource;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, VertexArrayName, consts as c};
 use crate::interleave::shader::{
     BLOCK_BOUNDS_UNIT, DEPTH_UNIT, MaskUniforms, Pass, RAY_RANGE_UNIT, STEPS_UNITS, Synthesis,
     Uniforms, VIEWS_UNIT,
@@ -19,7 +19,7 @@ use crate::view::ViewIndex;
 /// The passes of one context.
 #[derive(Debug)]
 pub struct Passes {
-    vertex_array: u32,
+    vertex_array: VertexArrayName,
     block_bounds: Program,
     row_maxima: Program,
     ray_range: Program,
@@ -72,8 +72,8 @@ impl Passes {
         self.reference.is_some()
     }
 
-    /// The names of its programs.
-    pub fn programs(&self) -> impl Iterator<Item = u32> {
+    /// The GL names of all programs.
+    pub fn programs(&self) -> impl Iterator<Item = ProgramName> {
         let reference = self
             .reference
             .iter()

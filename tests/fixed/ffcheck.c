@@ -87,8 +87,8 @@ static struct {
     double sep, conv;
     float projection[16];
     int viewport[4]; /* in the tile */
-    int spacing, offset; /* the program draws every `spacing`th column of a window, the first is `offset` */
-    double floor;        /* above 0: a floor that ends there, with as many tiles of texture */
+    int spacing, offset; /* the program draws every `spacing`th column of a window, from column `offset` on */
+    double floor;        /* above 0: a floor that ends there, with its texture repeated as often */
     int color_sum, two_side, point_size, last_vertex_convention;
     unsigned clip_distances;
 } c;
@@ -300,7 +300,7 @@ static Vertex at(double u, double v, unsigned id)
     x.normal[1] = (float)(cos(b) * sin(a));
     x.normal[2] = (float)sin(b);
     for (int i = 0; i < 4; i++)
-        x.color[i] = 0.1f + 1.0f * noise(id, (unsigned)i); /* up to 1.1: clamping shows */
+        x.color[i] = 0.1f + 1.0f * noise(id, (unsigned)i); /* up to 1.1, so that clamping shows */
     for (int i = 0; i < 3; i++)
         x.secondary[i] = 0.5f * noise(id, 10 + (unsigned)i);
     x.fog = 6 * noise(id, 20) - 1;

@@ -8,7 +8,7 @@ static struct {
     GLdouble doubles[VERTICES * 8 + 16];
     GLshort shorts[VERTICES * 32 + 16];
     GLubyte bytes[VERTICES * 64 + 64];
-    GLboolean flags[VERTICES]; /* 0 and 1: Mesa 22.3 draws the edge of any other flag, but glGet says that it is false */
+    GLboolean flags[VERTICES]; /* 0 and 1 only: Mesa 22.3 draws the edge of any other flag, although glGet answers false */
     GLuint indices[VERTICES * 4];
 } data;
 
@@ -145,11 +145,11 @@ static void primitive(void)
     R->begin = 1;
     /* In a loop Mesa 22.3 loses edges where an attribute is set for the first time since its last flush, so none is set. */
     R->loop = mode == GL_LINE_LOOP;
-    int n = chance(5) || mode == 0x123 ? 0 : (int)below(14); /* a vertex outside is undefined */
+    int n = chance(5) || mode == 0x123 ? 0 : (int)below(14); /* a vertex outside of glBegin and glEnd is undefined */
     int inside = !R->list && !R->loop && !(O.without >> IN_BEGIN & 1) && chance(8);
     if (n)
         vertex_calls(n / 2);
-    if (inside) { /* nearly all of these are wrong here */
+    if (inside) { /* nearly all of these are errors here */
         part();
         if (!dropped())
             any_call();
@@ -158,7 +158,7 @@ static void primitive(void)
     R->part = 0;
     R->begin = R->loop = 0;
     CALL0(glEnd);
-    if (inside) /* a list or a primitive begun in there */
+    if (inside) /* ends a list or a primitive that was begun inside */
         CALL0(glEnd);
     after_primitive();
 }

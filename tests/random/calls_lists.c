@@ -55,7 +55,7 @@ static void define(GLuint name, int parts, int may_call)
             continue;
         int at = R->part;
         any_call();
-        R->part = at + 64; /* a primitive has parts of its own */
+        R->part = at + 64; /* a primitive has its own parts */
         R->begin = begin;
         next_piece();
     }

@@ -7,7 +7,7 @@ void prepare_pixels(void)
 {
     struct run run = {.random = 77};
     R = &run;
-    float *f = (float *)source; /* so that every type has values of a sane size */
+    float *f = (float *)source; /* floats, so that the values are of a plausible size in every type */
     for (size_t i = 0; i < MEMORY / sizeof *f; i++)
         f[i] = within(0.001f, 1);
     R = NULL;
@@ -61,7 +61,7 @@ static void without_textures(void)
 static void drawn_pixels(void)
 {
     without_textures();
-    int width = (int)below(18), height = R->list || chance(97) ? (int)below(14) : -1; /* Mesa 22.3: not in lists */
+    int width = (int)below(18), height = R->list || chance(97) ? (int)below(14) : -1; /* no negative height in lists, for Mesa 22.3 */
     switch (below(8)) {
     case 0: case 1:
         CALL(glBitmap, width, height, within(-2, 4), within(-2, 4), within(-8, 8), within(-4, 4), (const GLubyte *)pixel_source());

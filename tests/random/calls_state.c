@@ -53,7 +53,7 @@ static GLenum capability(void)
                 GL_POLYGON_STIPPLE, GL_RESCALE_NORMAL, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_TEXTURE_1D, GL_TEXTURE_2D,
                 GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_GEN_S, GL_TEXTURE_GEN_T, GL_TEXTURE_GEN_Q,
                 GL_INDEX_LOGIC_OP, GL_VERTEX_PROGRAM_TWO_SIDE, GL_SAMPLE_ALPHA_TO_COVERAGE,
-                W->windows ? GL_FRAMEBUFFER_SRGB : GL_DITHER); /* Mesa 22.3 converts nothing in pbuffers that say they are sRGB */
+                W->windows ? GL_FRAMEBUFFER_SRGB : GL_DITHER); /* Mesa 22.3 converts nothing in pbuffers that claim to be sRGB */
 }
 
 static void enable(void) { CALL(glEnable, capability()); }

@@ -205,7 +205,7 @@ static void textures(void)
         memset(R->memory, 0, 65536);
         if (v[0] && v[0] <= 64 && v[1] <= 64)
             glGetTexImage(target, 0, GL_RGBA, GL_UNSIGNED_BYTE, R->memory);
-        while (glGetError()); /* a name bound to another kind */
+        while (glGetError()); /* a name may be bound to another target */
         tell(&R->pixels, "texture %d %dx%d 0x%x %x %x %d image %llx", i, v[0], v[1], v[2], v[3], v[4], v[5],
              (unsigned long long)hash(R->memory, 65536));
     }

@@ -242,7 +242,7 @@ static void take_context(struct context *c, int number, struct context *share)
     glFeedbackBuffer(VALUES, GL_3D_COLOR, c->feedback);
     glSelectBuffer(VALUES, c->selection);
     GLfloat aspect = (GLfloat)WIDTH / HEIGHT;
-    if (R->seed % 4) { /* else: identities */
+    if (R->seed % 4) { /* else all matrices are identities */
         glMatrixMode(GL_PROJECTION);
         glFrustum(-aspect / 2, aspect / 2, -0.5, 0.5, 1, 20);
         glMatrixMode(GL_MODELVIEW);

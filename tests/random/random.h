@@ -35,12 +35,12 @@ struct run {
     int thread; /* 0 or 1 */
     int begin, list; /* between glBegin and glEnd; the list that is being compiled */
     int loop;        /* between glBegin(GL_LINE_LOOP) and glEnd */
-    int executes;    /* with GL_COMPILE_AND_EXECUTE */
+    int executes;    /* the list is compiled with GL_COMPILE_AND_EXECUTE */
     struct context contexts[CONTEXTS], *now;
     int context_count;
     FILE *out;
     uint64_t answers, state, pixels;
-    unsigned char *memory; /* what GL writes to */
+    unsigned char *memory; /* memory that GL writes to */
 };
 extern __thread struct run *R;
 
@@ -130,16 +130,16 @@ struct generator {
     void (*call)(void);
 };
 extern const struct generator state_calls[], draw_calls[], pixel_calls[], object_calls[], list_calls[];
-void any_call(void);        /* of all tables (main.c) */
-void vertex_calls(int n);   /* as between glBegin and glEnd (calls_draw.c) */
+void any_call(void);        /* a call from any table (main.c) */
+void vertex_calls(int n);   /* legal calls between glBegin and glEnd (calls_draw.c) */
 void disturb(void);
-void after_primitive(void); /* in a list (calls_draw.c) */
-GLbitfield whole_mask(void); /* what a glPushAttrib within another one pushes (calls_state.c) */
+void after_primitive(void); /* flushes the primitive in a list (calls_draw.c) */
+GLbitfield whole_mask(void); /* the groups that an inner glPushAttrib saves (calls_state.c) */
 int bound(GLenum name);     /* glGetIntegerv; 0 between glBegin and glEnd */
 int framebuffer_bound(void);
-void array_pointers(void);  /* every pointer at memory that may be read (calls_draw.c) */
+void array_pointers(void);  /* points every array at readable memory (calls_draw.c) */
 void prepare_data(void);    /* once per process (calls_draw.c) */
-void prepare_pixels(void);  /* as well (calls_pixels.c) */
+void prepare_pixels(void);  /* once per process (calls_pixels.c) */
 const void *pixel_source(void);
 void *pixel_target(void);
 
@@ -154,7 +154,7 @@ struct window_api {
     void (*current)(void *handle, int drawable); /* null: none */
     void (*destroy)(void *handle);
     void (*swap)(int drawable);
-    int windows; /* not pbuffers */
+    int windows; /* 0: pbuffers */
 };
 extern const struct window_api window_egl, window_glx, window_osmesa;
 extern const struct window_api *W;

@@ -4,8 +4,8 @@
     tests/random/reduce.py [--api egl|glx|osmesa] [--without CLASSES] [--atlas layers] [--reduce] [--mesa] FIRST COUNT
 
 Prints the seeds that differ; with --reduce, for each of them, the steps that can be left out (--drop), the calls that remain and
-the first answers that differ. Sequences that Mesa alone answers in another way when it is disturbed are left out; with --mesa they
-are not. Wants `make build` and one run of the test, which builds the programs.
+the first answers that differ. Sequences that are nondeterministic in Mesa alone are left out, unless --mesa is
+given. Needs `make build` and one run of the test, which builds the programs.
 """
 import argparse
 import os

@@ -32,7 +32,7 @@ static void egl_open(int drawables)
 
 static void *egl_create(void *share)
 {
-    eglBindAPI(EGL_OPENGL_API); /* is of the thread */
+    eglBindAPI(EGL_OPENGL_API); /* the API is a setting of the thread */
     return eglCreateContext(display, config, share ? share : EGL_NO_CONTEXT, NULL);
 }
 

@@ -175,7 +175,7 @@ pub fn entry(commands: &[Command]) -> String {
         .filter(|(_, c)| c.class != "call")
         .collect();
     let mut o = String::from(HEAD);
-    o.push_str("use crate::hooks::{self, Command, Kind, Object, Place, Touch, imm};\nuse crate::{special, switch};\nuse core::ffi::c_ulong;\nuse core::sync::atomic::{AtomicPtr, Ordering::Relaxed};\nuse manyview_core::gl::{Ptr, slot};\nuse manyview_core::state::Effect;\n\n");
+    o.push_str("use crate::hooks::{self, Command, Kind, Object, Place, Touch, imm};\nuse crate::{special, switch};\nuse core::ffi::c_ulong;\nuse core::sync::atomic::{AtomicPtr, Ordering::Relaxed};\nuse manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};\nuse manyview_core::state::Effect;\n\n");
     o.push_str("/// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.\n");
     writeln!(
         o,
@@ -273,7 +273,7 @@ pub fn entry(commands: &[Command]) -> String {
                     "matrix" => format!("matrix(Command::{arg})"),
                     "any" | "ask" | "uniform" | "look" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
                     "texture" => "texture(target)".into(),
-                    "named" => format!("named(Object::{arg}({}))", c.params[0].name),
+                    "named" => format!("named(Object::{arg}({arg}Name({})))", c.params[0].name),
                     _ => format!("cap({}, {})", c.params[0].name, name.starts_with("glEnable")),
                 };
                 writeln!(o, "    hooks::{note};\n    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call}{}", if c.ret == "()" { ";" } else { "" }).unwrap();

@@ -5,7 +5,7 @@ use crate::hooks::{ask, compile, imm};
 use core::slice::from_raw_parts;
 use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Indices, Vertices};
-use manyview_core::gl::{Ptr, slot};
+use manyview_core::gl::{ListName, Ptr, slot};
 use manyview_core::layer::{Primitive, Primitives};
 use manyview_core::plan::Kind;
 use manyview_core::state::{Command, Effect, Run, Touch};
@@ -143,9 +143,9 @@ pub(crate) unsafe fn glCopyPixels(x: i32, y: i32, width: i32, height: i32, type_
 
 pub(crate) unsafe fn glNewList(list: u32, mode: u32) {
     ask();
-    let name = enter(|gl, l| l.new_list(gl, list, mode)).flatten();
+    let name = enter(|gl, l| l.new_list(gl, ListName(list), mode)).flatten();
     // SAFETY: the program's own call, or the first run of its list.
-    unsafe { real().glNewList(name.unwrap_or(list), mode) };
+    unsafe { real().glNewList(name.map_or(list, |name| name.0), mode) };
 }
 
 pub(crate) unsafe fn glEndList() {
@@ -160,7 +160,8 @@ pub(crate) unsafe fn glGenLists(range: i32) -> u32 {
     let first = unsafe { real().glGenLists(range) };
     match u32::try_from(range) {
         Ok(count @ 1..) if first != 0 => {
-            enter(|gl, l| l.generated_lists(gl, first, count)).unwrap_or(first)
+            enter(|gl, l| l.generated_lists(gl, ListName(first), count))
+                .map_or(first, |name| name.0)
         }
         _ => first,
     }
@@ -170,8 +171,8 @@ pub(crate) unsafe fn glIsList(list: u32) -> u8 {
     ask();
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsList(list) };
-    // Ours are none that the program has made.
-    is & u8::from(peek(|l| l.owns_list(list)) != Some(true))
+    // Lists of ours do not exist for the program.
+    is & u8::from(peek(|l| l.owns_list(ListName(list))) != Some(true))
 }
 
 pub(crate) unsafe fn glDeleteLists(list: u32, range: i32) {
@@ -179,27 +180,28 @@ pub(crate) unsafe fn glDeleteLists(list: u32, range: i32) {
     // SAFETY: the program's own call.
     unsafe { real().glDeleteLists(list, range) };
     if let Ok(range) = u32::try_from(range) {
-        enter(|gl, l| l.deleted_lists(gl, list, range));
+        enter(|gl, l| l.deleted_lists(gl, ListName(list), range));
     }
 }
 
 pub(crate) unsafe fn glCallList(list: u32) {
+    let name = ListName(list);
     if recording() {
-        return record_list(list);
+        return record_list(name);
     }
     if inside() == Inside::Direct {
         // SAFETY: the program's own call.
         unsafe { real().glCallList(list) };
-        return direct_list(list);
+        return direct_list(name);
     }
-    compile(Command::Of(Run::List(list)), Touch::NONE);
+    compile(Command::Of(Run::List(name)), Touch::NONE);
     // SAFETY: the program's own call.
     let mut call = || unsafe { real().glCallList(list) };
     if enter(|gl, l| {
         if l.compiles() {
             call();
         } else {
-            l.call_lists(gl, Some(&[list]), &mut call);
+            l.call_lists(gl, Some(&[name]), &mut call);
         }
     })
     .is_none()
@@ -224,14 +226,14 @@ fn outside<R>(ask: impl FnOnce() -> R) -> R {
     r
 }
 
-/// A list was called between glBegin and glEnd, and the calls go to the driver.
-fn direct_list(list: u32) {
+/// After a list that was called between glBegin and glEnd while calls go to the driver.
+fn direct_list(list: ListName) {
     if peek_inside(|l| l.closed_in_driver(list)) == Some(true) {
         set_inside(Inside::Outside);
     }
 }
 
-fn record_list(list: u32) {
+fn record_list(list: ListName) {
     if peek_inside(|l| l.closes(list)) == Some(true) {
         // SAFETY: the driver is between glBegin and glEnd.
         unsafe { real().glEnd() };
@@ -239,7 +241,7 @@ fn record_list(list: u32) {
         enter(|gl, l| l.close_by_list(gl, list));
         return after_lists();
     }
-    imm::record(slot::glCallList, Effect::UNKNOWN, |rec| rec.u32(list));
+    imm::record(slot::glCallList, Effect::UNKNOWN, |rec| rec.u32(list.0));
 }
 
 /// Names of lists as glCallLists reads them, without the list base.
@@ -307,8 +309,8 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
             return l.compiled_names(names.as_deref().unwrap_or_default());
         }
         let base = gl.get_integer(LIST_BASE) as u32;
-        let names: Option<Vec<u32>> =
-            names.map(|l| l.into_iter().map(|n| n.wrapping_add(base)).collect());
+        let name = |n: u32| ListName(n.wrapping_add(base));
+        let names: Option<Vec<ListName>> = names.map(|l| l.into_iter().map(name).collect());
         l.call_lists(gl, names.as_deref(), &mut call);
     });
     if done.is_none() {

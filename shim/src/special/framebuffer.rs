@@ -3,7 +3,7 @@
 use crate::context::{enter, real};
 use crate::hooks::{Object, ask, compile, copied, named, write_back};
 use core::slice::from_raw_parts;
-use manyview_core::gl::{Gl, Ptr, consts as c};
+use manyview_core::gl::{FramebufferName, Gl, Ptr, RenderbufferName, TextureName, consts as c};
 use manyview_core::layer::{Layer, is_scaled};
 use manyview_core::plan::Kind;
 use manyview_core::state::{Command, Run, Touch};
@@ -11,7 +11,8 @@ use manyview_core::state::{Command, Run, Touch};
 pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
     ask();
     // SAFETY: a name that the program or the layer made.
-    let mut bind = |t, n| unsafe { real().glBindFramebuffer(t, n) };
+    let mut bind = |t, n: FramebufferName| unsafe { real().glBindFramebuffer(t, n.0) };
+    let framebuffer = FramebufferName(framebuffer);
     if enter(|_, l| l.bind_framebuffer(target, framebuffer, &mut bind)).is_none() {
         bind(target, framebuffer);
     }
@@ -20,7 +21,8 @@ pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
 pub(crate) unsafe fn glBindFramebufferEXT(target: u32, framebuffer: u32) {
     ask();
     // SAFETY: a name that the program or the layer made.
-    let mut bind = |t, n| unsafe { real().glBindFramebufferEXT(t, n) };
+    let mut bind = |t, n: FramebufferName| unsafe { real().glBindFramebufferEXT(t, n.0) };
+    let framebuffer = FramebufferName(framebuffer);
     if enter(|_, l| l.bind_framebuffer(target, framebuffer, &mut bind)).is_none() {
         bind(target, framebuffer);
     }
@@ -31,7 +33,7 @@ pub(crate) unsafe fn glDeleteFramebuffers(n: i32, framebuffers: Ptr) {
     let names = match usize::try_from(n) {
         Ok(n) if !framebuffers.is_null() => {
             // SAFETY: n names (the program's array), copied before the driver runs.
-            unsafe { from_raw_parts(framebuffers as *const u32, n) }.to_vec()
+            unsafe { from_raw_parts(framebuffers as *const FramebufferName, n) }.to_vec()
         }
         _ => Vec::new(),
     };
@@ -44,7 +46,7 @@ pub(crate) unsafe fn glDeleteRenderbuffers(n: i32, renderbuffers: Ptr) {
     ask();
     if !renderbuffers.is_null() && n > 0 {
         // SAFETY: n names (the program's array).
-        let names = unsafe { from_raw_parts(renderbuffers as *const u32, n as usize) };
+        let names = unsafe { from_raw_parts(renderbuffers as *const RenderbufferName, n as usize) };
         copied(|gl, l| l.deleted_renderbuffers(gl, names));
     }
     // SAFETY: the program's own call.
@@ -70,8 +72,8 @@ pub(crate) unsafe fn glCopyImageSubData(
 ) {
     write_back();
     named(match dstTarget {
-        c::RENDERBUFFER => Object::Renderbuffer(dstName),
-        _ => Object::Texture(dstName),
+        c::RENDERBUFFER => Object::Renderbuffer(RenderbufferName(dstName)),
+        _ => Object::Texture(TextureName(dstName)),
     });
     // SAFETY: the program's own call.
     unsafe {
@@ -87,8 +89,8 @@ pub(crate) unsafe fn glGenerateTextureMipmap(texture: u32) {
     // SAFETY: the program's own call.
     unsafe { real().glGenerateTextureMipmap(texture) };
     // SAFETY: the program's own call, on a texture of ours.
-    let call = &mut |name| unsafe { real().glGenerateTextureMipmap(name) };
-    copied(|gl, l| l.mipmaps_of(gl, texture, call));
+    let call = &mut |name: TextureName| unsafe { real().glGenerateTextureMipmap(name.0) };
+    copied(|gl, l| l.mipmaps_of(gl, TextureName(texture), call));
 }
 
 /// A call that chooses buffers. `ours` handles framebuffer 0; the driver handles the others, and names that `ours` does not know.
@@ -354,7 +356,11 @@ pub(crate) unsafe fn glBlitNamedFramebuffer(
     let done = done
         .then(|| {
             enter(|gl, l| {
-                l.with_bound(gl, drawFramebuffer, Some(readFramebuffer), |l| {
+                let (draw, read) = (
+                    FramebufferName(drawFramebuffer),
+                    FramebufferName(readFramebuffer),
+                );
+                l.with_bound(gl, draw, Some(read), |l| {
                     let (mask, filter) = (mask as i32, filter as i32);
                     let arguments = [
                         srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter,
@@ -385,11 +391,11 @@ pub(crate) unsafe fn glBlitNamedFramebuffer(
     }
 }
 
-/// A clear of framebuffer 0 by name: as if it were bound. Answers whether it was done.
-fn clear_zero(framebuffer: u32, call: &mut dyn FnMut()) -> bool {
-    framebuffer == 0
+/// A clear of framebuffer 0 by name, which is drawn as if it were bound. Returns whether it was done.
+fn clear_zero(framebuffer: FramebufferName, call: &mut dyn FnMut()) -> bool {
+    framebuffer.is_zero()
         && enter(|gl, l| {
-            l.with_bound(gl, 0, None, |l| {
+            l.with_bound(gl, framebuffer, None, |l| {
                 l.draw(
                     gl,
                     Kind::Clear {
@@ -408,7 +414,7 @@ macro_rules! clear_named {
     ($name:ident, $zero:ident, $($arg:ident: $kind:ty),+) => {
         pub(crate) unsafe fn $name(framebuffer: u32, buffer: u32, drawbuffer: i32, $($arg: $kind),+) {
             // SAFETY: the program's own arguments.
-            if !clear_zero(framebuffer, &mut || unsafe { real().$zero(buffer, drawbuffer, $($arg),+) }) {
+            if !clear_zero(FramebufferName(framebuffer), &mut || unsafe { real().$zero(buffer, drawbuffer, $($arg),+) }) {
                 // SAFETY: the program's own call.
                 unsafe { real().$name(framebuffer, buffer, drawbuffer, $($arg),+) };
             }

@@ -2,13 +2,13 @@
 
 use crate::context::{enter, peek, real};
 use crate::hooks::{Touch, ask, touch};
-use manyview_core::gl::{Ptr, consts::DELETE_STATUS};
+use manyview_core::gl::{ProgramName, Ptr, consts::DELETE_STATUS};
 
 pub(crate) unsafe fn glLinkProgram(program: u32) {
     ask();
     // SAFETY: the program's own call.
     unsafe { real().glLinkProgram(program) };
-    enter(|gl, l| l.linked(gl, program));
+    enter(|gl, l| l.linked(gl, ProgramName(program)));
 }
 
 pub(crate) unsafe fn glProgramBinary(program: u32, format: u32, binary: Ptr, length: i32) {
@@ -18,7 +18,7 @@ pub(crate) unsafe fn glProgramBinary(program: u32, format: u32, binary: Ptr, len
     let format = if refused { 0 } else { format };
     // SAFETY: the program's own call.
     unsafe { real().glProgramBinary(program, format, binary, length) };
-    enter(|_, l| l.forget_program(program));
+    enter(|_, l| l.forget_program(ProgramName(program)));
 }
 
 pub(crate) unsafe fn glUseProgram(program: u32) {
@@ -32,18 +32,21 @@ pub(crate) unsafe fn glUseProgram(program: u32) {
 
 pub(crate) unsafe fn glDeleteProgram(program: u32) {
     ask();
-    if enter(|gl, l| l.dooms(gl, program)) == Some(true) {
+    if enter(|gl, l| l.dooms(gl, ProgramName(program))) == Some(true) {
         return;
     }
     // SAFETY: the program's own call.
     unsafe { real().glDeleteProgram(program) };
-    enter(|gl, l| l.deleted_program(gl, program));
+    enter(|gl, l| l.deleted_program(gl, ProgramName(program)));
 }
 
 pub(crate) unsafe fn glGetProgramiv(program: u32, pname: u32, params: Ptr) {
     // SAFETY: the program's own call.
     unsafe { real().glGetProgramiv(program, pname, params) };
-    if pname == DELETE_STATUS && !params.is_null() && peek(|l| l.is_doomed(program)) == Some(true) {
+    if pname == DELETE_STATUS
+        && !params.is_null()
+        && peek(|l| l.is_doomed(ProgramName(program))) == Some(true)
+    {
         // SAFETY: the driver has just written the one value of this name there.
         unsafe { params.cast::<i32>().write_unaligned(1) };
     }

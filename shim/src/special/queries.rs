@@ -3,8 +3,8 @@
 use crate::context::{enter, peek, real};
 use crate::hooks::{ask, compile};
 use core::slice::from_raw_parts;
-use manyview_core::gl::Ptr;
 use manyview_core::gl::consts::CURRENT_QUERY;
+use manyview_core::gl::{Ptr, QueryName};
 use manyview_core::layer::Answer;
 use manyview_core::state::{Command, Run, Touch};
 
@@ -12,11 +12,12 @@ use manyview_core::state::{Command, Run, Touch};
 macro_rules! counted {
     ($begin:ident, $end:ident) => {
         pub(crate) unsafe fn $begin(target: u32, id: u32) {
-            let compiled = compile(Command::Of(Run::BeginQuery(target, id)), Touch::NONE);
+            let query = QueryName(id);
+            let compiled = compile(Command::Of(Run::BeginQuery(target, query)), Touch::NONE);
             // SAFETY: the program's own call.
             unsafe { real().$begin(target, id) };
             if !compiled {
-                enter(|gl, l| l.begun_query(gl, target, id));
+                enter(|gl, l| l.begun_query(gl, target, query));
             }
         }
 
@@ -37,7 +38,7 @@ counted!(glBeginQueryEXT, glEndQueryEXT);
 pub(crate) unsafe fn glDeleteQueries(n: i32, ids: Ptr) {
     let names = match usize::try_from(n) {
         // SAFETY: n names (the program's array), copied before the driver runs.
-        Ok(n) if !ids.is_null() => unsafe { from_raw_parts(ids as *const u32, n) }.to_vec(),
+        Ok(n) if !ids.is_null() => unsafe { from_raw_parts(ids as *const QueryName, n) }.to_vec(),
         _ => Vec::new(),
     };
     // SAFETY: the program's own call.
@@ -56,7 +57,7 @@ macro_rules! query_target {
                 && let Some(Some(query)) = peek(|l| l.current_query(target))
             {
                 // SAFETY: the driver has written one value there.
-                unsafe { *params.cast::<i32>() = query as i32 };
+                unsafe { *params.cast::<i32>() = query.0 as i32 };
             }
         }
     };
@@ -66,9 +67,10 @@ query_target!(glGetQueryiv);
 query_target!(glGetQueryivEXT);
 
 pub(crate) unsafe fn glBeginConditionalRender(id: u32, mode: u32) {
-    let part = enter(|gl, l| l.condition(gl, id)).unwrap_or(id);
+    let query = QueryName(id);
+    let part = enter(|gl, l| l.condition(gl, query)).unwrap_or(query);
     // SAFETY: the program's own call, or on a query of ours.
-    unsafe { real().glBeginConditionalRender(part, mode) };
+    unsafe { real().glBeginConditionalRender(part.0, mode) };
     enter(|gl, l| l.begun_condition(gl, part, mode));
 }
 
@@ -78,9 +80,9 @@ pub(crate) unsafe fn glEndConditionalRender() {
     enter(|_, l| l.ended_condition());
 }
 
-/// What our queries add to the driver's answer, which is in the program's memory.
-fn more(id: u32, pname: u32, params: Ptr) -> Option<Answer> {
-    let answer = enter(|gl, l| l.query_answer(gl, id, pname)).flatten()?;
+/// The part of a result that our queries hold, to be merged with the driver's part in the program's memory.
+fn more(query: QueryName, pname: u32, params: Ptr) -> Option<Answer> {
+    let answer = enter(|gl, l| l.query_answer(gl, query, pname)).flatten()?;
     (!params.is_null()).then_some(answer)
 }
 
@@ -88,10 +90,11 @@ macro_rules! query_object {
     ($name:ident, $value:ty) => {
         pub(crate) unsafe fn $name(id: u32, pname: u32, params: Ptr) {
             ask();
-            let asked = peek(|l| l.asked_query(id)).unwrap_or(id);
+            let query = QueryName(id);
+            let asked = peek(|l| l.asked_query(query)).unwrap_or(query);
             // SAFETY: the program's own call.
-            unsafe { real().$name(asked, pname, params) };
-            if let Some(answer) = more(id, pname, params) {
+            unsafe { real().$name(asked.0, pname, params) };
+            if let Some(answer) = more(query, pname, params) {
                 // SAFETY: the driver has written one value there.
                 let value = unsafe { &mut *params.cast::<$value>() };
                 *value = match answer {

@@ -2,7 +2,7 @@
 
 use crate::context::{draws_to_memory, enter, frame, peek, real, viewport_set, write_back_shared};
 use crate::hooks::{ask, compile, touch};
-use manyview_core::gl::{Ptr, consts::PROGRAM_BINARY_FORMATS};
+use manyview_core::gl::{FramebufferName, Ptr, TextureName, consts::PROGRAM_BINARY_FORMATS};
 use manyview_core::state::{Command, Touch};
 
 pub(crate) unsafe fn glMatrixMode(mode: u32) {
@@ -22,8 +22,9 @@ pub(crate) unsafe fn glViewport(x: i32, y: i32, width: i32, height: i32) {
 }
 
 pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
-    if peek(|l| l.compiles() || l.owns_texture(texture)) == Some(true) {
-        enter(|gl, l| l.binds_texture(gl, texture));
+    let name = TextureName(texture);
+    if peek(|l| l.compiles() || l.owns_texture(name)) == Some(true) {
+        enter(|gl, l| l.binds_texture(gl, name));
     }
     touch(Touch::TEXTURE);
     // SAFETY: the program's own call.
@@ -35,7 +36,7 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
     let names = match usize::try_from(n) {
         // SAFETY: n names (the program's array).
         Ok(n) if !textures.is_null() => unsafe {
-            core::slice::from_raw_parts(textures as *const u32, n)
+            core::slice::from_raw_parts(textures as *const TextureName, n)
         },
         _ => &[],
     };
@@ -72,15 +73,15 @@ pub(crate) unsafe fn glIsTexture(texture: u32) -> u8 {
     ask();
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsTexture(texture) };
-    // Ours are none that the program has been given.
-    is & u8::from(peek(|l| l.owns_texture(texture)) != Some(true))
+    // Textures of ours do not exist for the program.
+    is & u8::from(peek(|l| l.owns_texture(TextureName(texture))) != Some(true))
 }
 
 pub(crate) unsafe fn glIsFramebuffer(framebuffer: u32) -> u8 {
     ask();
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsFramebuffer(framebuffer) };
-    is & u8::from(peek(|l| l.owns_framebuffer(framebuffer)) != Some(true))
+    is & u8::from(peek(|l| l.owns_framebuffer(FramebufferName(framebuffer))) != Some(true))
 }
 
 pub(crate) unsafe fn glRenderMode(mode: u32) -> i32 {

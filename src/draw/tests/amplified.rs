@@ -8,7 +8,7 @@ use crate::config::AtlasLayout::{Layers, SideBySide};
 use crate::config::{AtlasLayout, Clip};
 use crate::fixed::{Amplifier, FixedKey, Primitive, Target, Tiles, Unsupported};
 use crate::gl::fake::{Fake, Scope};
-use crate::gl::{Gl, Vertices, consts as c};
+use crate::gl::{Gl, ProgramName, Vertices, consts as c};
 use crate::plan::{Method, Reason};
 use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, RngSeed};
@@ -95,7 +95,7 @@ fn one_call_draws_all_views_and_leaves_no_trace() {
             assert_eq!(drawing.draw(method), [4], "{layout:?} {method:?}");
             drawing.stage.fake.assert_restored(&before);
             let drawn = &drawing.stage.fake.draws()[0].state;
-            let program = drawn.value(c::CURRENT_PROGRAM)[0] as u32;
+            let program = ProgramName(drawn.value(c::CURRENT_PROGRAM)[0] as u32);
             assert_eq!(drawing.programs.names().collect::<Vec<_>>(), [program]);
             let distances = (0..2).all(|at| drawn.is_enabled(c::CLIP_DISTANCE0 + at));
             assert_eq!(distances, layout == SideBySide);
@@ -142,7 +142,7 @@ fn an_odd_state_comes_back() {
         let seed = seed as u64;
         stage.fake.scramble(seed, true);
         // Fixed function draws with no program.
-        stage.program(|gl| gl.use_program(0));
+        stage.program(|gl| gl.use_program(ProgramName::ZERO));
         for clip in clips {
             for method in [Method::Instanced, Method::Geometry] {
                 let mut drawing = Drawing::new(stage, clip, false);
@@ -234,7 +234,7 @@ proptest! {
         let fake = &stage.fake;
         programs.draw(&gl, &mut stage.atlas, &stage.state, &stage.rig, None, fixed, &how, &mut |views| {
             counts.push(views);
-            let program = fake.value(c::CURRENT_PROGRAM)[0] as u32;
+            let program = ProgramName(fake.value(c::CURRENT_PROGRAM)[0] as u32);
             let uniform = |name: &str| fake.uniform(program, name);
             let texture = f64::from(tiles.texture_width());
             // A layer has the program's own viewport, so `mv_map` is not set.

@@ -6,12 +6,12 @@ use crate::fixed::{
     Argument, BaseFormat, Combine, Combiner, Dialect, Environment, FogMode, FragmentKey,
     FragmentUnit, Function, Operand, Source, TextureTarget, Unsupported,
 };
-use crate::gl::consts as c;
 use crate::gl::fake::{Fake, Scope};
+use crate::gl::{TextureName, consts as c};
 
 /// The unit that the texture of these tests is on.
 const UNIT: u32 = 2;
-const TEXTURE: u32 = 40;
+const TEXTURE: TextureName = TextureName(40);
 
 /// A driver with one enabled texture unit.
 struct Textured {

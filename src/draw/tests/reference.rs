@@ -8,9 +8,8 @@ use crate::atlas::{Grid, Names};
 use crate::config::AtlasLayout::SideBySide;
 use crate::config::Clip;
 use crate::draw::Drawing as Surfaces;
-use crate::gl::Vertices;
-use crate::gl::consts as c;
 use crate::gl::fake::{Fake, Scope};
+use crate::gl::{ProgramName, Vertices, consts as c};
 
 const UNIT: u32 = super::super::programs::DISTORTION_UNIT;
 
@@ -44,7 +43,7 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
         // So many triangles that each is small: they are not tessellated.
         let many = seed % 4 == 3;
         stage.fake.scramble(seed, true);
-        stage.program(|gl| gl.use_program(0));
+        stage.program(|gl| gl.use_program(ProgramName::ZERO));
         let rays = rays(&stage);
         let mut drawing = Drawing::new(stage, Clip::Distances, false);
         let Drawing {
@@ -89,9 +88,9 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
         let image = stage.atlas.reference_framebuffer().expect("made");
         assert_eq!(
             state.int(Scope::Context, c::DRAW_FRAMEBUFFER_BINDING),
-            image
+            image.0
         );
-        let program = state.value(c::CURRENT_PROGRAM)[0] as u32;
+        let program = ProgramName(state.value(c::CURRENT_PROGRAM)[0] as u32);
         let uniform = |name| stage.fake.uniform(program, name);
         if !many {
             assert_eq!(state.value(c::PATCH_VERTICES), [3.0]);
@@ -112,7 +111,7 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
         let disparity = [2.0, 0.5, 2.0 / width, kept_apart];
         assert_eq!(uniform("mv_disparity"), disparity.map(f64::from));
         let map = state.int(Scope::Unit(UNIT), c::TEXTURE_BINDING_2D_ARRAY);
-        assert_eq!(map, rays.map);
+        assert_eq!(map, rays.map.0);
     }
     assert!(drawn_at_all > 10, "{drawn_at_all}");
 }
@@ -151,6 +150,6 @@ fn a_variant_draws_with_the_map_in_a_unit_that_it_has_no_use_for() {
         let map = drawn[0]
             .state
             .int(Scope::Unit(free), c::TEXTURE_BINDING_2D_ARRAY);
-        assert_eq!(map, rays.map);
+        assert_eq!(map, rays.map.0);
     }
 }

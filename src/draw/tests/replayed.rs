@@ -4,9 +4,8 @@ use super::super::{ReplayHazard, enter_own, others, replay};
 use super::{Stage, sheared};
 use crate::atlas::{Grid, ViewSet};
 use crate::config::AtlasLayout::{Layers, SideBySide};
-use crate::gl::Vertices;
-use crate::gl::consts as c;
 use crate::gl::fake::Fake;
+use crate::gl::{FramebufferName, Vertices, consts as c};
 use crate::state::Effect;
 use crate::view::ViewIndex;
 
@@ -98,9 +97,9 @@ fn layers_need_neither_viewport_nor_scissor() {
     let drawn = stage.fake.draws();
     let bound = drawn
         .iter()
-        .map(|d| d.state.value(c::DRAW_FRAMEBUFFER_BINDING)[0] as u32);
+        .map(|d| FramebufferName(d.state.value(c::DRAW_FRAMEBUFFER_BINDING)[0] as u32));
     let order = stage.atlas.tiles.order();
-    let expected: Vec<u32> = order.map(|view| stage.atlas.target(view).0).collect();
+    let expected: Vec<FramebufferName> = order.map(|view| stage.atlas.target(view).0).collect();
     assert_eq!(bound.collect::<Vec<_>>(), expected);
     assert_eq!(
         stage.fake.count("glViewport") + stage.fake.count("glScissor"),

@@ -4,7 +4,7 @@ use super::super::{Drawn, NoVariant, Variant, VariantKind, drawn};
 use super::Stage;
 use crate::atlas::Grid;
 use crate::config::AtlasLayout::SideBySide;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, ShaderName, consts as c};
 use crate::plan::Flat;
 use crate::rewrite::{Stage as Shader, VertexLayer};
 use crate::state::Text;
@@ -26,9 +26,9 @@ fn texts() -> [Text; 2] {
     })
 }
 
-/// The program's own, in use, with values for its uniforms.
-pub(super) fn program(stage: &mut Stage) -> u32 {
-    let mut name = 0;
+/// The program's own program object, in use, with values for its uniforms.
+pub(super) fn program(stage: &mut Stage) -> ProgramName {
+    let mut name = ProgramName::ZERO;
     stage.program(|gl| {
         let compiled = texts().map(|text| gl.compile(text.kind, text.source).expect("compiles"));
         name = gl.link(&compiled).expect("links");
@@ -40,7 +40,7 @@ pub(super) fn program(stage: &mut Stage) -> u32 {
     name
 }
 
-pub(super) fn variant(stage: &Stage, program: u32, kind: VariantKind) -> Arc<Variant> {
+pub(super) fn variant(stage: &Stage, program: ProgramName, kind: VariantKind) -> Arc<Variant> {
     match drawn(&stage.gl, program, &texts(), kind) {
         Ok(Drawn::ByVariant(variant)) => variant,
         other => panic!("{other:?}"),
@@ -135,7 +135,7 @@ fn what_the_driver_refuses_leaves_no_names() {
 fn programs_without_a_variant_say_why() {
     let stage = Stage::new(SideBySide, Grid::FULL);
     let refusal = |texts: &[Text]| {
-        drawn(&stage.gl, 1, texts, VariantKind::Alone)
+        drawn(&stage.gl, ProgramName(1), texts, VariantKind::Alone)
             .expect_err("none")
             .to_string()
     };
@@ -150,12 +150,12 @@ fn programs_without_a_variant_say_why() {
     assert_eq!(stage.fake.count("gl*"), 0, "nothing is asked for that");
 }
 
-/// A program of the context with these texts.
-fn linked(stage: &mut Stage, texts: &[Text]) -> u32 {
+/// A program of the context, linked from these sources.
+fn linked(stage: &mut Stage, texts: &[Text]) -> ProgramName {
     let compile = |gl: &Gl, text: &Text| gl.compile(text.kind, &text.source).expect("compiles");
-    let mut name = 0;
+    let mut name = ProgramName::ZERO;
     stage.program(|gl| {
-        let shaders: Vec<u32> = texts.iter().map(|text| compile(gl, text)).collect();
+        let shaders: Vec<ShaderName> = texts.iter().map(|text| compile(gl, text)).collect();
         name = gl.link(&shaders).expect("links");
     });
     name

@@ -3,7 +3,7 @@
 use super::limits::{TEXTURES, default};
 use super::memory::{Kind, address, read, write};
 use super::{Call, Driver, Scope, limits::more as m, model};
-use crate::gl::consts as c;
+use crate::gl::{FramebufferName, RenderbufferName, TextureName, VertexArrayName, consts as c};
 
 impl Driver {
     /// Commands that ask, and those that make what is asked for; none for others.
@@ -56,7 +56,7 @@ impl Driver {
             }
             "glGetVertexAttribiv" => {
                 let array = self.state.int(Scope::Context, c::VERTEX_ARRAY_BINDING);
-                (Scope::VertexArray(array), second, 2)
+                (Scope::VertexArray(VertexArrayName(array)), second, 2)
             }
             "glGetQueryiv" => (Scope::Index(first), second, 2),
             "glGetPointerv" => {
@@ -77,7 +77,9 @@ impl Driver {
             }
             "glGetRenderbufferParameteriv" => {
                 let bound = self.state.int(Scope::Context, c::RENDERBUFFER_BINDING);
-                let values = self.state.get(Scope::Renderbuffer(bound), second);
+                let values = self
+                    .state
+                    .get(Scope::Renderbuffer(RenderbufferName(bound)), second);
                 let value = values.first().copied().unwrap_or(0.0);
                 write(address(call.args.get(2)), kind, &[value]);
                 return Some(0);
@@ -104,7 +106,7 @@ impl Driver {
         }
         let values = self.state.get(scope, name);
         // A framebuffer object draws to the first attachment alone.
-        let other = matches!(scope, Scope::Framebuffer(of) if of != 0)
+        let other = matches!(scope, Scope::Framebuffer(of) if !of.is_zero())
             && (c::DRAW_BUFFER0 + 1..=c::DRAW_BUFFER15).contains(&name);
         let set = self.state.values.contains_key(&(scope, name));
         Some(if other && !set { vec![0.0] } else { values })
@@ -122,24 +124,24 @@ impl Driver {
         text.as_ptr() as i64
     }
 
-    fn bound_texture(&self, target: u32) -> u32 {
+    fn bound_texture(&self, target: u32) -> TextureName {
         let cube = c::TEXTURE_CUBE_MAP_POSITIVE_X..=c::TEXTURE_CUBE_MAP_NEGATIVE_Z;
         let target = match cube.contains(&target) {
             true => c::TEXTURE_CUBE_MAP,
             false => target,
         };
         let found = TEXTURES.iter().find(|known| known.0 == target);
-        found.map_or(0, |&(_, binding, _)| {
-            self.state.int(self.state.scope(binding), binding)
+        found.map_or(TextureName::ZERO, |&(_, binding, _)| {
+            TextureName(self.state.int(self.state.scope(binding), binding))
         })
     }
 
-    fn bound_framebuffer(&self, target: u32) -> u32 {
+    fn bound_framebuffer(&self, target: u32) -> FramebufferName {
         let binding = match target {
             c::READ_FRAMEBUFFER => c::READ_FRAMEBUFFER_BINDING,
             _ => c::DRAW_FRAMEBUFFER_BINDING,
         };
-        self.state.int(Scope::Context, binding)
+        FramebufferName(self.state.int(Scope::Context, binding))
     }
 
     /// What is at an attachment point: kind, name, level, layer, whether all layers are, face of a cube.
@@ -151,7 +153,7 @@ impl Driver {
             .get(&(Scope::Framebuffer(framebuffer), point));
         let element = |element: usize| at.and_then(|v| v.get(element)).copied().unwrap_or(0.0);
         match name {
-            c::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE if framebuffer == 0 => {
+            c::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE if framebuffer.is_zero() => {
                 m::FRAMEBUFFER_DEFAULT.into()
             }
             c::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING => c::LINEAR.into(),
@@ -187,7 +189,9 @@ impl Driver {
         let (first, second) = (int(0), int(1));
         match call.name {
             "glFramebufferTexture" => {
-                let target = self.state.int(Scope::Texture(int(2)), m::TEXTURE_TARGET);
+                let target = self
+                    .state
+                    .int(Scope::Texture(TextureName(int(2))), m::TEXTURE_TARGET);
                 let plane = [c::TEXTURE_1D, c::TEXTURE_2D, c::TEXTURE_RECTANGLE];
                 let one = target == c::TEXTURE_2D_MULTISAMPLE || plane.contains(&target);
                 self.attach(
@@ -218,7 +222,11 @@ impl Driver {
                     (c::RENDERBUFFER_HEIGHT, int(from + 2)),
                     (c::RENDERBUFFER_SAMPLES, samples),
                 ] {
-                    self.put(Scope::Renderbuffer(bound), name, &[value.into()]);
+                    self.put(
+                        Scope::Renderbuffer(RenderbufferName(bound)),
+                        name,
+                        &[value.into()],
+                    );
                 }
             }
             "glTexParameteri" | "glTexParameterf" => {

@@ -3,7 +3,7 @@
 use super::limits::{self, BUFFERS, TEXTURES, more as m};
 use super::memory::{Kind, address, read};
 use super::{Arg, Call, Drawn, Driver, Scope, Snapshot, model};
-use crate::gl::consts as c;
+use crate::gl::{TextureName, consts as c};
 
 /// A value that a command sets: its name, the first of the arguments that are it, and how many there are.
 type Set = (u32, usize, usize);
@@ -303,7 +303,11 @@ impl Driver {
             }
             "glTextureView" => {
                 let target = call.number(1);
-                self.put(Scope::Texture(first), m::TEXTURE_TARGET, &[target]);
+                self.put(
+                    Scope::Texture(TextureName(first)),
+                    m::TEXTURE_TARGET,
+                    &[target],
+                );
             }
             "glBindSampler" => {
                 self.create("Samplers", second);
@@ -383,7 +387,7 @@ impl Driver {
     /// A texture keeps the target that it is first bound at.
     fn bind_texture(&mut self, target: u32, name: u32, binding: u32) {
         self.create("Textures", name);
-        let own = (Scope::Texture(name), m::TEXTURE_TARGET);
+        let own = (Scope::Texture(TextureName(name)), m::TEXTURE_TARGET);
         if name != 0
             && *self.state.values.entry(own).or_insert(vec![target.into()]) != [f64::from(target)]
         {

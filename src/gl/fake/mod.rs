@@ -26,7 +26,7 @@ pub(in crate::gl) use call::{Answer, Recorded};
 
 use super::real::{Ptr, Real};
 use super::table::NAMES;
-use super::{Gl, consts as c};
+use super::{Gl, ProgramName, consts as c};
 use objects::Objects;
 use shaders::Shaders;
 use std::cell::RefCell;
@@ -265,9 +265,9 @@ impl Fake {
     }
 
     /// The values of a uniform of a program, by its name; empty where it has no place or has not been set.
-    pub fn uniform(&self, program: u32, name: &str) -> Vec<f64> {
+    pub fn uniform(&self, program: ProgramName, name: &str) -> Vec<f64> {
         self.with(|driver| {
-            let location = driver.shaders.location(program, name);
+            let location = driver.shaders.location(program.0, name);
             let key = (Scope::Program(program), location as u32);
             driver.state.values.get(&key).cloned().unwrap_or_default()
         })

@@ -2,6 +2,7 @@
 
 use super::limits;
 use crate::gl::consts as c;
+use crate::gl::{FramebufferName, ProgramName, RenderbufferName, TextureName, VertexArrayName};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::sync::OnceLock;
@@ -20,17 +21,17 @@ pub enum Scope {
     /// GL_FRONT or GL_BACK of the material.
     Face(u32),
     /// A vertex array object; 0 is the context's own.
-    VertexArray(u32),
+    VertexArray(VertexArrayName),
     /// A framebuffer object, or the window.
-    Framebuffer(u32),
+    Framebuffer(FramebufferName),
     /// A texture.
-    Texture(u32),
+    Texture(TextureName),
     /// A level of a texture.
-    Level(u32, i32),
+    Level(TextureName, i32),
     /// A renderbuffer.
-    Renderbuffer(u32),
+    Renderbuffer(RenderbufferName),
     /// A program: the values of its uniforms, by location.
-    Program(u32),
+    Program(ProgramName),
 }
 
 impl Scope {
@@ -39,11 +40,11 @@ impl Scope {
         match self {
             Scope::Context | Scope::Index(_) | Scope::Unit(_) => None,
             Scope::Light(_) | Scope::Face(_) => None,
-            Scope::VertexArray(name) => Some(("VertexArrays", name)),
-            Scope::Framebuffer(name) => Some(("Framebuffers", name)),
-            Scope::Texture(name) | Scope::Level(name, _) => Some(("Textures", name)),
-            Scope::Renderbuffer(name) => Some(("Renderbuffers", name)),
-            Scope::Program(name) => Some(("Programs", name)),
+            Scope::VertexArray(name) => Some(("VertexArrays", name.0)),
+            Scope::Framebuffer(name) => Some(("Framebuffers", name.0)),
+            Scope::Texture(name) | Scope::Level(name, _) => Some(("Textures", name.0)),
+            Scope::Renderbuffer(name) => Some(("Renderbuffers", name.0)),
+            Scope::Program(name) => Some(("Programs", name.0)),
         }
     }
 }
@@ -108,10 +109,12 @@ impl Snapshot {
                 Scope::Unit(int(c::ACTIVE_TEXTURE).wrapping_sub(c::TEXTURE0))
             }
             c::DRAW_BUFFER | c::DRAW_BUFFER0..=c::DRAW_BUFFER15 => {
-                Scope::Framebuffer(int(c::DRAW_FRAMEBUFFER_BINDING))
+                Scope::Framebuffer(FramebufferName(int(c::DRAW_FRAMEBUFFER_BINDING)))
             }
-            c::READ_BUFFER => Scope::Framebuffer(int(c::READ_FRAMEBUFFER_BINDING)),
-            c::ELEMENT_ARRAY_BUFFER_BINDING => Scope::VertexArray(int(c::VERTEX_ARRAY_BINDING)),
+            c::READ_BUFFER => Scope::Framebuffer(FramebufferName(int(c::READ_FRAMEBUFFER_BINDING))),
+            c::ELEMENT_ARRAY_BUFFER_BINDING => {
+                Scope::VertexArray(VertexArrayName(int(c::VERTEX_ARRAY_BINDING)))
+            }
             _ => Scope::Context,
         }
     }

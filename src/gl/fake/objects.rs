@@ -2,7 +2,7 @@
 
 use super::memory::{Kind, address, read, write};
 use super::{Arg, Call, Driver, Scope};
-use crate::gl::consts as c;
+use crate::gl::{FramebufferName, consts as c};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Objects by kind, which is how glGen* calls it.
@@ -93,7 +93,7 @@ impl Driver {
             self.state.owned.insert((kind, name));
         }
         if kind == "Framebuffers" {
-            let scope = Scope::Framebuffer(name);
+            let scope = Scope::Framebuffer(FramebufferName(name));
             for point in [c::DRAW_BUFFER, c::DRAW_BUFFER0, c::READ_BUFFER] {
                 self.put(scope, point, &[c::COLOR_ATTACHMENT0.into()]);
             }
@@ -120,11 +120,11 @@ impl Driver {
         let bindings = KINDS.iter().find(|known| known.0 == kind);
         let bindings = bindings.map_or(&[][..], |known| known.2);
         let of = |scope: Scope| match scope {
-            Scope::Framebuffer(of) => kind == "Framebuffers" && of == name,
-            Scope::Texture(of) | Scope::Level(of, _) => kind == "Textures" && of == name,
-            Scope::Renderbuffer(of) => kind == "Renderbuffers" && of == name,
-            Scope::VertexArray(of) => kind == "VertexArrays" && of == name,
-            Scope::Program(of) => kind == "Programs" && of == name,
+            Scope::Framebuffer(of) => kind == "Framebuffers" && of.0 == name,
+            Scope::Texture(of) | Scope::Level(of, _) => kind == "Textures" && of.0 == name,
+            Scope::Renderbuffer(of) => kind == "Renderbuffers" && of.0 == name,
+            Scope::VertexArray(of) => kind == "VertexArrays" && of.0 == name,
+            Scope::Program(of) => kind == "Programs" && of.0 == name,
             _ => false,
         };
         self.state.values.retain(|(scope, _), _| !of(*scope));

@@ -138,6 +138,6 @@ fn bind(gl: &Gl, dice: &mut Dice) {
     if dice.below(2) == 0 {
         let shader = gl.compile(c::VERTEX_SHADER, "void main() {}");
         let program = shader.and_then(|shader| gl.link(&[shader]));
-        gl.use_program(program.unwrap_or(0));
+        gl.use_program(program.unwrap_or_default());
     }
 }

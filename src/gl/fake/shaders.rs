@@ -2,7 +2,7 @@
 
 use super::memory::{Kind, address, put_string, read, string, strings, write};
 use super::{Arg, Call, Driver, Scope};
-use crate::gl::consts as c;
+use crate::gl::{ProgramName, consts as c};
 use std::collections::HashMap;
 
 /// A uniform or an attribute that a text declares.
@@ -324,7 +324,7 @@ impl Driver {
                 put_string(&known.name, call.int(3), place_of(4), place_of(5));
             }
             get if get.starts_with("glGetUniform") && get.ends_with('v') => {
-                let key = (Scope::Program(name), call.int(1) as u32);
+                let key = (Scope::Program(ProgramName(name)), call.int(1) as u32);
                 let values = self.state.values.get(&key).cloned();
                 write(
                     place_of(2),
@@ -372,9 +372,9 @@ impl Driver {
             }
             false => call.args.iter().skip(1).map(Arg::number).collect(),
         };
-        let program = self.state.int(Scope::Context, c::CURRENT_PROGRAM);
+        let program = ProgramName(self.state.int(Scope::Context, c::CURRENT_PROGRAM));
         let first = call.int(0);
-        if first >= 0 && program != 0 {
+        if first >= 0 && !program.is_zero() {
             for (at, element) in (first as u32..).zip(values.chunks(size.max(1))) {
                 self.put(Scope::Program(program), at, element);
             }

@@ -1,13 +1,14 @@
 //! The fake driver answers as a driver does where the layer looks.
 
 use super::*;
+use crate::gl::TextureName;
 
 #[test]
 fn calls_are_recorded_in_order_with_their_arguments() {
     let fake = Fake::new();
     let gl = fake.gl();
     gl.viewport(1, 2, 3, 4);
-    gl.use_program(7);
+    gl.use_program(ProgramName(7));
     gl.load_matrix(&[0.5; 16]);
     gl.draw_buffers(&[c::BACK, c::NONE]);
     assert_eq!(
@@ -40,7 +41,7 @@ fn what_is_set_is_answered() {
     assert!(gl.is_enabled(c::DEPTH_TEST) && !gl.is_enabled(c::BLEND));
     assert!(gl.is_enabledi(c::BLEND, 3) != 0);
     gl.active_texture(c::TEXTURE0 + 3);
-    gl.bind_texture(c::TEXTURE_2D, 9);
+    gl.bind_texture(c::TEXTURE_2D, TextureName(9));
     gl.active_texture(c::TEXTURE0);
     assert_eq!(gl.get_integer(c::TEXTURE_BINDING_2D), 0);
     assert_eq!(
@@ -86,10 +87,11 @@ fn names_live_until_they_are_deleted() {
     gl.delete_texture(a);
     assert_eq!(gl.get_integer(c::TEXTURE_BINDING_2D), 0);
     assert!(gl.is_texture(a) == 0 && gl.is_texture(b) != 0);
-    gl.bind_texture(c::TEXTURE_2D, 40);
-    assert!(gl.is_texture(40) != 0 && gl.gen_texture() == 41);
+    let chosen = TextureName(40);
+    gl.bind_texture(c::TEXTURE_2D, chosen);
+    assert!(gl.is_texture(chosen) != 0 && gl.gen_texture() == TextureName(41));
     // A texture keeps the target that it was bound at first.
-    gl.bind_texture(c::TEXTURE_3D, 40);
+    gl.bind_texture(c::TEXTURE_3D, chosen);
     assert_eq!(gl.get_error(), c::INVALID_OPERATION);
     assert_eq!(gl.get_integer(c::TEXTURE_BINDING_3D), 0);
 }
@@ -156,9 +158,9 @@ fn attributes_come_back_by_their_groups() {
     gl.push_attrib(c::ALL_ATTRIB_BITS);
     gl.enable(c::FOG);
     gl.viewport(1, 1, 1, 1);
-    gl.use_program(3);
+    gl.use_program(ProgramName(3));
     gl.pop_attrib();
-    gl.use_program(0);
+    gl.use_program(ProgramName::ZERO);
     fake.assert_restored(&before);
 }
 
@@ -180,7 +182,7 @@ fn a_difference_is_told_in_a_sentence() {
     let theirs = fake.program(|gl| {
         let texture = gl.gen_texture();
         gl.bind_texture(c::TEXTURE_2D, texture);
-        gl.bind_texture(c::TEXTURE_2D, 0);
+        gl.bind_texture(c::TEXTURE_2D, TextureName::ZERO);
         texture
     });
     let before = fake.state();
@@ -188,7 +190,7 @@ fn a_difference_is_told_in_a_sentence() {
     let differences = || before.differences(&fake.state());
     gl.bind_texture(c::TEXTURE_2D, ours);
     gl.tex_parameteri(c::TEXTURE_2D, c::TEXTURE_MAX_LEVEL, 0);
-    gl.bind_texture(c::TEXTURE_2D, 0);
+    gl.bind_texture(c::TEXTURE_2D, TextureName::ZERO);
     assert_eq!(differences(), [""; 0], "a texture of ours");
     gl.bind_texture(c::TEXTURE_2D, theirs);
     gl.tex_parameteri(c::TEXTURE_2D, c::TEXTURE_MAX_LEVEL, 0);

@@ -3,6 +3,7 @@
 use super::*;
 use crate::atlas::{Atlas, Grid, Limits};
 use crate::config::AtlasLayout::{self, Layers, SideBySide};
+use crate::gl::FramebufferName;
 use crate::gl::fake::{Drawn, Fake, Scope};
 use crate::state::Window;
 
@@ -30,7 +31,7 @@ impl Stage {
         let window = Window::ask(&gl, 64, 48, true);
         let atlas = Atlas::new(&gl, names, &window, tiles, true).expect("an atlas");
         let interleaver = Interleaver::new(&gl, names, glsl, None);
-        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         let fixed = !gl.is_es() && gl.get_integer(c::CONTEXT_PROFILE_MASK) == 2;
         let neutral = Neutral::enter(&gl, fixed);
         fake.forget();
@@ -97,16 +98,16 @@ fn a_picture_is_one_triangle_over_the_window() {
             let unit = Scope::Unit(VIEWS_UNIT);
             assert_eq!(
                 state.int(unit, c::TEXTURE_BINDING_2D_ARRAY),
-                stage.atlas.color
+                stage.atlas.color.0
             );
-            let mask = state.int(Scope::Unit(MASK_UNIT), c::TEXTURE_BINDING_2D);
+            let mask = TextureName(state.int(Scope::Unit(MASK_UNIT), c::TEXTURE_BINDING_2D));
             let wanted = if output == Output::Panel {
                 stage.interleaver.texture()
             } else {
-                0
+                TextureName::ZERO
             };
             assert_eq!(mask, wanted, "{output:?}");
-            let program = state.int(Scope::Context, c::CURRENT_PROGRAM);
+            let program = ProgramName(state.int(Scope::Context, c::CURRENT_PROGRAM));
             assert!(stage.interleaver.programs().any(|known| known == program));
             assert_eq!(stage.tiles_read, 0, "nothing is read back");
         }

@@ -18,13 +18,13 @@ impl Layer {
     pub(super) fn prepare(&mut self, gl: &Gl, preparation: Preparation) {
         match preparation {
             Preparation::Remake(detail, why) => self.give_up(gl, detail, why),
-            Preparation::LinkVariant(program) => self.know(gl, program.0),
+            Preparation::LinkVariant(program) => self.know(gl, program),
             Preparation::LinkLayers { program, all } => {
-                self.know_layers(gl, program.0, all);
+                self.know_layers(gl, program, all);
             }
             Preparation::Split(framebuffer) => {
-                if !self.split(gl, framebuffer.0) {
-                    self.targets.offscreen.refuse(gl, framebuffer.0);
+                if !self.split(gl, framebuffer) {
+                    self.targets.offscreen.refuse(gl, framebuffer);
                 }
             }
             Preparation::MeasureDepths => {

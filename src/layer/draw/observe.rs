@@ -3,7 +3,7 @@
 use super::super::Layer;
 use super::{Images, Request};
 use crate::config::{Output, Projection};
-use crate::gl::{FramebufferName, Gl, ProgramName, TextureName, consts as c};
+use crate::gl::{Gl, ProgramName, consts as c};
 use crate::interleave::Sources;
 use crate::plan::class::{Classed, Target, Traits};
 use crate::plan::decide::{
@@ -113,7 +113,7 @@ impl Layer {
             }
         }
         let (program, shader) = match self.state.in_use.program {
-            0 => (0, 0),
+            ProgramName::ZERO => (0, 0),
             program if classifier.needs_shader() => self.told_of(program),
             _ => (0, 0),
         };
@@ -132,25 +132,25 @@ impl Layer {
 
     fn observe_shaders(&mut self, gl: &Gl, whole: bool) -> Shaders {
         let program = self.state.in_use.program;
-        if program == 0 {
+        if program.is_zero() {
             return match self.state.in_use.pipeline {
                 0 => Shaders::Fixed,
                 _ => Shaders::Pipeline,
             };
         }
-        let window = self.state.framebuffers.draw == 0;
+        let window = self.state.framebuffers.draw.is_zero();
         let relevant = self.session.config.views > 1 && self.state.makes_pictures();
         if !relevant || whole && window {
-            return Shaders::WithoutVariant(ProgramName(program));
+            return Shaders::WithoutVariant(program);
         }
-        self.variant_facts(gl, ProgramName(program))
+        self.variant_facts(gl, program)
     }
 
     /// The framebuffer that is drawn to. Whether the program's is split is asked only where there are several views.
     fn observe_destination(&mut self, gl: &Gl, shaders: &Shaders) -> Destination {
         let framebuffer = self.state.framebuffers.draw;
         let picture = self.state.makes_pictures();
-        let own = framebuffer != 0 && picture && self.session.config.views > 1;
+        let own = !framebuffer.is_zero() && picture && self.session.config.views > 1;
         let offscreen = &mut self.targets.offscreen;
         let split = match own {
             true if offscreen.is_made(gl, framebuffer) => Linked::Yes,
@@ -160,7 +160,7 @@ impl Layer {
         let variant = matches!(shaders, Shaders::Variant(_));
         let tiles = &self.targets.atlas.tiles;
         Destination {
-            framebuffer: FramebufferName(framebuffer),
+            framebuffer,
             picture,
             differs: own && offscreen.is_split(gl, framebuffer),
             split,
@@ -185,7 +185,7 @@ impl Layer {
         if grid.is_full() || self.targets.stuck || !self.state.draws_to_window() {
             return None;
         }
-        let fixed = self.state.in_use.program == 0 && self.state.in_use.pipeline == 0;
+        let fixed = self.state.in_use.program.is_zero() && self.state.in_use.pipeline == 0;
         let surfaces = fixed && !matches!(kind, Kind::Clear { .. } | Kind::Accum | Kind::Pixels);
         let stippled = surfaces && gl.is_enabled(c::POLYGON_STIPPLE);
         let aligned = grid.is_sample_aligned();
@@ -245,7 +245,7 @@ impl Layer {
     ) -> SynthesisFacts {
         let clear = matches!(request.kind, Kind::Clear { .. });
         let begun = self.known.scene.is_some();
-        let map = self.targets.atlas.reference().map(|r| TextureName(r.map));
+        let map = self.targets.atlas.reference().map(|r| r.map);
         let over = begun && !clear && is_over_candidate(facts);
         debug_assert_eq!(facts.classed, *classed);
         SynthesisFacts {

@@ -43,7 +43,7 @@ impl Layer {
         let next = next?;
         let (mode, count) = (next.mode(), next.count());
         let fixed = self.state.has.compatibility
-            && self.state.in_use.program == 0
+            && self.state.in_use.program.is_zero()
             && self.state.in_use.pipeline == 0;
         if !fixed || mode > c::POLYGON || !(1..=MOST).contains(&count) {
             return None;

@@ -21,7 +21,7 @@ fn facts() -> Traits {
         centred: true,
         depth_state: DepthState::On,
         range: DepthRange::Whole,
-        texture: 3,
+        texture: TextureName(3),
         program: 0,
         shader: 0,
         turns: false,
@@ -209,10 +209,13 @@ fn the_first_rule_whose_every_key_matches_decides() {
         ..facts()
     };
     assert_eq!((why(flat), c.class(&flat).depth), (Why::Rule(2), -0.5));
-    let other_texture = Traits { texture: 2, ..flat };
+    let other_texture = Traits {
+        texture: TextureName(2),
+        ..flat
+    };
     assert_eq!(why(other_texture), Why::Rule(7));
     let list = Traits {
-        list: Some(9),
+        list: Some(ListName(9)),
         ..facts()
     };
     assert_eq!(why(list), Why::Rule(3));
@@ -224,7 +227,7 @@ fn the_first_rule_whose_every_key_matches_decides() {
     let late_flat = Traits { draw: 12, ..flat };
     assert_eq!(
         why(Traits {
-            texture: 0,
+            texture: TextureName::ZERO,
             ..late_flat
         }),
         Why::Rule(4)
@@ -235,7 +238,7 @@ fn the_first_rule_whose_every_key_matches_decides() {
         ..flat
     };
     let classed = c.class(&Traits {
-        texture: 0,
+        texture: TextureName::ZERO,
         ..outside
     });
     assert_eq!((classed.why, classed.depth), (Why::Orthographic, 0.5));
@@ -274,7 +277,7 @@ fn a_suggested_rule_is_one_that_matches_and_changes_the_class() {
     let all = [
         facts(),
         Traits {
-            texture: 0,
+            texture: TextureName::ZERO,
             ..facts()
         },
         Traits {
@@ -288,7 +291,7 @@ fn a_suggested_rule_is_one_that_matches_and_changes_the_class() {
             ..facts()
         },
         Traits {
-            list: Some(7),
+            list: Some(ListName(7)),
             turns: true,
             depth_state: DepthState::TestOnly,
             ..facts()
@@ -341,7 +344,7 @@ fn rules_know_shaders_and_passes() {
         let facts = Traits {
             target,
             shader,
-            texture: 0,
+            texture: TextureName::ZERO,
             ..facts()
         };
         facts.rule(&c.class(&facts)).expect("a rule")

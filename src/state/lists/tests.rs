@@ -4,11 +4,11 @@ use super::*;
 
 /// The runs of a list of commands, with how many commands each has.
 fn runs(commands: &[Command]) -> Vec<(Run, usize)> {
-    let mut list = Compiling::new(1, c::COMPILE, 100);
+    let mut list = Compiling::new(ListName(1), c::COMPILE, ListName(100));
     let mut counts = vec![0];
     for &command in commands {
         if list.needs_split(command).is_some() {
-            list.split(100 + counts.len() as u32);
+            list.split(ListName(100 + counts.len() as u32));
             counts.push(0);
         }
         list.note(command, Touch::NONE);
@@ -82,20 +82,20 @@ fn clears_pictures_and_calls_stand_alone() {
         [(Run::Open, 1), (Run::Clear, 2), (Run::Draw, 2)]
     );
     assert_eq!(runs(&[RASTER, RASTER]), [(Run::Raster, 2)]);
-    let call = |list| Command::Of(Run::List(list));
+    let run = Run::List(ListName(7));
     assert_eq!(
-        runs(&[call(7), call(7)]),
-        [(Run::List(7), 1), (Run::List(7), 1)]
+        runs(&[Command::Of(run), Command::Of(run)]),
+        [(run, 1), (run, 1)]
     );
 }
 
 #[test]
 fn nothing_is_split_inside_a_primitive() {
-    let mut list = Compiling::new(1, c::COMPILE, 9);
+    let mut list = Compiling::new(ListName(1), c::COMPILE, ListName(9));
     list.note(DRAW, Touch::NONE);
     list.between = true;
-    assert_eq!(list.needs_split(Command::Of(Run::List(3))), None);
-    list.note(Command::Of(Run::List(3)), Touch::ALL);
+    assert_eq!(list.needs_split(Command::Of(Run::List(ListName(3)))), None);
+    list.note(Command::Of(Run::List(ListName(3))), Touch::ALL);
     list.finish();
     assert_eq!(list.body()[0].run, Run::Draw);
 }
@@ -105,10 +105,10 @@ fn what_is_left_open_is_known() {
     use Command::*;
     const VERTEX: Command = Immediate(Effect::VERTEX);
     let body = |commands: &[Command]| {
-        let mut list = Compiling::new(1, c::COMPILE, 9);
+        let mut list = Compiling::new(ListName(1), c::COMPILE, ListName(9));
         for &command in commands {
             if list.needs_split(command).is_some() {
-                list.split(10);
+                list.split(ListName(10));
             }
             list.note(command, Touch::NONE);
         }
@@ -130,13 +130,13 @@ fn what_is_left_open_is_known() {
 #[test]
 fn names_come_from_the_top_and_are_used_again() {
     let mut lists = Lists::default();
-    let mut taken = vec![u32::MAX - 1];
+    let mut taken = vec![ListName(u32::MAX - 1)];
     let a = lists.name(|n| taken.contains(&n));
     taken.push(a);
-    assert_eq!(a, u32::MAX - 2);
+    assert_eq!(a, ListName(u32::MAX - 2));
     let body: Body = [fresh(a)].into();
-    assert!(lists.define(5, body.clone()).is_empty());
-    assert_eq!(lists.delete(0, u32::MAX), [a]);
-    assert!(lists.body(5).is_none());
+    assert!(lists.define(ListName(5), body.clone()).is_empty());
+    assert_eq!(lists.delete(ListName(0), u32::MAX), [a]);
+    assert!(lists.body(ListName(5)).is_none());
     assert_eq!(lists.name(|_| false), a);
 }

@@ -2,7 +2,7 @@
 
 use super::Neutral;
 use crate::gl::fake::Fake;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, ProgramName, TextureName, VertexArrayName, consts as c};
 
 /// Contexts of every kind that the layer knows.
 const CONTEXTS: [fn() -> Fake; 9] = [
@@ -26,11 +26,11 @@ fn disturb(gl: &Gl) {
     gl.viewport(1, 2, 3, 4);
     for unit in 0..9 {
         gl.active_texture(c::TEXTURE0 + unit);
-        gl.bind_texture(c::TEXTURE_2D, 0);
-        gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+        gl.bind_texture(c::TEXTURE_2D, TextureName::ZERO);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, TextureName::ZERO);
     }
-    gl.use_program(0);
-    gl.bind_vertex_array(0);
+    gl.use_program(ProgramName::ZERO);
+    gl.bind_vertex_array(VertexArrayName::ZERO);
     gl.color_mask(0, 0, 0, 0);
 }
 

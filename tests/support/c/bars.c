@@ -25,7 +25,7 @@ static struct corner corners[MOST];
 static GLsizei count, wall_count;
 static const char *way;
 
-static GLushort places[MOST]; /* of indexed strips */
+static GLushort places[MOST]; /* elements of indexed strips */
 
 static int is(const char *name) { return !strcmp(way, name); }
 

@@ -51,7 +51,7 @@ int main(void)
             glEndQuery(kinds[k].target);
             glColorMask(1, 1, 1, 1);
             GLuint result;
-            glGetQueryObjectuiv(query, GL_QUERY_RESULT, &result); /* so that "no wait" has it */
+            glGetQueryObjectuiv(query, GL_QUERY_RESULT, &result); /* waits, so that "no wait" finds the result */
             glBeginConditionalRender(query, kinds[k].mode);
             quad(-0.6f, 1);
             glEndConditionalRender();

@@ -43,7 +43,7 @@ pub(super) fn scene() -> Facts {
             centred: true,
             depth_state: DepthState::On,
             range: DepthRange::Whole,
-            texture: 0,
+            texture: TextureName::ZERO,
             program: 0,
             shader: 0,
             turns: false,
@@ -65,7 +65,7 @@ pub(super) fn scene() -> Facts {
         shaders: Shaders::Fixed,
         state,
         destination: Destination {
-            framebuffer: FramebufferName(0),
+            framebuffer: FramebufferName::ZERO,
             picture: true,
             differs: false,
             split: Linked::Untried,
