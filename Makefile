@@ -1,6 +1,7 @@
 # Every target works on a fresh clone; `make help` lists them.
 
 PREFIX ?= /usr/local
+SEED ?= 26
 CARGO ?= cargo
 TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
 BIN := $(TARGET)/release
@@ -31,7 +32,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures shaders man book lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures measured mutants shaders man book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -119,6 +120,12 @@ openarena-pictures: packages build ## make the pictures of OpenArena in the READ
 	@sh scripts/openarena.sh $(BIN) $(TARGET)/openarena pictures
 	cp $(TARGET)/openarena/quilt.png docs/openarena-views.png
 	cp $(TARGET)/openarena/panel.png docs/openarena-panel.png
+
+measured: packages build demos ## take the tables of docs/measured.md again (an hour, nothing else running); target/measured
+	@sh scripts/measured.sh $(BIN) $(TARGET)/measured
+
+mutants: rust ## test the tests of the path of a draw: 150 mutants, drawn by SEED (needs cargo-mutants; an hour)
+	@sh scripts/mutants.sh $(SEED) 150 $(TARGET)/mutants
 
 shaders: packages build ## rewrite real shaders, of programs and of piglit, and compile them before and after (140 MB, ten minutes)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)

@@ -115,10 +115,10 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
             // Skips what lies below the ray, block by block.
             let start = k;
             loop {
-                let peak = textureLoad(block_bounds_texture, vec2<i32>(k / BLOCK, row), picture.layer_of_pyramid, 0).r;
+                let greatest = textureLoad(block_bounds_texture, vec2<i32>(k / BLOCK, row), picture.layer_of_pyramid, 0).r;
                 let in_block = k & (BLOCK - 1);
                 let next = select(k - in_block + BLOCK, k - in_block - 1, along < 0);
-                let low = first_beyond(x + t * (peak + edge - far), along);
+                let low = first_beyond(x + t * (greatest + edge - far), along);
                 let to = select(min(low, next), max(low, next), along < 0);
                 let further = (to - k) * along > 0;
                 k = select(k, to, further);

@@ -56,7 +56,7 @@ fn highest(bits: u32) -> i32 {
     return i32(of_4 + select(0u, 1u, (bits >> of_4) > 1u));
 }
 
-// The first sample from `start` on, in the direction `along` and before `end`, with a step of a wanted kind on its left side; `end` if there is none.
+// The first sample from `start` on, in the direction `along` and before `end`, with a wanted discontinuity on its left side; `end` if there is none.
 fn first_step(start: i32, end: i32, along: i32, down: bool, up: bool, row: i32) -> i32 {
     var block = start >> 4u;
     let within = u32(start & (BLOCK - 1));
@@ -80,7 +80,7 @@ fn first_step(start: i32, end: i32, along: i32, down: bool, up: bool, row: i32) 
     return select(end, at, (end - at) * along > 0);
 }
 
-// For each block: nonzero where there are steps within the reach of splats.
+// For each block: nonzero where there are discontinuities within the reach of splats.
 @fragment
 fn splats(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = texel_at(position);
@@ -119,7 +119,7 @@ fn distortion_map(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f
     let down = before > after;
     let near = max(before, after);
     let far = min(before, after);
-    // The nearest steps that distort in the other direction: behind the occluder, and on the side of the background.
+    // The nearest discontinuities that distort in the other direction: behind the occluder, and on the side of the background.
     let side = select(-1, 1, down);
     let wide = i32(ceil(2.0 * u.occlusion.x)) + 1;
     let hidden = first_step(nearest - side, nearest - side * wide, -side, !down, down, row);

@@ -1,23 +1,23 @@
 // The disparity pyramid of a depth image: least and greatest disparities of blocks, by which disparity.wgsl skips samples.
 
-fn enter_told() {
+fn enter_from_uniforms() {
     picture = Place(i32(u.occlusion.y), i32(u.occlusion.z), i32(u.occlusion.w));
 }
 
 // For each block: the greatest and the least disparity.
 @fragment
 fn block_bounds(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    enter_told();
+    enter_from_uniforms();
     let block = texel_at(position);
     let end = min((block.x + 1) * BLOCK, i32(u.tile.x));
-    var peak = NOTHING;
+    var greatest = NOTHING;
     var least = -NOTHING;
     for (var x = block.x * BLOCK; x < end; x++) {
         let here = disparity(x, block.y);
-        peak = max(peak, here);
+        greatest = max(greatest, here);
         least = min(least, here);
     }
-    return vec4<f32>(peak, least, 0.0, 0.0);
+    return vec4<f32>(greatest, least, 0.0, 0.0);
 }
 
 fn block(x: i32, row: i32) -> vec2<f32> {
@@ -27,7 +27,7 @@ fn block(x: i32, row: i32) -> vec2<f32> {
 // For each row: the greatest disparity.
 @fragment
 fn row_maxima(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    enter_told();
+    enter_from_uniforms();
     let row = texel_at(position).y;
     let last = (i32(u.tile.x) - 1) / BLOCK;
     var top = 0.0;
@@ -46,7 +46,7 @@ fn reach(disparity: f32) -> f32 {
 // For each block: the greatest and the least disparity that its rays can meet.
 @fragment
 fn ray_range(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    enter_told();
+    enter_from_uniforms();
     let at = texel_at(position);
     let last = (i32(u.tile.x) - 1) / BLOCK;
     let top = textureLoad(ray_range_texture, vec2<i32>(0, at.y), picture.layer_of_pyramid, 0).r;

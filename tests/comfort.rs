@@ -224,8 +224,8 @@ fn check(Planes(name, near, far): &Planes, count: u64) {
         let frame = frames.iter().find(|frame| frame.frame == number);
         let frame = frame.unwrap_or_else(|| panic!("{name}: frame {number} was not measured"));
         depths.sort_unstable();
-        let specks = depths.len() / 200;
-        for &depth in &depths[specks..depths.len() - specks] {
+        let outliers = depths.len() / 200;
+        for &depth in &depths[outliers..depths.len() - outliers] {
             let depth = 2.0 * f64::from(depth) / 65535.0 - 1.0;
             let distance = 2.0 * far * near / (far + near - depth * (far - near));
             largest = largest.max(frame.disparity(distance, SIZE.0.into()).abs());

@@ -456,3 +456,56 @@ fn the_files_that_the_developers_pages_name_are_there() {
         }
     }
 }
+
+/// Folders of the repository, and how the names of files there end that comments may give.
+const NAMED: [(&str, &str); 6] = [
+    ("src/", ".rs"),
+    ("shim/", ".rs"),
+    ("shaders/", ".wgsl"),
+    ("tests/", ".rs"),
+    ("docs/", ".md"),
+    // It is not in the repository, so nothing in it can be named.
+    ("notes/", ""),
+];
+
+/// The comment on a line of Rust, WGSL or C, or else nothing. A line within a comment of C begins with a star or is not seen.
+fn comment(line: &str) -> &str {
+    let begins = |mark: &str| line.starts_with(mark) || line.contains(&format!(" {mark}"));
+    match ["//", "/*"].into_iter().find(|mark| begins(mark)) {
+        Some(mark) => line.split_once(mark).map_or("", |(_, comment)| comment),
+        None if line.trim_start().starts_with("* ") => line,
+        None => "",
+    }
+}
+
+#[test]
+fn the_files_that_comments_name_are_there() {
+    let folders = ["src", "shim", "shaders", "tests", "examples"];
+    let all = folders.iter().flat_map(|f| sources(&root().join(f)));
+    let commented = |path: &String| {
+        let ends = [".rs", ".wgsl", ".c", ".h"];
+        ends.iter().any(|end| path.ends_with(end))
+    };
+    let mut missing = Vec::new();
+    for path in all.filter(commented) {
+        let path = path.trim_start_matches('/');
+        let text = read(path).text;
+        let other = |c: char| !c.is_ascii_alphanumeric() && !"_./-".contains(c);
+        for word in text.lines().flat_map(|line| comment(line).split(other)) {
+            let word = word.trim_end_matches('.');
+            let named = |(folder, end): &(&str, &str)| {
+                word.len() > folder.len() + end.len()
+                    && word.starts_with(folder)
+                    && word.ends_with(end)
+            };
+            if NAMED.iter().any(named) && !root().join(word).exists() {
+                missing.push(format!("{path}: {word}"));
+            }
+        }
+    }
+    assert!(
+        missing.is_empty(),
+        "not in the repository: {}",
+        missing.join(", ")
+    );
+}

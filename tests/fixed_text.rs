@@ -445,12 +445,12 @@ fn refused_with_a_reason() {
             limit: 6
         })
     );
-    let dull = Lighting {
-        dull: true,
+    let zero_shininess = Lighting {
+        zero_shininess: true,
         ..lit()
     };
     let key = FixedKey {
-        lighting: Some(dull),
+        lighting: Some(zero_shininess),
         dialect: Dialect::Mesa,
         ..FixedKey::default()
     };

@@ -371,7 +371,20 @@ fn circles(imports: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<String> {
 #[test]
 fn files_import_each_other_one_way() {
     for root in ["src", "shim/src"] {
-        let found = circles(&imports(&parsed(root), root));
+        let mut files = parsed(root);
+        // The other generated file, `src/gl/table.rs`, declares the methods of `Real` and is one with `src/gl/real.rs`.
+        for generated in GENERATED.iter().filter(|_| root == "shim/src").skip(1) {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(generated);
+            let text = fs::read_to_string(path).expect("UTF-8");
+            files.insert(generated.into(), syn::parse_file(&text).expect("Rust"));
+        }
+        let mut imports = imports(&files, root);
+        // The one exception: an exported function that a program looks up by name is found in the table of the exported functions
+        // themselves, whose hooks reach everything.
+        if let Some(exports) = imports.get_mut(&vec!["exports".to_owned()]) {
+            assert!(exports.remove(&vec!["entry".to_owned()]));
+        }
+        let found = circles(&imports);
         assert!(found.is_empty(), "{root}: {}", found.join("\n"));
     }
 }

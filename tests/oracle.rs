@@ -57,7 +57,7 @@ const CLIPS: [(&str, AtlasLayout); 4] = [
 ];
 /// Vertices that a shader moves to their tile round differently from those that a viewport moves. Measured on llvmpipe 22.3: at most 42 of
 /// 66,000 pixels differ, 1 by more than 8 steps.
-const BESIDE: Gate = Gate {
+const SIDE_BY_SIDE: Gate = Gate {
     differing: 0.001,
     over_one_per_million: None,
     outliers_per_million: 16.0,
@@ -345,7 +345,7 @@ fn check_in(
                 };
                 let gate = match strategy {
                     "replay" if !scene.has_shaders() => Gate::EQUAL,
-                    _ if layouts == CLIPS => BESIDE,
+                    _ if layouts == CLIPS => SIDE_BY_SIDE,
                     _ if scene.has_blades() => BLADES,
                     _ => Gate::DESIGN,
                 };
@@ -560,9 +560,9 @@ es! {
 }
 
 /// Views side by side, by the strategies that draw all of them at once.
-macro_rules! beside {
+macro_rules! side_by_side {
     ($($scene:ident)*) => {
-        mod beside { $(
+        mod side_by_side { $(
             #[test]
             fn $scene() {
                 super::check_in(stringify!($scene), "glx", &[5], &["instanced", "geometry"], &super::CLIPS);
@@ -571,4 +571,4 @@ macro_rules! beside {
     };
 }
 
-beside! { gears teapot fogtexgen clip mesh arrays prims }
+side_by_side! { gears teapot fogtexgen clip mesh arrays prims }

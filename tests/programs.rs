@@ -35,7 +35,7 @@ use support::{has, own_screen, scratch};
 use table::Program;
 
 /// A variable by which a person chooses what runs.
-fn wish(name: &str) -> Option<String> {
+fn variable(name: &str) -> Option<String> {
     std::env::var(name).ok().filter(|value| !value.is_empty())
 }
 
@@ -68,7 +68,8 @@ fn write(table: &[Program], rows: &BTreeMap<String, Row>) {
 
 /// Runs programs; each row is written to the document as soon as it is there.
 fn run(programs: Vec<&Program>, table: &[Program]) {
-    let jobs = wish("MANYVIEW_PROGRAMS_JOBS").map_or(1, |n| n.parse().expect("a number of jobs"));
+    let jobs =
+        variable("MANYVIEW_PROGRAMS_JOBS").map_or(1, |n| n.parse().expect("a number of jobs"));
     let count = programs.len();
     let writing = Mutex::new(());
     let queue = Mutex::new(programs.into_iter().enumerate());
@@ -108,14 +109,14 @@ fn programs_are_compatible() {
     assert!(has("apitrace") && has("glretrace"), "make packages");
     let table = table::read();
     let wanted: Option<BTreeSet<String>> =
-        wish("MANYVIEW_PROGRAMS").map(|names| names.split(',').map(str::to_owned).collect());
+        variable("MANYVIEW_PROGRAMS").map(|names| names.split(',').map(str::to_owned).collect());
     let chosen = |program: &&Program| {
         wanted
             .as_ref()
             .is_none_or(|names| names.contains(&program.name))
     };
     let programs: Vec<_> = table.iter().filter(chosen).collect();
-    let none = wish("MANYVIEW_PROGRAMS").is_some_and(|names| names == "-");
+    let none = variable("MANYVIEW_PROGRAMS").is_some_and(|names| names == "-");
     assert!(
         none || !programs.is_empty(),
         "MANYVIEW_PROGRAMS names no program"

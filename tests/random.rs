@@ -36,12 +36,13 @@ const KNOWN: [(u64, &str); 6] = [
     (108_733, COLOUR),
     (109_793, COLOUR),
 ];
-const COLOUR: &str = "Mesa alone sets the colour from before a list's vertices again after it (ARCHITECTURE, Measured)";
+const COLOUR: &str =
+    "Mesa alone sets the colour from before a list's vertices again after it (docs/measured.md)";
 
 /// Sequences in one process; a crash loses only these.
 const BATCH: u64 = 50;
 /// Number of sequences in a hundred that may be nondeterministic in Mesa alone ([`is_nondeterministic`]).
-const TWO_MINDS: u64 = 3;
+const NONDETERMINISTIC_PER_CENT: u64 = 3;
 /// How often a sequence that differs is repeated.
 const AGAIN: usize = 8;
 /// How many failures are shown.
@@ -207,7 +208,7 @@ fn compare_without(
     wrong.retain(|seed| !KNOWN.iter().any(|(known, _)| known == seed));
     let found = wrong.len() as u64;
     wrong.retain(|&seed| !is_nondeterministic(&bare, &layer, seed, without));
-    let minds = found - wrong.len() as u64;
+    let nondeterministic = found - wrong.len() as u64;
     let shown: Vec<String> = wrong
         .iter()
         .take(SHOWN)
@@ -220,11 +221,11 @@ fn compare_without(
         shown.join("\n")
     );
     assert!(
-        minds * 100 <= compared.max(100) * TWO_MINDS,
-        "Mesa alone is nondeterministic on {minds} of {compared} sequences"
+        nondeterministic * 100 <= compared.max(100) * NONDETERMINISTIC_PER_CENT,
+        "Mesa alone is nondeterministic on {nondeterministic} of {compared} sequences"
     );
     println!(
-        "{compared} sequences are the same, but {minds} on which Mesa alone is nondeterministic"
+        "{compared} sequences are the same, but {nondeterministic} on which Mesa alone is nondeterministic"
     );
 }
 

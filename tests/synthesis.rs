@@ -274,7 +274,7 @@ fn programs_with_pictures_of_their_own_are_drawn_in_each_view() {
 }
 
 /// Scenes of `hard` that exceed the bound, and why.
-const APART: [(&str, &str); 5] = [
+const BOUND_EXCEEDED: [(&str, &str); 5] = [
     (
         "answers",
         "two surfaces in one plane, which fight for it in each view in another way",
@@ -329,7 +329,7 @@ fn hard_scenes_are_right_outside_of_holes() {
                 reasons(&report)
             );
             let pixels = f64::from(exact[0].width() * exact[0].height());
-            match APART.iter().find(|(apart, _)| *apart == name) {
+            match BOUND_EXCEEDED.iter().find(|(scene, _)| *scene == name) {
                 // With two true views the bound may be met.
                 Some((_, why)) if !way.contains(&"hybrid") => {
                     assert!(worst as f64 > OUTSIDE * pixels, "{name}: {why}");

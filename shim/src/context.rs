@@ -186,7 +186,7 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
     let (Some(drawable), false, false) = (drawable, handle.is_null(), switch::off()) else {
         return;
     };
-    deep::look();
+    deep::rebind_new_libraries();
     let Some((width, height)) = guarded(|| drawable::size(drawable)) else {
         return;
     };

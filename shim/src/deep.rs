@@ -62,7 +62,7 @@ const DT_REL: (usize, usize) = (17, 18);
 const DT_JMPREL: usize = 23;
 
 /// Checks all libraries if some were loaded since the last time. Cheap otherwise.
-pub(crate) fn look() {
+pub(crate) fn rebind_new_libraries() {
     let mut added = 0u64;
     // SAFETY: the callback's argument is a u64 that lives across the call.
     unsafe { libc::dl_iterate_phdr(Some(count), (&raw mut added).cast()) };
@@ -101,13 +101,13 @@ impl Loaded {
 }
 
 unsafe extern "C" fn count(info: *mut dl_phdr_info, _: usize, added: *mut c_void) -> i32 {
-    // SAFETY: the dynamic linker's record, and the u64 of `look`.
+    // SAFETY: the dynamic linker's record, and the u64 of `rebind_new_libraries`.
     unsafe { *added.cast::<u64>() = (*info).dlpi_adds };
     1
 }
 
 unsafe extern "C" fn find(info: *mut dl_phdr_info, _: usize, gl: *mut c_void) -> i32 {
-    // SAFETY: the dynamic linker's record, and the Loaded of `look`.
+    // SAFETY: the dynamic linker's record, and the Loaded of `rebind_new_libraries`.
     let (library, gl) = unsafe { (Library::of(&*info), &mut *gl.cast::<Loaded>()) };
     if let Some(library) = library.filter(Library::is_gl)
         && let Some(range) = gl.ranges.get_mut(gl.count)
@@ -119,7 +119,7 @@ unsafe extern "C" fn find(info: *mut dl_phdr_info, _: usize, gl: *mut c_void) ->
 }
 
 unsafe extern "C" fn bind(info: *mut dl_phdr_info, _: usize, gl: *mut c_void) -> i32 {
-    // SAFETY: the dynamic linker's record, and the Loaded of `look`.
+    // SAFETY: the dynamic linker's record, and the Loaded of `rebind_new_libraries`.
     let (library, gl) = unsafe { (Library::of(&*info), &*gl.cast::<Loaded>()) };
     if let Some(library) = library.filter(|l| !l.is_gl() && !l.file.starts_with(b"libmanyview")) {
         // SAFETY: the linker keeps a library loaded while this callback runs.
@@ -233,7 +233,7 @@ impl Library<'_> {
                     unsafe { core::slice::from_raw_parts(table, size / size_of::<Relocation>()) };
                 for relocation in all {
                     // SAFETY: of this library.
-                    unsafe { self.lead(relocation, names, gl) };
+                    unsafe { self.redirect(relocation, names, gl) };
                 }
             }
         }
@@ -241,7 +241,7 @@ impl Library<'_> {
 
     /// # Safety
     /// A relocation of this library, and the addresses of its strings and symbols.
-    unsafe fn lead(
+    unsafe fn redirect(
         &self,
         relocation: &Relocation,
         (strings, symbols): (usize, usize),

@@ -18,7 +18,7 @@ unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const 
     }
     let behind = handle == libc::RTLD_NEXT;
     if !behind {
-        deep::look();
+        deep::rebind_new_libraries();
     }
     // SAFETY: dlsym's contract: a string that ends in NUL.
     let text = unsafe { CStr::from_ptr(name) };

@@ -10819,535 +10819,535 @@ export! { 675, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_gl
     unsafe { special::glEndTransformFeedback() }
 } }
 export! { 676, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glAlphaFunc(func, ref_) };
 } }
 export! { 677, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunc(sfactor, dfactor) };
 } }
 export! { 678, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparate(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
 export! { 679, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateEXT(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
 export! { 680, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateINGR(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
 export! { 681, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparatei(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
 export! { 682, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateIndexedAMD(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
 export! { 683, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiARB(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
 export! { 684, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiEXT(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
 export! { 685, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiOES(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
 export! { 686, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunci(buf, src, dst) };
 } }
 export! { 687, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncIndexedAMD(buf, src, dst) };
 } }
 export! { 688, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciARB(buf, src, dst) };
 } }
 export! { 689, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciEXT(buf, src, dst) };
 } }
 export! { 690, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciOES(buf, src, dst) };
 } }
 export! { 691, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquation(mode) };
 } }
 export! { 692, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationEXT(mode) };
 } }
 export! { 693, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparate(modeRGB, modeAlpha) };
 } }
 export! { 694, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateEXT(modeRGB, modeAlpha) };
 } }
 export! { 695, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparatei(buf, modeRGB, modeAlpha) };
 } }
 export! { 696, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateIndexedAMD(buf, modeRGB, modeAlpha) };
 } }
 export! { 697, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiARB(buf, modeRGB, modeAlpha) };
 } }
 export! { 698, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiEXT(buf, modeRGB, modeAlpha) };
 } }
 export! { 699, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiOES(buf, modeRGB, modeAlpha) };
 } }
 export! { 700, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationi(buf, mode) };
 } }
 export! { 701, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationIndexedAMD(buf, mode) };
 } }
 export! { 702, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiARB(buf, mode) };
 } }
 export! { 703, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiEXT(buf, mode) };
 } }
 export! { 704, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiOES(buf, mode) };
 } }
 export! { 705, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColor(red, green, blue, alpha) };
 } }
 export! { 706, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColorEXT(red, green, blue, alpha) };
 } }
 export! { 707, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearAccum(red, green, blue, alpha) };
 } }
 export! { 708, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearColor(red, green, blue, alpha) };
 } }
 export! { 709, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepth(depth) };
 } }
 export! { 710, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthf(d) };
 } }
 export! { 711, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthfOES(depth) };
 } }
 export! { 712, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearIndex(c) };
 } }
 export! { 713, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearStencil(s) };
 } }
 export! { 714, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipPlane(plane, equation) };
 } }
 export! { 715, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMask(red, green, blue, alpha) };
 } }
 export! { 716, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaski(index, r, g, b, a) };
 } }
 export! { 717, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskIndexedEXT(index, r, g, b, a) };
 } }
 export! { 718, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiEXT(index, r, g, b, a) };
 } }
 export! { 719, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiOES(index, r, g, b, a) };
 } }
 export! { 720, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCullFace(mode) };
 } }
 export! { 721, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthBoundsEXT(zmin, zmax) };
 } }
 export! { 722, glFrontFace, first_glFrontFace, hook_glFrontFace, (mode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFrontFace(mode) };
 } }
 export! { 723, glIndexMask, first_glIndexMask, hook_glIndexMask, (mask: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexMask(mask) };
 } }
 export! { 724, glInitNames, first_glInitNames, hook_glInitNames, () -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInitNames() };
 } }
 export! { 725, glLoadName, first_glLoadName, hook_glLoadName, (name: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLoadName(name) };
 } }
 export! { 726, glPushName, first_glPushName, hook_glPushName, (name: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushName(name) };
 } }
 export! { 727, glPopName, first_glPopName, hook_glPopName, () -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopName() };
 } }
 export! { 728, glPassThrough, first_glPassThrough, hook_glPassThrough, (token: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPassThrough(token) };
 } }
 export! { 729, glLineStipple, first_glLineStipple, hook_glLineStipple, (factor: i32, pattern: u16) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLineStipple(factor, pattern) };
 } }
 export! { 730, glListBase, first_glListBase, hook_glListBase, (base: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glListBase(base) };
 } }
 export! { 731, glLogicOp, first_glLogicOp, hook_glLogicOp, (opcode: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLogicOp(opcode) };
 } }
 export! { 732, glMap1d, first_glMap1d, hook_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1d(target, u1, u2, stride, order, points) };
 } }
 export! { 733, glMap1f, first_glMap1f, hook_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1f(target, u1, u2, stride, order, points) };
 } }
 export! { 734, glMap2d, first_glMap2d, hook_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2d(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
 export! { 735, glMap2f, first_glMap2f, hook_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2f(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
 export! { 736, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1d(un, u1, u2) };
 } }
 export! { 737, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1f(un, u1, u2) };
 } }
 export! { 738, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2d(un, u1, u2, vn, v1, v2) };
 } }
 export! { 739, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2f(un, u1, u2, vn, v1, v2) };
 } }
 export! { 740, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapfv(map, mapsize, values) };
 } }
 export! { 741, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapuiv(map, mapsize, values) };
 } }
 export! { 742, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapusv(map, mapsize, values) };
 } }
 export! { 743, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, (pname: u32, param: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferf(pname, param) };
 } }
 export! { 744, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, (pname: u32, param: i32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferi(pname, param) };
 } }
 export! { 745, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelZoom(xfactor, yfactor) };
 } }
 export! { 746, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, (factor: f32, units: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffset(factor, units) };
 } }
 export! { 747, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClamp(factor, units, clamp) };
 } }
 export! { 748, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClampEXT(factor, units, clamp) };
 } }
 export! { 749, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, (mask: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonStipple(mask) };
 } }
 export! { 750, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTextures(n, textures, priorities) };
 } }
 export! { 751, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTexturesEXT(n, textures, priorities) };
 } }
 export! { 752, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, (value: f32, invert: u8) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverage(value, invert) };
 } }
 export! { 753, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverageARB(value, invert) };
 } }
 export! { 754, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, (value: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShading(value) };
 } }
 export! { 755, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, (value: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingARB(value) };
 } }
 export! { 756, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, (value: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingOES(value) };
 } }
 export! { 757, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFunc(func, ref_, mask) };
 } }
 export! { 758, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFuncSeparate(face, func, ref_, mask) };
 } }
 export! { 759, glStencilMask, first_glStencilMask, hook_glStencilMask, (mask: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMask(mask) };
 } }
 export! { 760, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMaskSeparate(face, mask) };
 } }
 export! { 761, glStencilOp, first_glStencilOp, hook_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOp(fail, zfail, zpass) };
 } }
 export! { 762, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparate(face, sfail, dpfail, dppass) };
 } }
 export! { 763, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparateATI(face, sfail, dpfail, dppass) };
 } }
 export! { 764, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, (index: u32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveRestartIndex(index) };
@@ -11683,97 +11683,97 @@ export! { 819, glNamedRenderbufferStorageMultisample, first_glNamedRenderbufferS
     unsafe { gl.glNamedRenderbufferStorageMultisample(renderbuffer, samples, internalformat, width, height) };
 } }
 export! { 820, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterf(target, pname, param) };
 } }
 export! { 821, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterfv(target, pname, params) };
 } }
 export! { 822, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteri(target, pname, param) };
 } }
 export! { 823, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteriv(target, pname, params) };
 } }
 export! { 824, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIiv(target, pname, params) };
 } }
 export! { 825, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivEXT(target, pname, params) };
 } }
 export! { 826, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivOES(target, pname, params) };
 } }
 export! { 827, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuiv(target, pname, params) };
 } }
 export! { 828, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivEXT(target, pname, params) };
 } }
 export! { 829, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivOES(target, pname, params) };
 } }
 export! { 830, glTextureParameterf, first_glTextureParameterf, hook_glTextureParameterf, (texture: u32, pname: u32, param: f32) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterf(texture, pname, param) };
 } }
 export! { 831, glTextureParameterfv, first_glTextureParameterfv, hook_glTextureParameterfv, (texture: u32, pname: u32, param: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterfv(texture, pname, param) };
 } }
 export! { 832, glTextureParameteri, first_glTextureParameteri, hook_glTextureParameteri, (texture: u32, pname: u32, param: i32) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteri(texture, pname, param) };
 } }
 export! { 833, glTextureParameteriv, first_glTextureParameteriv, hook_glTextureParameteriv, (texture: u32, pname: u32, param: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteriv(texture, pname, param) };
 } }
 export! { 834, glTextureParameterIiv, first_glTextureParameterIiv, hook_glTextureParameterIiv, (texture: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIiv(texture, pname, params) };
 } }
 export! { 835, glTextureParameterIuiv, first_glTextureParameterIuiv, hook_glTextureParameterIuiv, (texture: u32, pname: u32, params: Ptr) -> (), {
-    hooks::look();
+    hooks::texture_parameter();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIuiv(texture, pname, params) };
@@ -11883,49 +11883,49 @@ export! { 855, glVertexArrayBindingDivisor, first_glVertexArrayBindingDivisor, h
     unsafe { gl.glVertexArrayBindingDivisor(vaobj, bindingindex, divisor) };
 } }
 export! { 856, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dARB(target, index, x, y, z, w) };
 } }
 export! { 857, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dvARB(target, index, params) };
 } }
 export! { 858, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fARB(target, index, x, y, z, w) };
 } }
 export! { 859, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fvARB(target, index, params) };
 } }
 export! { 860, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dARB(target, index, x, y, z, w) };
 } }
 export! { 861, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dvARB(target, index, params) };
 } }
 export! { 862, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fARB(target, index, x, y, z, w) };
 } }
 export! { 863, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
-    hooks::any();
+    hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fvARB(target, index, params) };
@@ -13783,193 +13783,193 @@ export! { 1241, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_g
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
 export! { 1242, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
 export! { 1243, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
 export! { 1244, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
 export! { 1245, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
 export! { 1246, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
 export! { 1247, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
 export! { 1248, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
 export! { 1249, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
 export! { 1250, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
 export! { 1251, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
 export! { 1252, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
 export! { 1253, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
 export! { 1254, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
 export! { 1255, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
 export! { 1256, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
 export! { 1257, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
 export! { 1258, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
 export! { 1259, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
 export! { 1260, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
 export! { 1261, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
 export! { 1262, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
 export! { 1263, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
 export! { 1264, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
 export! { 1265, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
 export! { 1266, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
 export! { 1267, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
 export! { 1268, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
 export! { 1269, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointerv(pname, params) };
 } }
 export! { 1270, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervEXT(pname, params) };
 } }
 export! { 1271, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervKHR(pname, params) };
 } }
 export! { 1272, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
 export! { 1273, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
@@ -14005,145 +14005,145 @@ export! { 1278, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_g
     unsafe { gl.glGetnCompressedTexImage(target, lod, bufSize, pixels) };
 } }
 export! { 1279, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
 export! { 1280, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
 export! { 1281, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
 export! { 1282, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
 export! { 1283, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
 export! { 1284, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
 export! { 1285, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
 export! { 1286, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
 export! { 1287, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
 export! { 1288, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
 export! { 1289, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
 export! { 1290, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
 export! { 1291, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
 export! { 1292, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
 export! { 1293, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
 export! { 1294, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
 export! { 1295, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
 export! { 1296, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
 export! { 1297, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
 export! { 1298, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
 export! { 1299, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
 export! { 1300, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
 export! { 1301, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
 export! { 1302, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
@@ -14193,199 +14193,199 @@ export! { 1310, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_g
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
 export! { 1311, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBuffer(target, buffer) };
 } }
 export! { 1312, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBufferARB(target, buffer) };
 } }
 export! { 1313, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferData(target, size, data, usage) };
 } }
 export! { 1314, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferDataARB(target, size, data, usage) };
 } }
 export! { 1315, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubData(target, offset, size, data) };
 } }
 export! { 1316, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubDataARB(target, offset, size, data) };
 } }
 export! { 1317, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffers(n, buffers) };
 } }
 export! { 1318, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffersARB(n, buffers) };
 } }
 export! { 1319, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
 export! { 1320, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
 export! { 1321, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
 export! { 1322, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
 export! { 1323, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
 export! { 1324, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
 export! { 1325, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
 export! { 1326, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
 export! { 1327, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
 export! { 1328, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
 export! { 1329, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
 export! { 1330, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
 export! { 1331, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
 export! { 1332, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
 export! { 1333, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
 export! { 1334, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
 export! { 1335, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
 export! { 1336, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
 export! { 1337, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
 export! { 1338, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
 export! { 1339, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
 export! { 1340, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
 export! { 1341, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
 export! { 1342, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
 export! { 1343, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
-    hooks::ask();
+    hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };

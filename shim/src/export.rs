@@ -12,7 +12,7 @@ macro_rules! export {
             unsafe { core::mem::transmute::<*mut (), unsafe extern "C" fn($($t),*) -> $r>(ENTRY[$slot].load(Relaxed))($($a),*) }
         }
         unsafe extern "C" fn $first($($a: $t),*) -> $r {
-            switch::resolve($slot);
+            switch::resolve($slot, &ENTRY[$slot], HOOK[$slot].as_ref());
             // SAFETY: as above; the slot now holds something else than `first`.
             unsafe { core::mem::transmute::<*mut (), unsafe extern "C" fn($($t),*) -> $r>(ENTRY[$slot].load(Relaxed))($($a),*) }
         }

@@ -26,8 +26,8 @@ pub(crate) enum Kind {
 pub(crate) fn touch(groups: Touch) {
     if context::peek(|l| l.touch(groups)) == Some(false) {
         // State that the views depend on is set once, in a run of its own. Other state may stay in a run that draws.
-        let look = Touch::DEPTH | Touch::RANGE | Touch::TEXTURE | Touch::COVER;
-        let inside = Touch::FIXED | Touch::MATERIAL | look;
+        let per_fragment = Touch::DEPTH | Touch::RANGE | Touch::TEXTURE | Touch::COVER;
+        let inside = Touch::FIXED | Touch::MATERIAL | per_fragment;
         let run = if groups.without(inside) == Touch::NONE {
             Run::Open
         } else {
@@ -45,19 +45,19 @@ pub(crate) fn compile(command: Command, groups: Touch) -> bool {
 
 /// Before a command that concerns the layer only inside a display list.
 #[inline]
-pub(crate) fn any() {
+pub(crate) fn list_only() {
     compile(Command::Of(Run::Open), Touch::NONE);
 }
 
 /// Before a command that sets a uniform of the program's.
 #[inline]
 pub(crate) fn uniform() {
-    any();
+    list_only();
     manyview_core::state::uniform_changes();
 }
 
 /// Runs work of the layer that is needed only if the views have images of their own.
-pub(crate) fn copied(f: impl FnOnce(&Gl, &mut Layer)) {
+pub(crate) fn if_split(f: impl FnOnce(&Gl, &mut Layer)) {
     if context::peek(|l| l.has_copies()) == Some(true) {
         enter(f);
     }
@@ -66,61 +66,61 @@ pub(crate) fn copied(f: impl FnOnce(&Gl, &mut Layer)) {
 /// Before a command that writes to the texture bound at `target`.
 #[inline]
 pub(crate) fn texture(target: u32) {
-    any();
-    copied(|gl, l| l.texture_written(gl, target));
+    list_only();
+    if_split(|gl, l| l.texture_written(gl, target));
 }
 
 /// Before a command that writes to a texture or renderbuffer, which it names.
 #[inline]
 pub(crate) fn named(object: Object) {
-    ask();
-    copied(|gl, l| l.written(gl, object));
+    before_uncompiled();
+    if_split(|gl, l| l.written(gl, object));
 }
 
 /// Before a command that reads or writes textures other than by drawing.
 #[inline]
 pub(crate) fn write_back() {
-    ask();
-    copied(|gl, l| l.write_back_textures(gl));
+    before_uncompiled();
+    if_split(|gl, l| l.write_back_textures(gl));
 }
 
 /// Before a command that makes an attribute advance per instance.
 #[inline]
 pub(crate) fn divide() {
-    ask();
+    before_uncompiled();
     context::peek(|l| l.divides());
 }
 
 /// Before a command that sets a parameter of a texture.
 #[inline]
-pub(crate) fn look() {
-    any();
-    context::peek(|l| l.look_changed());
+pub(crate) fn texture_parameter() {
+    list_only();
+    context::peek(|l| l.parameters_changed());
 }
 
 /// Before a command that changes the attachments or the draw buffers of a framebuffer of the program's.
 #[inline]
 pub(crate) fn attached() {
-    ask();
+    before_uncompiled();
     context::peek(|l| l.attachments_changed());
 }
 
 /// Before a command that gives the bound renderbuffer other storage.
 pub(crate) fn storage() {
-    ask();
-    copied(|gl, l| l.storage_changed(gl));
+    before_uncompiled();
+    if_split(|gl, l| l.storage_changed(gl));
 }
 
 /// A call that generates the mipmaps of the texture bound at `target`.
 pub(crate) fn mipmap(target: u32, call: &mut dyn FnMut(&'static Real)) {
-    any();
+    list_only();
     call(real());
-    copied(|gl, l| l.mipmaps(gl, target, &mut || call(gl.real())));
+    if_split(|gl, l| l.mipmaps(gl, target, &mut || call(gl.real())));
 }
 
 /// A call that runs a compute shader.
 pub(crate) fn compute(call: &mut dyn FnMut(&'static Real)) {
-    ask();
+    before_uncompiled();
     if enter(|gl, l| l.compute(gl, &mut || call(gl.real()))).is_none() {
         call(real());
     }
@@ -136,7 +136,7 @@ pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'stati
 
 /// Before a command that no display list compiles: the commands before it have to be executed first.
 #[inline]
-pub(crate) fn ask() {
+pub(crate) fn before_uncompiled() {
     if context::peek(|l| l.executes()) == Some(true) {
         enter(|gl, l| l.catch_up(gl));
     }
@@ -224,7 +224,7 @@ pub(crate) fn read_now(x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) 
 
 /// A call that concerns the framebuffer bound at `target`. If that is the program's 0, the driver gets the true one.
 pub(crate) fn hide<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> R {
-    ask();
+    before_uncompiled();
     let mut answer = None;
     enter(|gl, l| l.with_true_zero(gl, target, &mut || answer = Some(call(gl.real()))));
     answer.unwrap_or_else(|| call(real()))

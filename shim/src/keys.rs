@@ -95,16 +95,16 @@ pub(crate) fn after(layer: &mut Layer, window: impl FnOnce() -> Option<(String, 
         State::Unopened => match window() {
             None => Err("the program shows no window by GLX".into()),
             Some((display, window)) => Keyboard::open(&display).map(|mut keyboard| {
-                keyboard.know(window);
+                keyboard.remember_window(window);
                 *state = State::Open(Box::new(keyboard));
             }),
         },
         State::Open(keyboard) if keyboard.pid != std::process::id() => return,
         State::Open(keyboard) => {
             if let Some((_, window)) = window() {
-                keyboard.know(window);
+                keyboard.remember_window(window);
             }
-            keyboard.look(layer)
+            keyboard.handle_events(layer)
         }
     };
     if let Err(fault) = outcome {
@@ -169,7 +169,7 @@ impl Keyboard {
             waits: false,
             connection,
         };
-        keyboard.learn()?;
+        keyboard.read_mapping()?;
         let held = keyboard.connection.query_keymap()?.reply()?.keys;
         for (code, down) in keyboard.down.iter_mut().enumerate() {
             *down = held
@@ -180,7 +180,7 @@ impl Keyboard {
     }
 
     /// Reads the keyboard mapping, at the start and after a change.
-    fn learn(&mut self) -> Result<(), Fault> {
+    fn read_mapping(&mut self) -> Result<(), Fault> {
         let setup = self.connection.setup();
         let first = setup.min_keycode;
         let count = setup.max_keycode.saturating_sub(first).saturating_add(1);
@@ -198,7 +198,7 @@ impl Keyboard {
         Ok(())
     }
 
-    fn know(&mut self, window: Window) {
+    fn remember_window(&mut self, window: Window) {
         if !self.windows.contains(&window) {
             if self.windows.len() >= WINDOWS {
                 self.windows.remove(0);
@@ -208,7 +208,7 @@ impl Keyboard {
     }
 
     /// Handles the keys that were pressed since the last frame.
-    fn look(&mut self, layer: &mut Layer) -> Result<(), Fault> {
+    fn handle_events(&mut self, layer: &mut Layer) -> Result<(), Fault> {
         if self.waits {
             match layer.pictured() {
                 Some(Pictured::Later(wanted)) => self.wanted = Some(wanted),
@@ -235,7 +235,7 @@ impl Keyboard {
                         self.press(key, layer);
                     }
                 }
-                Some(Event::MappingNotify(_)) => self.learn()?,
+                Some(Event::MappingNotify(_)) => self.read_mapping()?,
                 Some(_) => {}
             }
         }

@@ -77,8 +77,8 @@ type Dlsym = unsafe extern "C" fn(*mut c_void, *const c_char) -> *mut c_void;
 
 static NEXT: AtomicPtr<c_void> = AtomicPtr::new(core::ptr::null_mut());
 
-/// The dlsym behind ours: that of another preloaded library, if there is one, else that of the C library. It is looked up by version,
-/// because the plain name is our own (measured: notes/interposition.md section 1).
+/// The dlsym behind ours: that of another preloaded library, if there is one, else that of the C library. It is looked up by version with
+/// dlvsym, because a call of dlsym would reach our own.
 pub(crate) fn next_dlsym() -> Option<Dlsym> {
     let mut p = NEXT.load(Relaxed);
     if p.is_null() {

@@ -1,8 +1,7 @@
 //! Whether the layer is on in this process, which decides where each exported function leads.
 
-use crate::entry::{ENTRY, HOOK};
-use crate::provider;
-use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use crate::{Address, provider};
+use core::sync::atomic::{AtomicBool, AtomicPtr, Ordering::Relaxed};
 use manyview_core::config::{Config, Output};
 use manyview_core::gl::{NAMES, slot};
 use std::io::Write;
@@ -124,10 +123,11 @@ pub(crate) fn hooked(slot: usize) -> bool {
     }
 }
 
-/// Called at the first call of an exported function: decides where the function leads from now on.
+/// Called at the first call of an exported function: decides where the function leads from now on. `entry` is the place that it jumps
+/// through, and `hook` its hook.
 #[cold]
-pub(crate) fn resolve(slot: usize) {
-    let Some(hook) = HOOK[slot] else { return };
+pub(crate) fn resolve(slot: usize, entry: &AtomicPtr<()>, hook: Option<&Address>) {
+    let Some(hook) = hook else { return };
     let driver = if hooked(slot) {
         None
     } else {
@@ -135,5 +135,5 @@ pub(crate) fn resolve(slot: usize) {
     };
     // A command that the driver lacks stays with the hook, which then does nothing.
     let to = driver.map_or(hook.0.cast_mut(), |p| p.cast());
-    ENTRY[slot].store(to, Relaxed);
+    entry.store(to, Relaxed);
 }

@@ -10,7 +10,7 @@ mod tests;
 
 use crate::atlas::{Atlas, Names};
 use crate::gl::{
-    FramebufferName, Gl, Object, ProgramName, TextureName, VertexArrayName, consts as c,
+    FramebufferName, Gl, Object, PixelStore, ProgramName, TextureName, VertexArrayName, consts as c,
 };
 use crate::interleave::Program;
 use crate::interleave::shader::{Pass, Step};
@@ -113,11 +113,17 @@ struct Table {
 
 impl Table {
     /// Binds the table; fills it first if it was made for another factor.
-    fn bind(&mut self, gl: &Gl, value: f32, make: impl FnOnce() -> (i32, Vec<i16>)) {
+    fn bind(
+        &mut self,
+        gl: &Gl,
+        pixels: &PixelStore,
+        value: f32,
+        make: impl FnOnce() -> (i32, Vec<i16>),
+    ) {
         gl.bind_texture(c::TEXTURE_2D, self.texture);
         if self.value != Some(value.to_bits()) {
             let (height, data) = make();
-            gl.tex_image_r16i(256, height, &data);
+            gl.tex_image_r16i(pixels, 256, height, &data);
             self.value = Some(value.to_bits());
         }
     }
@@ -253,7 +259,7 @@ impl Accumulation {
     pub fn apply(
         &mut self,
         gl: &Gl,
-        _: &Neutral,
+        neutral: &Neutral,
         operation: Operation,
         window: &Window,
         (from, to): (TextureName, &[TextureName]),
@@ -261,7 +267,7 @@ impl Accumulation {
     ) {
         let (step, values) = operation.step();
         if window.srgb_capable {
-            self.bind_table(gl, step, values[0]);
+            self.bind_table(gl, neutral.pixels(), step, values[0]);
         }
         let changes = matches!(step, Step::Accumulate | Step::Multiply | Step::Add);
         gl.active_texture(c::TEXTURE0);
@@ -323,12 +329,12 @@ impl Accumulation {
         attach(TextureName::ZERO, 0);
     }
 
-    fn bind_table(&mut self, gl: &Gl, step: Step, factor: f32) {
+    fn bind_table(&mut self, gl: &Gl, pixels: &PixelStore, step: Step, factor: f32) {
         let [load, give_back] = &mut self.tables;
         gl.active_texture(c::TEXTURE0 + 2);
         match step {
-            Step::Load | Step::Accumulate => load.bind(gl, factor, || taken(factor)),
-            Step::Return => give_back.bind(gl, factor, || stored(factor)),
+            Step::Load | Step::Accumulate => load.bind(gl, pixels, factor, || taken(factor)),
+            Step::Return => give_back.bind(gl, pixels, factor, || stored(factor)),
             Step::Fill | Step::Copy | Step::Multiply | Step::Add => {}
         }
     }

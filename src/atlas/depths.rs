@@ -2,7 +2,7 @@
 
 use super::{Atlas, Names, single::Single};
 use crate::gl::{BufferName, Fence, FramebufferName, Gl, consts as c};
-use crate::state::Window;
+use crate::state::{Neutral, Window};
 
 /// The most pictures of one frame.
 const PICTURES: usize = 3;
@@ -53,8 +53,8 @@ impl Atlas {
     }
 
     /// Copies the current depths of the program's own view; false where there is no more room, or depths cannot be read. Changes the
-    /// framebuffer bindings; the state must be neutral (see [`crate::state::Neutral`]).
-    pub fn take_depths(&mut self, gl: &Gl) -> bool {
+    /// framebuffer bindings.
+    pub fn take_depths(&mut self, gl: &Gl, neutral: &Neutral) -> bool {
         let full = self.depths.as_ref().is_none_or(|d| d.taken == PICTURES);
         if full || !gl.reads_depths() {
             return false;
@@ -69,7 +69,12 @@ impl Atlas {
         let size = depths.small.size();
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, depths.small.framebuffer());
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
-        gl.read_depth_to_buffer(size[0], size[1], depths.taken * bytes(size));
+        gl.read_depth_to_buffer(
+            neutral.pixels(),
+            size[0],
+            size[1],
+            depths.taken * bytes(size),
+        );
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);
         depths.taken += 1;
         self.bound_row = u32::MAX;

@@ -139,7 +139,7 @@ impl Grid {
     }
 
     /// The viewport of the window in the tile of a view that begins at `offset`: x, y, width, height in pixels of the atlas. With a shear it is
-    /// widened, and the projection needs [`Grid::lean`].
+    /// widened, and the projection needs [`Grid::slant`].
     pub fn viewport(&self, view: ViewIndex, offset: i32, viewport: [i32; 4]) -> [f32; 4] {
         let [x, y, width, height] = viewport.map(f64::from);
         let [corner_x, corner_y] = self.corner(view);
@@ -160,32 +160,32 @@ impl Grid {
     }
 
     /// The projection (column-major) for [`Grid::viewport`]: `x' = (x + k·y) / (1 + |k|)` in clip space, where k is the slope.
-    pub fn lean(&self, viewport: [i32; 4], p: &[f32; 16]) -> [f32; 16] {
+    pub fn slant(&self, viewport: [i32; 4], p: &[f32; 16]) -> [f32; 16] {
         let k = self.slope(viewport);
-        let mut leant = *p;
+        let mut slanted = *p;
         for column in 0..4 {
             let (x, y) = (f64::from(p[4 * column]), f64::from(p[4 * column + 1]));
-            leant[4 * column] = ((x + k * y) / (1.0 + k.abs())) as f32;
+            slanted[4 * column] = ((x + k * y) / (1.0 + k.abs())) as f32;
         }
-        leant
+        slanted
     }
 
-    /// As [`Grid::lean`], but for use with the viewport of another view, `by`.
-    pub fn lean_beside(
+    /// As [`Grid::slant`], but for use with the viewport of another view, `by`.
+    pub fn slant_beside(
         &self,
         viewport: [i32; 4],
         p: &[f32; 16],
         view: ViewIndex,
         by: ViewIndex,
     ) -> [f32; 16] {
-        let mut leant = self.lean(viewport, p);
+        let mut slanted = self.slant(viewport, p);
         let wide = self.across * f64::from(viewport[2]) * (1.0 + self.slope(viewport).abs());
         let aside = self.corner(view)[0] - self.corner(by)[0];
         for column in 0..4 {
             let moved = 2.0 * aside / wide * f64::from(p[4 * column + 3]);
-            leant[4 * column] = (f64::from(leant[4 * column]) + moved) as f32;
+            slanted[4 * column] = (f64::from(slanted[4 * column]) + moved) as f32;
         }
-        leant
+        slanted
     }
 
     /// The half-open range of texels of a view's tile whose centres lie in a range of the window's pixels, along x (axis 0, only

@@ -6,9 +6,9 @@ use std::collections::BTreeSet;
 /// Gives out names that the program does not use.
 ///
 /// At first they come from glGenTextures. Old programs however number their textures themselves instead of calling
-/// glGenTextures, and sooner or later bind a number that is ours (seen with MangoHud, notes/interposition.md section 2). Our
-/// textures then move to high names ([`Names::hide`]). High names are not used from the start: on Mesa glGenTextures continues above the
-/// highest name in use, and a program that calls it may use its names as small indices.
+/// glGenTextures, and sooner or later bind a number that is ours (seen with MangoHud). Our textures then move to high
+/// names ([`Names::hide`]; docs/decisions/0014-names-of-our-objects.md). High names are not used from the start: on Mesa glGenTextures continues
+/// above the highest name in use, and a program that calls it may use its names as small indices.
 #[derive(Debug, Default)]
 pub struct Names {
     next: Option<TextureName>,

@@ -63,7 +63,7 @@ pub enum PyramidTarget {
 }
 
 impl Pyramid {
-    fn lines(&self, target: PyramidTarget) -> &Layers {
+    fn target_layers(&self, target: PyramidTarget) -> &Layers {
         match target {
             PyramidTarget::BlockBounds => &self.block_bounds,
             PyramidTarget::RowMaxima => &self.row_maxima,
@@ -72,9 +72,9 @@ impl Pyramid {
     }
 
     pub(super) fn framebuffers(&self) -> impl Iterator<Item = FramebufferName> {
-        let lines = [&self.block_bounds, &self.row_maxima, &self.ray_range].into_iter();
+        let targets = [&self.block_bounds, &self.row_maxima, &self.ray_range].into_iter();
         let copies = self.copy.iter().flat_map(Single::framebuffers);
-        copies.chain(lines.flat_map(Layers::framebuffers))
+        copies.chain(targets.flat_map(Layers::framebuffers))
     }
 }
 
@@ -90,17 +90,17 @@ impl Atlas {
     ) -> bool {
         let size = [self.tiles.width, self.tiles.height].map(|side| side as i32);
         let blocks = self.tiles.width.div_ceil(BLOCK).max(1) as i32;
-        let mut lines = |width: i32| {
+        let mut target = |width: i32| {
             let format = (c::RG32F, c::RG, c::FLOAT);
             let size = [width, size[1], layers as i32];
-            let lines = Layers::new(gl, names, self.flipped, format, size);
-            self.textures.push(lines.texture);
-            lines
+            let made = Layers::new(gl, names, self.flipped, format, size);
+            self.textures.push(made.texture);
+            made
         };
-        let (block_bounds, row_maxima, ray_range) = (lines(blocks), lines(1), lines(blocks));
+        let (block_bounds, row_maxima, ray_range) = (target(blocks), target(1), target(blocks));
         let complete = [&block_bounds, &row_maxima, &ray_range]
             .iter()
-            .all(|lines| lines.complete);
+            .all(|target| target.complete);
         let copy = match self.multisampled() {
             true => None,
             false => {
@@ -155,7 +155,7 @@ impl Atlas {
         let Some(pyramid) = &self.pyramid else {
             return 0;
         };
-        let framebuffer = pyramid.lines(target).framebuffer(layer);
+        let framebuffer = pyramid.target_layers(target).framebuffer(layer);
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
         self.bound_row = u32::MAX;
         match target {

@@ -4,7 +4,7 @@ use super::{Atlas, AtlasError, Grid, Limits, Names, ReferenceSurface, Surface, T
 use crate::config::AtlasLayout::{self, Layers, SideBySide};
 use crate::gl::fake::{Fake, Scope, Snapshot};
 use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
-use crate::state::{BACK, FRONT, Window};
+use crate::state::{BACK, FRONT, Neutral, Window};
 use crate::view::ViewIndex;
 
 const KINDS: [&str; 3] = ["Textures", "Framebuffers", "Buffers"];
@@ -286,7 +286,11 @@ fn depths_are_read_when_they_are_there() {
     let gl = fake.gl();
     let mut atlas = atlas(&gl, SideBySide, 0);
     atlas.make_depths(&gl, &mut Names::default(), &window(&gl, 0));
-    let taken = (0..4).map(|_| atlas.take_depths(&gl)).collect::<Vec<_>>();
+    let neutral = Neutral::enter(&gl, true);
+    let taken = (0..4)
+        .map(|_| atlas.take_depths(&gl, &neutral))
+        .collect::<Vec<_>>();
+    neutral.leave(&gl);
     assert_eq!(taken, [true, true, true, false]);
     assert!(!atlas.depths_are_there(&gl), "not sent");
     atlas.send_depths(&gl);

@@ -27,8 +27,8 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let mut settings = arguments.layer.settings()?;
-    let told = match settings.get(OptionId::Prove) {
-        Some(_) => Some(Told::new(&mut settings)?),
+    let status = match settings.get(OptionId::Prove) {
+        Some(_) => Some(StatusFile::new(&mut settings)?),
         None => None,
     };
     let launch = Launch::prepare(&arguments.command, &settings)?;
@@ -51,8 +51,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             ));
         }
     }
-    if let Some(told) = told {
-        match told.proof() {
+    if let Some(status) = status {
+        match status.proof() {
             // A closed stderr is no reason to fail.
             Some(proof) => drop(std::io::stderr().write_all(proof::text(&proof).as_bytes())),
             None => tell(&format_args!(
@@ -64,13 +64,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// The file in which the layer reports its progress.
-pub(super) struct Told {
+pub(super) struct StatusFile {
     /// Dropped with the file.
     _folder: TempDir,
     file: PathBuf,
 }
 
-impl Told {
+impl StatusFile {
     /// Makes the layer write it into a temporary folder.
     pub(super) fn new(settings: &mut Settings) -> Result<Self, CommandError> {
         let folder = scratch()?;

@@ -10,7 +10,8 @@ use super::state_guard::StateGuard;
 use crate::atlas::{Atlas, Tiles as TilePlaces};
 use crate::fixed::{self, Amplifier, FixedKey, Primitive, Tiles, Unsupported};
 use crate::gl::{Gl, consts as c};
-use crate::plan::{Method, Reason, Rig, Shear};
+use crate::plan::reason::{Reason, Replayed};
+use crate::plan::{Method, Rig, Shear};
 use crate::state::State;
 use crate::view::ViewIndex;
 
@@ -33,9 +34,7 @@ impl Programs {
         let (tiles, grid) = (&atlas.tiles, &atlas.tiles.grid);
         let apart = grid.step[1] != 0.0 || grid.step[0] != 0.0 && state.rectangles.scissor_test;
         if apart || !grid.is_full() && tiles.columns > 1 {
-            return Err(Reason::Kind(
-                "draws to views whose tiles lie at other places of the window",
-            ));
+            return Err(Reason::Replayed(Replayed::TilesApart));
         }
         Ok(())
     }
@@ -60,7 +59,7 @@ impl Programs {
     ) -> Result<Amplified, Reason> {
         let grid = &atlas.tiles.grid;
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
-        let (mut key, around) = fixed.for_mode(mode, &modelview, material);
+        let (mut key, surroundings) = fixed.for_mode(mode, &modelview, material);
         let geometry = method == Method::Geometry;
         let (primitive, drawn_mode) = if geometry {
             primitive(mode, key.flat)?
@@ -80,17 +79,15 @@ impl Programs {
         }
         let batch = self.batch(method, &mut key, atlas);
         allow_target(&key, mode, geometry)?;
-        around.allow(&key).map_err(Reason::Fixed)?;
+        surroundings.allow(&key).map_err(Reason::Fixed)?;
         // Measured on llvmpipe 22.3: wide and smooth points and lines are torn after a geometry shader.
-        let drawn = around.rasterised;
+        let drawn = surroundings.rasterised;
         let wide = |size: f32, smooth: bool| size != 1.0 || smooth;
         if geometry
-            && (drawn.lines && wide(around.line_width, around.line_smooth)
-                || drawn.points && wide(around.point_size, around.point_smooth))
+            && (drawn.lines && wide(surroundings.line_width, surroundings.line_smooth)
+                || drawn.points && wide(surroundings.point_size, surroundings.point_smooth))
         {
-            return Err(Reason::Kind(
-                "wide and smooth points and lines under `geometry`",
-            ));
+            return Err(Reason::Replayed(Replayed::WidePrimitives));
         }
         let fragment = if key.target.discards() || grid.is_sample_aligned() {
             let mut read = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
@@ -165,7 +162,7 @@ impl Programs {
             Some(fragment) if fragment.grid => Units::None,
             _ => Units::Enabled,
         };
-        let around = StateGuard::enter(gl, state, atlas, key, program, units, fixed);
+        let guard = StateGuard::enter(gl, state, atlas, key, program, units, fixed);
         let tiles = atlas.tiles;
         let layers = key.target.tiles == Tiles::Layer;
         let discards = key.target.discards();
@@ -198,11 +195,11 @@ impl Programs {
                 if self.resends {
                     program.uploaded = Uniforms::default();
                 }
-                program.upload(gl, frame.uniforms(views, &around));
+                program.upload(gl, frame.uniforms(views, &guard));
                 call(views.len() as u32);
             }
         }
-        around.leave(gl, state, atlas, fixed);
+        guard.leave(gl, state, atlas, fixed);
     }
 }
 
@@ -230,7 +227,7 @@ impl Batch<'_> {
         }
         let p = tiles
             .grid
-            .lean_beside(state.rectangles.viewport, &p, view, tiles.own());
+            .slant_beside(state.rectangles.viewport, &p, view, tiles.own());
         first_row(&p, &self.modelview)
     }
 
@@ -266,9 +263,7 @@ impl Batch<'_> {
 pub(super) fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<(), Reason> {
     // Without clip distances, other vertices of the draw are clipped than in the program's own draw, which changes the diagonal.
     if key.target.discards() && mode == c::QUADS && !key.flat {
-        return Err(Reason::Kind(
-            "smooth quads under `--clip discard`, which the driver cuts along either diagonal,",
-        ));
+        return Err(Reason::Replayed(Replayed::DiscardedQuads));
     }
     // After a cut the driver would take the colour of a flat triangle from another corner.
     let whole = match key.target.primitive {
@@ -277,9 +272,7 @@ pub(super) fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<
         _ => false,
     };
     if geometry && key.target.cuts() && !whole {
-        return Err(Reason::Kind(
-            "points, lines, quads and flat triangles under `--clip cut`",
-        ));
+        return Err(Reason::Replayed(Replayed::CutPrimitives));
     }
     Ok(())
 }
@@ -308,11 +301,9 @@ pub(super) fn primitive(mode: u32, flat: bool) -> Result<(Primitive, u32), Reaso
         c::POLYGON => (Primitive::Polygon, c::TRIANGLE_FAN),
         c::QUADS if flat => (Primitive::Quads, c::LINES_ADJACENCY),
         c::QUADS | c::QUAD_STRIP if !flat => {
-            return Err(Reason::Kind(
-                "smooth quads under `geometry`, which the driver cuts along either diagonal,",
-            ));
+            return Err(Reason::Replayed(Replayed::SmoothQuads));
         }
-        c::QUAD_STRIP => return Err(Reason::Kind("flat quad strips under `geometry`")),
-        _ => return Err(Reason::Kind("primitives with adjacency and patches")),
+        c::QUAD_STRIP => return Err(Reason::Replayed(Replayed::FlatQuadStrips)),
+        _ => return Err(Reason::Replayed(Replayed::Adjacency)),
     })
 }

@@ -172,7 +172,7 @@ impl FixedState {
     /// Reads the parts that depend on the material again.
     pub fn reread_material(&mut self, gl: &Gl) {
         if let Some(l) = &mut self.key.lighting {
-            l.dull = dull(gl);
+            l.zero_shininess = zero_shininess(gl);
         }
     }
 
@@ -184,23 +184,23 @@ impl FixedState {
         modelview: &[f32; 16],
         material: bool,
     ) -> (FixedKey, Surroundings) {
-        let (mut key, mut around) = (self.key, self.surroundings);
+        let (mut key, mut surroundings) = (self.key, self.surroundings);
         if let Some(l) = &mut key.lighting {
             l.object_space = keeps_lengths(modelview);
         }
-        let drawn = &mut around.rasterised;
+        let drawn = &mut surroundings.rasterised;
         (drawn.points, drawn.lines, drawn.polygons) = match mode {
             c::POINTS => (true, false, false),
             c::LINES | c::LINE_STRIP | c::LINE_LOOP => (false, true, false),
             _ => {
                 let has = |m| self.polygon_mode.contains(&m);
-                around.polygon_mode = has(c::POINT) || has(c::LINE);
+                surroundings.polygon_mode = has(c::POINT) || has(c::LINE);
                 // Edge flags are not tracked, so with outlines they are assumed to be in use.
-                around.edge_flags = around.polygon_mode;
+                surroundings.edge_flags = surroundings.polygon_mode;
                 (has(c::POINT), has(c::LINE), has(c::FILL))
             }
         };
-        if around.rasterised.points {
+        if surroundings.rasterised.points {
             key.point = self.point;
         }
         if let c::QUADS | c::QUAD_STRIP = mode {
@@ -214,8 +214,8 @@ impl FixedState {
                 key.provoking = Provoking::Last;
             }
         }
-        around.material_per_vertex = material;
-        (key, around)
+        surroundings.material_per_vertex = material;
+        (key, surroundings)
     }
 }
 
@@ -258,7 +258,7 @@ fn lighting(gl: &Gl) -> Lighting {
         separate_specular: gl.get_integer(c::LIGHT_MODEL_COLOR_CONTROL) as u32
             == c::SEPARATE_SPECULAR_COLOR,
         color_material,
-        dull: dull(gl),
+        zero_shininess: zero_shininess(gl),
         object_space: false,
     }
 }
@@ -277,7 +277,7 @@ fn keeps_lengths(m: &[f32; 16]) -> bool {
 }
 
 /// Whether a face has shininess 0 and a specular colour that is not black, or that follows the current colour.
-fn dull(gl: &Gl) -> bool {
+fn zero_shininess(gl: &Gl) -> bool {
     let specular_follows = gl.is_enabled(c::COLOR_MATERIAL)
         && gl.get_integer(c::COLOR_MATERIAL_PARAMETER) as u32 == c::SPECULAR;
     [c::FRONT, c::BACK].into_iter().any(|face| {

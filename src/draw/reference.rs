@@ -52,7 +52,7 @@ impl Drawing {
 const SMALL: u64 = 8;
 
 /// Whether triangles of so many vertices may be large: if they covered the whole picture, they would be larger than [`SMALL`] on average.
-fn few(vertices: u64, atlas: &Atlas) -> bool {
+fn may_be_large(vertices: u64, atlas: &Atlas) -> bool {
     let [width, height] = [atlas.tiles.width, atlas.tiles.height].map(u64::from);
     vertices * SMALL < 3 * width * height
 }
@@ -143,7 +143,7 @@ pub fn draw_to_reference(
         .rev()
         .find(|unit| !units.contains(unit));
     let unit = unit.unwrap_or(DISTORTION_UNIT);
-    let sparse = !few(vertices, atlas);
+    let sparse = !may_be_large(vertices, atlas);
     variant.set_distortion(gl, unit, rays.uniforms(state, atlas, sparse));
     let map = Bound::enter(gl, unit, rays.map);
     into_reference(gl, atlas, state, rig, shear, hazard, call);
@@ -176,11 +176,11 @@ impl Programs {
     ) -> Result<(), Reason> {
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
         let mode = drawing.mode.unwrap_or(c::TRIANGLES);
-        let (mut key, around) = fixed.for_mode(mode, &modelview, drawing.material);
-        let few = few(drawing.vertices, atlas);
+        let (mut key, surroundings) = fixed.for_mode(mode, &modelview, drawing.material);
+        let large = may_be_large(drawing.vertices, atlas);
         // Under flat shading, the corner that colours a triangle of a strip depends on its position in the strip, which patches do not keep.
         let alone = !key.flat || [c::TRIANGLES, c::QUADS].contains(&mode);
-        let cut = few && alone && self.limits.glsl >= 400;
+        let cut = large && alone && self.limits.glsl >= 400;
         let patches = drawing.patches().filter(|_| cut);
         key.target.amplifier = Amplifier::Instanced;
         if let Some((primitive, _)) = patches {
@@ -188,7 +188,7 @@ impl Programs {
             key.target.primitive = primitive;
         }
         key.target.tiles = Tiles::DistortedRays;
-        around.allow(&key).map_err(Reason::Fixed)?;
+        surroundings.allow(&key).map_err(Reason::Fixed)?;
         let fragment = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
         let stages = (key.canonical(), Some(fragment.canonical()));
         self.compile(gl, &key, &stages)?;
@@ -196,8 +196,8 @@ impl Programs {
             return Err(Reason::Compile);
         };
         let map = Bound::enter(gl, DISTORTION_UNIT, rays.map);
-        let around = StateGuard::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
-        let [window, disparity] = rays.uniforms(state, atlas, !few);
+        let guard = StateGuard::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
+        let [window, disparity] = rays.uniforms(state, atlas, !large);
         gl.uniform_4fv(program.window, &[window]);
         gl.uniform_4fv(program.disparity, &[disparity]);
         let cut = patches.map(|(_, corners)| {
@@ -214,7 +214,7 @@ impl Programs {
         if let Some(was) = cut {
             gl.patch_parameteri(c::PATCH_VERTICES, was);
         }
-        around.leave(gl, state, atlas, fixed);
+        guard.leave(gl, state, atlas, fixed);
         map.leave(gl);
         Ok(())
     }

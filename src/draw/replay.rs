@@ -34,7 +34,7 @@ pub enum ReplayHazard {
 /// Sends the draw once per view, the program's own view last, so that the state is as after the program's own call. `call` sends the draw
 /// for a view; a clear is sent once per layer.
 ///
-/// `leaves`: the draw changes the state for the program. Otherwise all state is as before the call, also after the program's own view.
+/// `keeps_state`: the draw changes the state for the program. Otherwise all state is as before the call, also after the program's own view.
 ///
 /// Returns false if the draw could not be sent for the other views, because the attribute stack is full.
 #[allow(
@@ -48,7 +48,7 @@ pub fn replay(
     rig: &Rig,
     shear: Option<Shear>,
     hazard: ReplayHazard,
-    leaves: bool,
+    keeps_state: bool,
     call: &mut dyn FnMut(ViewIndex),
 ) -> bool {
     let tiles = surface.tiles();
@@ -62,7 +62,7 @@ pub fn replay(
     }
     let saves = hazard.saves();
     if saves != 0 && stack_is_full(gl) {
-        if leaves {
+        if keeps_state {
             call(own);
         }
         return false;
@@ -71,13 +71,13 @@ pub fn replay(
     for view in tiles.order() {
         let x = surface.enter(gl, view);
         sending.enter_tile(view, x);
-        if view == own && leaves {
+        if view == own && keeps_state {
             sending.own(call);
         } else {
-            sending.aside(view, x, call);
+            sending.send_undone(view, x, call);
         }
         if view == own {
-            sending.end(leaves);
+            sending.end(keeps_state);
         }
     }
     true
@@ -219,7 +219,7 @@ impl<'a> Sending<'a> {
     }
 
     /// Sends a view and undoes its changes of the state.
-    fn aside(&self, view: ViewIndex, x: i32, call: &mut dyn FnMut(ViewIndex)) {
+    fn send_undone(&self, view: ViewIndex, x: i32, call: &mut dyn FnMut(ViewIndex)) {
         let gl = self.gl;
         if self.saves != 0 {
             gl.push_attrib(self.saves);
@@ -259,17 +259,17 @@ impl<'a> Sending<'a> {
         }
     }
 
-    /// Restores the state after the program's own view; `leaves` as for [`replay`].
-    fn end(&self, leaves: bool) {
+    /// Restores the state after the program's own view; `keeps_state` as for [`replay`].
+    fn end(&self, keeps_state: bool) {
         let own = self.tiles.own();
         if self.beside() && !self.is_free(own) {
             restore_viewport(self.gl, self.state);
         }
-        let moved = self.rig.position(own) != 0.0 || self.projection.leans();
-        if !leaves || self.keeps_projection() && moved {
+        let moved = self.rig.position(own) != 0.0 || self.projection.is_slanted();
+        if !keeps_state || self.keeps_projection() && moved {
             self.projection.restore();
         }
-        if !leaves {
+        if !keeps_state {
             self.current.put(self.gl);
         }
         self.pixel_sizes.leave(self.gl);
@@ -295,7 +295,7 @@ pub fn enter_own(
         shear,
         grid: tiles.grid,
     };
-    if rig.position(tiles.own()) != 0.0 || projection.leans() {
+    if rig.position(tiles.own()) != 0.0 || projection.is_slanted() {
         projection.load(rig.position(tiles.own()));
     }
 }
@@ -476,7 +476,7 @@ struct Projection<'a> {
 
 impl Projection<'_> {
     /// Whether slanted tiles need another projection than P_i.
-    fn leans(&self) -> bool {
+    fn is_slanted(&self) -> bool {
         self.grid.shear != 0.0
     }
 
@@ -485,11 +485,11 @@ impl Projection<'_> {
         let p = &self.state.matrices.projection;
         let p = match &self.shear {
             Some(shear) => shear.projection(p, place),
-            None if self.leans() => *p,
+            None if self.is_slanted() => *p,
             None => return,
         };
-        self.put(&if self.leans() {
-            self.grid.lean(self.state.rectangles.viewport, &p)
+        self.put(&if self.is_slanted() {
+            self.grid.slant(self.state.rectangles.viewport, &p)
         } else {
             p
         });
@@ -497,7 +497,7 @@ impl Projection<'_> {
 
     /// Loads the program's own projection again.
     fn restore(&self) {
-        if self.shear.is_some() || self.leans() {
+        if self.shear.is_some() || self.is_slanted() {
             self.put(&self.state.matrices.projection);
         }
     }

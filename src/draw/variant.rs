@@ -6,7 +6,7 @@ use crate::plan::{Flat, Shear};
 use crate::rewrite::{
     Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, rewrite,
 };
-use crate::state::Text;
+use crate::state::ShaderSource;
 use std::borrow::Cow;
 use std::ffi::{CStr, CString};
 use std::sync::Arc;
@@ -40,13 +40,13 @@ pub enum NoVariant {
     #[error(transparent)]
     Refused(#[from] Refusal),
     /// There is no source: a binary, SPIR-V, or a program that was linked before the layer saw it.
-    #[error("the text of its shaders is not known")]
-    NoText,
+    #[error("the source of its shaders is not known")]
+    NoSource,
     /// Subroutines are context state that the layer does not track.
     #[error("it has subroutines")]
     Subroutines,
     /// It is a compute program, which draws nothing.
-    #[error("it computes")]
+    #[error("it is a compute program")]
     Computes,
     /// There is no vertex stage in which vertices could be shifted.
     #[error("it has no vertex shader")]
@@ -64,7 +64,7 @@ pub enum NoVariant {
     #[error("the outputs of its fragment shader are several, or not known")]
     Outputs,
     /// No name for a variable between the stages is free in both.
-    #[error("its shaders have names like ours")]
+    #[error("its shaders have names that clash with the layer's")]
     Names,
     /// The driver refuses the rewritten shaders, with this log.
     #[error("the driver refused the rewritten shaders: {0}")]
@@ -88,7 +88,7 @@ pub struct Variant {
     blocks: Vec<Option<u32>>,
 }
 
-/// Finds how the draws of a program get their views, and links its variant where it needs one. `texts` are the sources that the program was
+/// Finds how the draws of a program get their views, and links its variant where it needs one. `sources` are the sources that the program was
 /// linked from. Leaves the program's state as it is.
 ///
 /// # Errors
@@ -96,10 +96,10 @@ pub struct Variant {
 pub fn drawn(
     gl: &Gl,
     program: ProgramName,
-    texts: &[Text],
+    sources: &[ShaderSource],
     kind: VariantKind,
 ) -> Result<Drawn, NoVariant> {
-    let last = last_stage(texts)?;
+    let last = last_stage(sources)?;
     let (amplifier, target, views) = match kind {
         VariantKind::Alone => (Amplifier::Replay, Target::Whole, 1),
         VariantKind::Layer(by) => (Amplifier::Replay, Target::Layer(by), 1),
@@ -116,7 +116,7 @@ pub fn drawn(
         views,
         es: gl.is_es(),
     };
-    let mut rewritten = Rewritten::of(texts, last, &options)?;
+    let mut rewritten = Rewritten::of(sources, last, &options)?;
     if rewritten.projection && !distorts {
         return Ok(Drawn::ByMatrix);
     }
@@ -137,11 +137,11 @@ pub fn drawn(
 }
 
 /// The last stage that writes positions of vertices.
-fn last_stage(texts: &[Text]) -> Result<Stage, NoVariant> {
-    if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
-        return Err(NoVariant::NoText);
+fn last_stage(sources: &[ShaderSource]) -> Result<Stage, NoVariant> {
+    if sources.is_empty() || sources.iter().any(|shader| shader.source.is_empty()) {
+        return Err(NoVariant::NoSource);
     }
-    if texts.iter().any(|text| text.stage == Stage::Compute) {
+    if sources.iter().any(|shader| shader.stage == Stage::Compute) {
         return Err(NoVariant::Computes);
     }
     let rank = |stage: Stage| match stage {
@@ -150,7 +150,7 @@ fn last_stage(texts: &[Text]) -> Result<Stage, NoVariant> {
         Stage::Geometry => 3,
         _ => 0,
     };
-    let stages = texts.iter().map(|text| text.stage);
+    let stages = sources.iter().map(|shader| shader.stage);
     stages
         .max_by_key(|&stage| rank(stage))
         .filter(|&stage| rank(stage) > 0)
@@ -161,7 +161,7 @@ fn last_stage(texts: &[Text]) -> Result<Stage, NoVariant> {
 #[derive(Default)]
 struct Rewritten<'a> {
     /// The sources, each with the kind of its shader.
-    texts: Vec<(u32, Cow<'a, [u8]>)>,
+    sources: Vec<(u32, Cow<'a, [u8]>)>,
     /// The projection matrix of fixed function places the vertices.
     projection: bool,
     /// The layer's names in the stage that shifts vertices, and in the fragment stage, if that reads window coordinates.
@@ -172,20 +172,21 @@ struct Rewritten<'a> {
 }
 
 impl<'a> Rewritten<'a> {
-    fn of(texts: &'a [Text], last: Stage, options: &Options) -> Result<Self, NoVariant> {
+    fn of(sources: &'a [ShaderSource], last: Stage, options: &Options) -> Result<Self, NoVariant> {
         let distorts = options.target == Target::DistortedRays;
         let mut all = Rewritten::default();
-        for text in texts {
-            if text.stage != last && text.stage != Stage::Fragment {
-                let facts = facts(&text.source, options.es)?;
+        for shader in sources {
+            if shader.stage != last && shader.stage != Stage::Fragment {
+                let facts = facts(&shader.source, options.es)?;
                 if facts.subroutines {
                     return Err(NoVariant::Subroutines);
                 }
                 all.projection |= facts.projection;
-                all.texts.push((text.kind, text.source.as_slice().into()));
+                all.sources
+                    .push((shader.kind, shader.source.as_slice().into()));
                 continue;
             }
-            let new = rewrite(&text.source, text.stage, options)?;
+            let new = rewrite(&shader.source, shader.stage, options)?;
             if new.facts.subroutines {
                 return Err(NoVariant::Subroutines);
             }
@@ -193,14 +194,14 @@ impl<'a> Rewritten<'a> {
                 return Err(NoVariant::Effects);
             }
             let changed = matches!(new.text, Cow::Owned(_));
-            if text.stage == Stage::Fragment {
+            if shader.stage == Stage::Fragment {
                 all.built_in |= new.facts.writes_built_in();
                 all.window = changed.then_some(new.names).or(all.window);
             } else {
                 all.projection |= new.facts.projection;
                 all.shift = changed.then_some(new.names).or(all.shift);
             }
-            all.texts.push((text.kind, new.text));
+            all.sources.push((shader.kind, new.text));
         }
         Ok(all)
     }
@@ -212,8 +213,8 @@ impl<'a> Rewritten<'a> {
         shift: &Names,
         outputs: &mut Vec<(CString, u32)>,
     ) -> Result<(), NoVariant> {
-        let beside = self.window.as_ref().ok_or(NoVariant::NoFragment)?;
-        if beside != shift {
+        let window = self.window.as_ref().ok_or(NoVariant::NoFragment)?;
+        if window != shift {
             return Err(NoVariant::Names);
         }
         let one = outputs.len() <= 1 && outputs.iter().all(|(_, at)| *at == 0);
@@ -221,16 +222,19 @@ impl<'a> Rewritten<'a> {
         if !free {
             return Err(NoVariant::Outputs);
         }
-        outputs.push((CString::new(beside.beside()).unwrap_or_default(), 1));
+        outputs.push((
+            CString::new(window.displacement_output()).unwrap_or_default(),
+            1,
+        ));
         let distortion = shift.ray_distortion().into_bytes();
-        self.texts.push((c::VERTEX_SHADER, distortion.into()));
+        self.sources.push((c::VERTEX_SHADER, distortion.into()));
         Ok(())
     }
 
     fn compile(&self, gl: &Gl) -> Result<Vec<ShaderName>, NoVariant> {
-        let mut shaders = Vec::with_capacity(self.texts.len());
-        for (kind, text) in &self.texts {
-            match gl.compile(*kind, text) {
+        let mut shaders = Vec::with_capacity(self.sources.len());
+        for (kind, source) in &self.sources {
+            match gl.compile(*kind, source) {
                 Ok(shader) => shaders.push(shader),
                 Err(log) => {
                     shaders
@@ -271,8 +275,8 @@ impl Variant {
         place: Option<&Names>,
     ) -> Variant {
         let ours = |names: &Names, uniform| {
-            let text = CString::new(names.uniform(uniform)).unwrap_or_default();
-            gl.uniform_location(name, &text)
+            let uniform = CString::new(names.uniform(uniform)).unwrap_or_default();
+            gl.uniform_location(name, &uniform)
         };
         let window = |uniform| place.map_or(-1, |names| ours(names, uniform));
         let mut uniforms = Vec::new();
@@ -339,10 +343,10 @@ impl Variant {
     /// Sets the distortion of rays: the texture unit of the map, the place of its texels, disparities. The variant has to be in use and of the
     /// kind [`VariantKind::DistortedRays`].
     pub(super) fn set_distortion(&self, gl: &Gl, unit: u32, [window, disparities]: [[f32; 4]; 2]) {
-        let [at_map, at_window, at_heights] = self.distortion;
+        let [at_map, at_window, at_disparity] = self.distortion;
         gl.uniform_1i(at_map, unit as i32);
         gl.uniform_4fv(at_window, &[window]);
-        gl.uniform_4fv(at_heights, &[disparities]);
+        gl.uniform_4fv(at_disparity, &[disparities]);
     }
 
     /// Sets the shifts of the views that are drawn next; the variant has to be in use. `shear` is the shift of the scene, `flat` that of

@@ -5,19 +5,19 @@
 //! ```text
 //! u = x/w·window.x + window.z     v = y/w·window.y + window.w       the place, in pixels; a texel covers two of a row
 //! h = z/w·disparity.x + disparity.y                                   the disparity, which is linear in 1/w
-//! x' = x + moved·disparity.z·w                                       moved: displacement in pixels
+//! x' = x + displacement·disparity.z·w                                the displacement in pixels
 //! ```
 //! In a draw of many small triangles, `disparity.w` is 1: a vertex that is not moved is put behind the far plane, and the fragments
 //! of its triangles are discarded. The own view shows those surfaces already, so the reference image does not need them, and few
 //! triangles remain to be drawn.
 //!
-//! The vertex stage passes on moved·w. It is interpolated linearly in clip space, so divided by w it is linear in the picture, as
+//! The vertex stage passes on displacement·w. It is interpolated linearly in clip space, so divided by w it is linear in the picture, as
 //! the displacement is, however the triangle is clipped.
 
 use super::text::{Text, VERSION};
 
 /// Varying between the stages: displacement of a sample in pixels, times w; and a value below 1 where a vertex is left out.
-pub(super) const MOVED: &str = "mv_moved";
+pub(super) const DISPLACEMENT: &str = "mv_displacement";
 /// `uniform sampler2DArray mv_distortion_map`
 pub const UNIFORM_DISTORTION_MAP: &str = "mv_distortion_map";
 /// `uniform vec4 mv_window`
@@ -29,7 +29,7 @@ pub const UNIFORM_DISPARITY: &str = "mv_disparity";
 pub(super) const UNIFORMS: &str = "\
 uniform sampler2DArray mv_distortion_map; // the distortion map
 uniform vec4 mv_window; // texels of the map per unit of NDC, x and y; the texel of its middle
-uniform vec4 mv_disparity; // height per unit of NDC's z, what is added; a pixel in NDC; 1: what is not moved is left out";
+uniform vec4 mv_disparity; // disparity per unit of NDC's z, what is added; a pixel in NDC; 1: what is not moved is left out";
 
 const BODY: &str = "\
 float mv_distorted(vec4 p) {
@@ -52,11 +52,11 @@ float mv_distorted(vec4 p) {
 }
 
 vec4 mv_distort_rays(vec4 p) {
-    mv_moved.x = mv_distorted(p) * p.w;
-    p.x += mv_moved.x * mv_disparity.z;
-    mv_moved.y = 1.0;
-    if (mv_disparity.w > 0.0 && mv_moved.x == 0.0 && p.w > 0.0) {
-        mv_moved.y = 0.0;
+    mv_displacement.x = mv_distorted(p) * p.w;
+    p.x += mv_displacement.x * mv_disparity.z;
+    mv_displacement.y = 1.0;
+    if (mv_disparity.w > 0.0 && mv_displacement.x == 0.0 && p.w > 0.0) {
+        mv_displacement.y = 0.0;
         p.z = -2.0 * sign(mv_disparity.x) * p.w;
     }
     return p;
@@ -75,5 +75,6 @@ pub(super) fn write_position(text: &mut Text) {
 /// of p in clip space, and writes the displacement to a varying. The `#version` is its own, so that the functions which it calls
 /// exist. `prefix` replaces `mv_` in all names.
 pub fn ray_distortion(prefix: &str) -> String {
-    format!("#version {VERSION}\n{UNIFORMS}\nout vec2 {MOVED};\n\n{BODY}\n").replace("mv_", prefix)
+    format!("#version {VERSION}\n{UNIFORMS}\nout vec2 {DISPLACEMENT};\n\n{BODY}\n")
+        .replace("mv_", prefix)
 }

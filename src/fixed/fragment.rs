@@ -9,7 +9,7 @@
 //! ```
 //! Sections are those of the OpenGL 4.6 compatibility specification.
 
-use super::distortion::MOVED;
+use super::distortion::DISPLACEMENT;
 use super::environment;
 use super::fragment_key::{FogMode, FragmentKey, FragmentUnit, TextureTarget};
 use super::key::Dialect;
@@ -59,7 +59,7 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
     }
     if key.displaced {
         text.line(format!(
-            "in vec2 {MOVED}; // pixels, times w; 1: all of it is moved"
+            "in vec2 {DISPLACEMENT}; // pixels, times w; 1: all of it is moved"
         ));
     }
     text.line("");
@@ -90,10 +90,10 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
         text.line("}");
     }
     if key.displaced {
-        text.line(format!("if ({MOVED}.y < 0.999) discard;"));
+        text.line(format!("if ({DISPLACEMENT}.y < 0.999) discard;"));
         text.line("gl_FragData[0] = color;");
         text.line(format!(
-            "gl_FragData[1] = vec4({MOVED}.x * gl_FragCoord.w);"
+            "gl_FragData[1] = vec4({DISPLACEMENT}.x * gl_FragCoord.w);"
         ));
     } else {
         text.line("gl_FragColor = color;");

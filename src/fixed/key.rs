@@ -196,7 +196,7 @@ pub struct Lighting {
     pub separate_specular: bool,
     /// `GL_SHININESS` of a lit face is 0, and its specular colour is not black or follows the vertex colour. By the
     /// specification the specular factor is then 1; [`Dialect::Mesa`] deviates.
-    pub dull: bool,
+    pub zero_shininess: bool,
     /// The modelview matrix preserves lengths. [`Dialect::Mesa`] then lights in object space, if all lights are directional
     /// and nothing else needs eye space. The colours differ in their last bits only.
     pub object_space: bool,
@@ -355,7 +355,7 @@ impl FixedKey {
             || self.lighting.is_some_and(|lighting| lighting.local_viewer);
         if let Some(lighting) = &mut self.lighting {
             lighting.canonicalise();
-            lighting.dull &= self.dialect == Dialect::Mesa;
+            lighting.zero_shininess &= self.dialect == Dialect::Mesa;
             lighting.object_space &= self.dialect == Dialect::Mesa && !eye_space;
             self.color_sum = false;
         }
@@ -483,7 +483,8 @@ impl FixedKey {
             material.face == MaterialFace::Back && material.mode != MaterialMode::Emission
         });
         let lit = self.lights().next().is_some();
-        self.dialect == Dialect::Mesa && (lighting.dull || lighting.two_side && lit && back_product)
+        self.dialect == Dialect::Mesa
+            && (lighting.zero_shininess || lighting.two_side && lit && back_product)
     }
 
     /// Whether primitives are subdivided by tessellation.
@@ -520,7 +521,7 @@ impl Lighting {
         }
         let lit = self.lights.iter().any(Option::is_some);
         self.local_viewer &= lit;
-        self.dull &= lit;
+        self.zero_shininess &= lit;
         self.object_space &= lit;
         // Without a light only emission, ambient and the alpha of diffuse are read.
         if !lit

@@ -63,7 +63,7 @@ pub(super) fn write_outputs(text: &mut Text, key: &FixedKey) {
         text.line(format!("flat out vec2 {LIMITS};"));
     }
     if key.target.tiles == Tiles::DistortedRays {
-        text.line(format!("out vec2 {};", distortion::MOVED));
+        text.line(format!("out vec2 {};", distortion::DISPLACEMENT));
     }
 }
 

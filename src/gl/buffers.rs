@@ -3,7 +3,7 @@
 use super::consts as c;
 use super::held::Held;
 use super::real::Ptr;
-use super::{BufferName, Gl};
+use super::{BufferName, Gl, PixelStore};
 
 /// A sync object of the share group in which it was made: passed when all calls before it are done.
 #[derive(Debug)]
@@ -60,9 +60,9 @@ impl Gl {
         };
     }
 
-    /// glReadPixels of depth as floats into the bound pack buffer, from a byte on; pack state must be as
-    /// [`crate::state::Neutral`] has it. The driver refuses what does not fit.
-    pub fn read_depth_to_buffer(&self, w: i32, h: i32, at: usize) {
+    /// glReadPixels of depth as floats into the bound pack buffer, from a byte on, without gaps. The driver refuses what does
+    /// not fit.
+    pub fn read_depth_to_buffer(&self, _: &PixelStore, w: i32, h: i32, at: usize) {
         if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 || !self.reads_depths() {
             return;
         }

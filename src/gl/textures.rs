@@ -1,7 +1,7 @@
 //! The layer's calls about textures.
 
 use super::consts as c;
-use super::{Gl, Held, Object, Ptr, TextureName};
+use super::{Gl, Held, Object, PixelStore, Ptr, TextureName};
 
 /// The store of a level of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -496,12 +496,12 @@ impl Gl {
         }
     }
 
-    /// glTexImage2D with a whole picture of bytes, 4 channels; the unpack state must be the default.
-    pub fn tex_image_rgba8ui(&self, w: i32, h: i32, data: &[[u8; 4]]) {
+    /// glTexImage2D with a whole picture of bytes, 4 channels.
+    pub fn tex_image_rgba8ui(&self, _: &PixelStore, w: i32, h: i32, data: &[[u8; 4]]) {
         if data.len() < w as usize * h as usize {
             return;
         }
-        // SAFETY: w·h texels of 4 bytes (checked).
+        // SAFETY: w·h texels of 4 bytes (checked); without gaps, from no buffer (`PixelStore`).
         unsafe {
             self.real.glTexImage2D(
                 c::TEXTURE_2D,
@@ -518,11 +518,11 @@ impl Gl {
     }
 
     /// The same with 16-bit words.
-    pub fn tex_image_rgba16ui(&self, w: i32, h: i32, data: &[[u16; 4]]) {
+    pub fn tex_image_rgba16ui(&self, _: &PixelStore, w: i32, h: i32, data: &[[u16; 4]]) {
         if data.len() < w as usize * h as usize {
             return;
         }
-        // SAFETY: w·h texels of 8 bytes (checked).
+        // SAFETY: w·h texels of 8 bytes (checked); without gaps, from no buffer (`PixelStore`).
         unsafe {
             self.real.glTexImage2D(
                 c::TEXTURE_2D,
@@ -538,12 +538,12 @@ impl Gl {
         }
     }
 
-    /// glTexImage2D with a whole picture of signed 16-bit words; the unpack state must be the default.
-    pub fn tex_image_r16i(&self, w: i32, h: i32, data: &[i16]) {
+    /// glTexImage2D with a whole picture of signed 16-bit words.
+    pub fn tex_image_r16i(&self, _: &PixelStore, w: i32, h: i32, data: &[i16]) {
         if data.len() < w as usize * h as usize {
             return;
         }
-        // SAFETY: w·h texels of 2 bytes (checked), rows of any alignment.
+        // SAFETY: w·h texels of 2 bytes (checked); without gaps, from no buffer (`PixelStore`).
         unsafe {
             self.real.glTexImage2D(
                 c::TEXTURE_2D,

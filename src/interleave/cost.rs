@@ -99,12 +99,12 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
         Ok::<_, String>(start.elapsed().as_secs_f64() * 1000.0)
     };
     let neutral = Neutral::enter(gl, gl.has_extension("GL_ARB_compatibility"));
-    let mut weave = || {
+    let mut interleave = || {
         let none = &mut |_| Default::default();
         interleaver.draw(gl, &neutral, config, &views, none, Output::Panel, &panel)
     };
     // The first picture makes the mask and lets the driver compile.
-    weave()?;
+    interleave()?;
     let vertex_array = gl.gen_vertex_array();
     let mut plain = || {
         gl.viewport(0, 0, w, h);
@@ -115,14 +115,14 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
         Ok(())
     };
     plain()?;
-    let (mut copies, mut woven, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut copies, mut interleaved, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..case.rounds {
         let before = milliseconds(&mut plain)?;
-        let weave = milliseconds(&mut weave)?;
+        let interleave = milliseconds(&mut interleave)?;
         let after = milliseconds(&mut plain)?;
         copies.extend([before, after]);
-        woven.push(weave);
-        ratios.push(2.0 * weave / (before + after));
+        interleaved.push(interleave);
+        ratios.push(2.0 * interleave / (before + after));
     }
     neutral.leave(gl);
     shown.delete(gl);
@@ -136,7 +136,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
             views: config.views,
             display: config.display.name.clone(),
             copy: median(copies),
-            interleave: median(woven),
+            interleave: median(interleaved),
             ratio: median(ratios),
         }),
     }

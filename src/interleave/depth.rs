@@ -6,7 +6,7 @@
 #![forbid(unsafe_code)]
 
 use super::reference::{ReferenceError, picture, resample};
-use crate::plan::depths::SPECKS;
+use crate::plan::depths::OUTLIERS;
 use image::{Rgb, RgbImage};
 
 /// A depth buffer, and which of its values are white and black.
@@ -26,7 +26,7 @@ impl Depth {
     pub fn new(size: (u32, u32), values: Vec<u32>, nearer_is_larger: bool) -> Self {
         let farthest = if nearer_is_larger { 0 } else { u32::MAX };
         let mut drawn: Vec<u32> = values.iter().copied().filter(|&v| v != farthest).collect();
-        let (outside, last) = (drawn.len() / SPECKS, drawn.len().saturating_sub(1));
+        let (outside, last) = (drawn.len() / OUTLIERS, drawn.len().saturating_sub(1));
         let mut nth = |n: usize| match drawn.is_empty() {
             true => farthest,
             false => *drawn.select_nth_unstable(n).1,

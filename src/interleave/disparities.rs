@@ -75,7 +75,7 @@ impl Disparities {
         let [first, step] = self.baselines;
         let clear = if self.cleared.sky { 0.0 } else { NOTHING };
         let (view, left) = self.aim;
-        let [left_edge, layer, field] = match self.places {
+        let [left_edge, layer, index] = match self.places {
             Places::Tiles => [0; 3],
             Places::Copies => [1, 0, 0],
             Places::One(place) => place,
@@ -87,7 +87,7 @@ impl Disparities {
             [self.scale, self.offset, self.far, self.cleared.depth],
             [first, step, clear, self.margin],
             [view as f32, left as f32, marked, self.longest(views)],
-            [self.reach, left_edge, layer, field],
+            [self.reach, left_edge, layer, index],
             low,
             high,
             self.before,

@@ -9,7 +9,7 @@ use super::{Depth, Disparities, Form, Layout, Program, reference, rgbd};
 use crate::atlas::{Names, PyramidTextures, ReferenceTextures, Tiles, ViewSet};
 use crate::config::{Config, DisocclusionSource, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
-use crate::gl::{Gl, ProgramName, TextureName, VertexArrayName, consts as c};
+use crate::gl::{Gl, PixelStore, ProgramName, TextureName, VertexArrayName, consts as c};
 use crate::state::Neutral;
 use crate::view::ViewIndex;
 use image::RgbImage;
@@ -133,9 +133,9 @@ impl Interleaver {
         };
         let panels = Synthesis::ALL.into_iter().filter(|pass| match pass {
             // The first frame has no reference image, so it needs the pass without one.
-            Synthesis::Panel { behind, .. } => {
-                synthesis == Some(*behind)
-                    || (synthesis, *behind)
+            Synthesis::Panel { source, .. } => {
+                synthesis == Some(*source)
+                    || (synthesis, *source)
                         == (
                             Some(DisocclusionSource::Reference),
                             DisocclusionSource::Nothing,
@@ -235,7 +235,7 @@ impl Interleaver {
             self.mask = Some((of, mask));
         }
         let size = [placement.width, placement.height];
-        let pass = self.pass(gl, of, &form, source, size);
+        let pass = self.pass(gl, neutral.pixels(), of, &form, source, size);
         let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == pass) else {
             let depth = source.depth.map(|(_, depth)| depth);
             let tiles: Vec<RgbImage> = ViewIndex::all(config.views).map(tile).collect();
@@ -303,13 +303,21 @@ impl Interleaver {
     }
 
     /// The pass of a picture. Binds the mask where the pass needs it.
-    fn pass(&mut self, gl: &Gl, of: Of, form: &Form, source: &Source, size: [u32; 2]) -> Pass {
+    fn pass(
+        &mut self,
+        gl: &Gl,
+        pixels: &PixelStore,
+        of: Of,
+        form: &Form,
+        source: &Source,
+        size: [u32; 2],
+    ) -> Pass {
         let tiles = &source.tiles;
         if let Some((textures, disparities)) = source.pyramid
-            && let Some(Uploaded { whole, .. }) = self.upload(gl, of, None, None)
+            && let Some(Uploaded { whole, .. }) = self.upload(gl, pixels, of, None, None)
         {
-            let behind = textures.disocclusion_source(disparities.sources.is_some());
-            return Pass::Synthesis(Synthesis::Panel { whole, behind });
+            let source = textures.disocclusion_source(disparities.sources.is_some());
+            return Pass::Synthesis(Synthesis::Panel { whole, source });
         }
         let texels = tiles.grid.is_full() && [tiles.width, tiles.height] == size;
         let filter = match form {
@@ -324,7 +332,7 @@ impl Interleaver {
         let fits = tiles.rows << column_bits(tiles) < u32::from(GUARD);
         let places = (texels && filter == Filter::Nearest && fits).then_some(*tiles);
         let eyes = matches!(form, Form::Interlaced(_));
-        let Some(known) = self.upload(gl, of, places, eyes.then_some(tiles.views)) else {
+        let Some(known) = self.upload(gl, pixels, of, places, eyes.then_some(tiles.views)) else {
             return Pass::Interleave;
         };
         match places {
@@ -344,6 +352,7 @@ impl Interleaver {
     fn upload(
         &mut self,
         gl: &Gl,
+        pixels: &PixelStore,
         of: Of,
         places: Option<Tiles>,
         eyes: Option<u32>,
@@ -368,8 +377,8 @@ impl Interleaver {
         });
         let [columns, rows] = sheet.period.map(|n| n as i32);
         match &sheet.texels {
-            sheet::Texels::Bytes(texels) => gl.tex_image_rgba8ui(columns, rows, texels),
-            sheet::Texels::Words(texels) => gl.tex_image_rgba16ui(columns, rows, texels),
+            sheet::Texels::Bytes(texels) => gl.tex_image_rgba8ui(pixels, columns, rows, texels),
+            sheet::Texels::Words(texels) => gl.tex_image_rgba16ui(pixels, columns, rows, texels),
         }
         for (p, v) in [
             (c::TEXTURE_MIN_FILTER, c::NEAREST),

@@ -70,7 +70,7 @@ pub enum Synthesis {
         /// Red, green and blue of each pixel show the same view.
         whole: bool,
         /// The source of disocclusions.
-        behind: DisocclusionSource,
+        source: DisocclusionSource,
     },
 }
 
@@ -129,8 +129,8 @@ impl Synthesis {
         Self::panel(true, DisocclusionSource::Views),
     ];
 
-    pub(super) const fn panel(whole: bool, behind: DisocclusionSource) -> Self {
-        Self::Panel { whole, behind }
+    pub(super) const fn panel(whole: bool, source: DisocclusionSource) -> Self {
+        Self::Panel { whole, source }
     }
 }
 

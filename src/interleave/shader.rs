@@ -310,19 +310,25 @@ fn source(pass: Pass) -> String {
             THROUGH_REFERENCE,
         ]
         .join("\n"),
-        Pass::Synthesis(Synthesis::Panel { behind, .. }) => [
+        Pass::Synthesis(Synthesis::Panel { source, .. }) => [
             COVER,
             COMMON,
             ATLAS,
             MASK,
             DISPARITY,
-            hidden(behind),
+            disocclusion_wgsl(source),
             THROUGH,
         ]
         .join("\n"),
-        Pass::Synthesis(Synthesis::View(behind)) => {
-            [COVER, COMMON, ATLAS, DISPARITY, hidden(behind), VIEW].join("\n")
-        }
+        Pass::Synthesis(Synthesis::View(source)) => [
+            COVER,
+            COMMON,
+            ATLAS,
+            DISPARITY,
+            disocclusion_wgsl(source),
+            VIEW,
+        ]
+        .join("\n"),
         Pass::Synthesis(Synthesis::BlockBounds | Synthesis::RowMaxima | Synthesis::RayRange) => {
             [COVER, COMMON, ATLAS, DISPARITY, PLAIN, PYRAMID].join("\n")
         }
@@ -333,8 +339,8 @@ fn source(pass: Pass) -> String {
 const REFERENCE_PANEL: Synthesis = Synthesis::panel(false, DisocclusionSource::Reference);
 
 /// The functions that see disocclusions, by their source.
-fn hidden(behind: DisocclusionSource) -> &'static str {
-    match behind {
+fn disocclusion_wgsl(source: DisocclusionSource) -> &'static str {
+    match source {
         DisocclusionSource::Nothing => PLAIN,
         DisocclusionSource::Reference => REFERENCE,
         DisocclusionSource::Views => BETWEEN,

@@ -78,8 +78,8 @@ impl Sources {
     /// The distance, in views, from a source to the farthest of `views` that is synthesised from it; 0 where there is none.
     #[must_use]
     pub fn farthest(&self, i: u32, views: u32) -> u32 {
-        let made = ViewIndex::all(views).filter(|&view| !self.has(view));
-        let needed = made.filter(|&view| self.pair(view).contains(&i));
+        let synthesised = ViewIndex::all(views).filter(|&view| !self.has(view));
+        let needed = synthesised.filter(|&view| self.pair(view).contains(&i));
         let away = needed.map(|view| self.view(i).0.abs_diff(view.0));
         away.max().unwrap_or(0)
     }
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_view_is_made_of_those_beside_it() {
+    fn a_view_is_synthesised_from_those_beside_it() {
         let sources = Sources::spread(ViewIndex(3), 8, 3);
         let pairs: Vec<_> = ViewIndex::all(8).map(|view| sources.pair(view)).collect();
         let expected = [

@@ -508,11 +508,11 @@ fn every_pass_of_synthesis_translates_for_every_version() {
             }
             Synthesis::View(DisocclusionSource::Reference) => &[0, 2, 3, 4, 5, 6, 7, 8],
             Synthesis::Panel {
-                behind: DisocclusionSource::Nothing | DisocclusionSource::Views,
+                source: DisocclusionSource::Nothing | DisocclusionSource::Views,
                 ..
             } => &[0, 1, 2, 3, 4],
             Synthesis::Panel {
-                behind: DisocclusionSource::Reference,
+                source: DisocclusionSource::Reference,
                 ..
             } => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
         };

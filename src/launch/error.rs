@@ -121,7 +121,7 @@ pub enum LaunchError {
     },
     /// A scene printed something other than times.
     #[error(
-        "the scene {what} answered '{line}' in place of times; build it again with `make demos`"
+        "the scene {what} printed '{line}' instead of its frame times; build it again with `make demos`"
     )]
     SceneAnswer {
         /// Scene and configuration.

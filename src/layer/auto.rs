@@ -66,18 +66,10 @@ impl Auto {
 }
 
 impl Layer {
-    /// The strategy that the user has chosen, or that `auto` uses now.
-    pub(super) fn chosen(&self) -> Strategy {
-        self.session
-            .auto
-            .as_ref()
-            .map_or(self.session.config.strategy, Auto::strategy)
-    }
-
     /// After a frame was drawn into the true framebuffer 0: counts its time, and may choose another strategy for the next one.
     pub(super) fn time_frame(&mut self, gl: &Gl) {
         // The accumulation buffer and the front buffer do not move with the views: while there is one, no other strategy is tried.
-        if self.targets.accumulated.buffer.is_some() || self.targets.atlas.has_front() {
+        if !self.targets.back_alone() {
             return;
         }
         let mono = self.is_mono();
@@ -96,7 +88,7 @@ impl Layer {
             return;
         }
         let ms = now.duration_since(last).as_secs_f32() * 1e3;
-        let made = std::mem::take(&mut self.frame.amplifies);
+        let made = self.frame.take_amplified();
         if let Some(found) = auto.trial.frame(ms, made) {
             keep(auto.file.as_deref(), &auto.key, found);
             self.diagnostics

@@ -3,6 +3,7 @@
 use super::Layer;
 use crate::atlas::Tiles;
 use crate::gl::{FramebufferName, Gl, consts as c};
+use crate::plan::Unrepresentable;
 use crate::state::{Command, Run, Touch};
 use crate::view::ViewIndex;
 
@@ -27,7 +28,7 @@ impl Layer {
             return match differs && self.split(gl, draw)
                 || self.targets.offscreen.is_split(gl, draw)
             {
-                true => self.blit_aside(gl, blit),
+                true => self.blit_split(gl, blit),
                 false if read.is_zero() => self.read(gl, 0, 0, &mut || blit(0, 0)),
                 false => blit(0, 0),
             };
@@ -37,14 +38,14 @@ impl Layer {
             self.differ(gl);
         }
         self.state.refresh(gl);
-        self.hold_everything(gl, "copies pictures into the window");
+        self.hold_everything(gl, Unrepresentable::Copies);
         self.diagnostics.proving.stop_search();
         self.in_proof(gl, |layer| layer.blit_views(gl, scaled, blit));
         self.blit_views(gl, scaled, blit);
     }
 
     /// Blits into a framebuffer of the program's of which each view has its own.
-    fn blit_aside(&mut self, gl: &Gl, blit: &mut dyn FnMut(i32, i32)) {
+    fn blit_split(&mut self, gl: &Gl, blit: &mut dyn FnMut(i32, i32)) {
         self.state.refresh(gl);
         let (draw, read) = (self.state.framebuffers.draw, self.state.framebuffers.read);
         if !read.is_zero() {

@@ -10,9 +10,9 @@ pub(super) struct Cameras {
     pub(super) classifier: Classifier,
     pub(super) comfort: Comfort,
     /// The shift of the projection under which the raster position was set; none where the position does not move with the view.
-    pub(super) raster: Option<Shear>,
+    raster: Option<Shear>,
     /// The kind of projection under which the raster position was set; [`Projection::None`] where glWindowPos did it.
-    pub(super) raster_placed: Projection,
+    raster_placed: Projection,
 }
 
 impl Cameras {
@@ -29,5 +29,26 @@ impl Cameras {
             raster: None,
             raster_placed: Projection::None,
         }
+    }
+
+    /// The program has set the raster position to a point of the scene, which moves with the view: under a projection of this kind, whose
+    /// shift is given if it has one.
+    pub(super) fn place_raster(&mut self, shift: Option<Shear>, kind: Projection) {
+        (self.raster, self.raster_placed) = (shift, kind);
+    }
+
+    /// The program has set the raster position to a place in the window, which is the same in all views.
+    pub(super) fn place_raster_in_window(&mut self) {
+        self.place_raster(None, Projection::None);
+    }
+
+    /// The shift of the projection under which the raster position was set; none where the position does not move with the view.
+    pub(super) fn raster(&self) -> Option<Shear> {
+        self.raster
+    }
+
+    /// The kind of projection under which the raster position was set; [`Projection::None`] where glWindowPos did it.
+    pub(super) fn raster_placed(&self) -> Projection {
+        self.raster_placed
     }
 }

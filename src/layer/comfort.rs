@@ -8,6 +8,7 @@ use crate::plan::decide::DepthWatch;
 use crate::plan::depths::{DepthMapping, Distances};
 use crate::plan::{DepthMappings, comfort, parallax};
 use crate::report::Disparity;
+use crate::state::Neutral;
 
 /// State of the measurement of depths.
 #[derive(Debug)]
@@ -102,11 +103,11 @@ impl Layer {
 
     /// Takes a depth picture within a frame, before a draw or clear.
     pub(super) fn save_depths(&mut self, gl: &Gl) {
-        self.in_neutral(gl, |layer, _| layer.take_depths(gl));
+        self.in_neutral(gl, |layer, neutral| layer.take_depths(gl, neutral));
     }
 
-    /// Takes a depth picture of the scene, if there is anything to take. The state is neutral.
-    fn take_depths(&mut self, gl: &Gl) {
+    /// Takes a depth picture of the scene, if there is anything to take.
+    fn take_depths(&mut self, gl: &Gl, neutral: &Neutral) {
         self.known.depths.pending = false;
         if self.state.window.bits[4] == 0 || self.cameras.comfort.mappings.is_empty() {
             return;
@@ -120,7 +121,7 @@ impl Layer {
             keep_bindings(gl, || self.targets.atlas.make_depths(gl, names, window));
         }
         let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
-        if self.targets.atlas.take_depths(gl) {
+        if self.targets.atlas.take_depths(gl, neutral) {
             let mappings = self.cameras.comfort.mappings.clone();
             let way = mappings.most().map(|way| way.projection);
             self.cameras.comfort.taken.push(Taken {
@@ -135,14 +136,13 @@ impl Layer {
         }
     }
 
-    /// At the end of a frame: reads the depths of the previous one, and takes those of this one. The state is neutral; changes the
-    /// framebuffer bindings.
-    pub(super) fn track_depths(&mut self, gl: &Gl) {
+    /// At the end of a frame: reads the depths of the previous one, and takes those of this one. Changes the framebuffer bindings.
+    pub(super) fn track_depths(&mut self, gl: &Gl, neutral: &Neutral) {
         if !self.cameras.comfort.on {
             return;
         }
-        if self.known.depths.pending && !self.known.depths.spoilt {
-            self.take_depths(gl);
+        if self.known.depths.pending && !self.known.depths.overwritten {
+            self.take_depths(gl, neutral);
         }
         if self.cameras.comfort.taken.is_empty() {
             self.read_depths(gl);

@@ -19,6 +19,22 @@ pub(super) enum Picture {
     Done(Result<Answer, ControlError>),
 }
 
+impl Picture {
+    /// Whether it was asked for and its outcome was not taken yet.
+    pub(super) fn is_awaited(&self) -> bool {
+        !matches!(self, Picture::None)
+    }
+
+    /// Takes the outcome, if a picture was asked for.
+    pub(super) fn take(&mut self) -> Option<Pictured> {
+        match std::mem::replace(self, Picture::None) {
+            Picture::None => None,
+            Picture::Wanted(wanted) => Some(Pictured::Later(wanted)),
+            Picture::Done(outcome) => Some(Pictured::Done(outcome)),
+        }
+    }
+}
+
 /// Outcome of a picture that was asked for.
 #[derive(Debug)]
 pub enum Pictured {
@@ -41,16 +57,7 @@ impl Layer {
                 .comfort
                 .change(self.session.config, live.camera);
         }
-        if let Some(lens) = live.lens
-            && live.lens != self.session.live.lens
-        {
-            let display = self
-                .session
-                .fitted
-                .get_or_insert_with(|| self.session.config.display.clone());
-            display.set_lens(lens);
-        }
-        self.session.live = live;
+        self.session.adopt(live);
         self.known.rig.change(live.camera, live.flat);
         self.cameras.classifier.change_hud_depth(live.hud_depth);
     }
@@ -183,16 +190,12 @@ impl Layer {
 
     /// Whether a picture was asked for whose outcome was not taken yet.
     pub fn awaits_picture(&self) -> bool {
-        !matches!(self.diagnostics.picture, Picture::None)
+        self.diagnostics.picture.is_awaited()
     }
 
     /// Takes the outcome of the picture that was asked for, if one was.
     pub fn pictured(&mut self) -> Option<Pictured> {
-        match std::mem::replace(&mut self.diagnostics.picture, Picture::None) {
-            Picture::None => None,
-            Picture::Wanted(wanted) => Some(Pictured::Later(wanted)),
-            Picture::Done(outcome) => Some(Pictured::Done(outcome)),
-        }
+        self.diagnostics.picture.take()
     }
 
     /// Writes the picture that was asked for, if one was.

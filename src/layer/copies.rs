@@ -141,8 +141,8 @@ impl Layer {
     }
 
     /// A parameter of some texture has changed.
-    pub fn look_changed(&mut self) {
-        self.targets.offscreen.look_changed();
+    pub fn parameters_changed(&mut self) {
+        self.targets.offscreen.parameters_changed();
     }
 
     /// The attachments or the draw buffers of some framebuffer have changed.

@@ -15,9 +15,9 @@ pub(super) struct Diagnostics {
     /// The picture that a request to the running program asks for.
     pub(super) picture: control::Picture,
     /// Fallbacks of this frame, by reason.
-    pub(super) fallbacks: Counts<Reason>,
+    fallbacks: Counts<Reason>,
     /// GL names that the layer has made and deleted.
-    pub(super) made: Count,
+    made: Count,
 }
 
 impl Diagnostics {
@@ -30,5 +30,24 @@ impl Diagnostics {
             fallbacks: Counts::default(),
             made: Count::default(),
         }
+    }
+
+    /// A draw of this frame is not made by the requested strategy.
+    pub(super) fn fallback(&mut self, reason: Reason) {
+        self.fallbacks.add(reason);
+    }
+
+    /// At the end of a frame: gives its fallbacks to the report.
+    pub(super) fn report_fallbacks(&mut self) {
+        for (reason, count) in self.fallbacks.take() {
+            self.report.fallbacks(&reason, count);
+        }
+    }
+
+    /// Gives the report the number of GL names that the layer has made and deleted on this thread, and that of the display lists of ours that
+    /// the share group holds.
+    pub(super) fn count_names(&mut self, lists: u32) {
+        self.made.catch_up();
+        self.report.names(self.made, lists);
     }
 }

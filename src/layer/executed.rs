@@ -7,7 +7,7 @@ use crate::draw::{Current, enter_own, others};
 use crate::gl::{Gl, ListName, consts as c};
 use crate::offscreen::Target;
 use crate::plan::decide::Demand;
-use crate::plan::{Kind, Method, Shear};
+use crate::plan::{Kind, Method, Shear, Unrepresentable};
 use crate::state::Effect;
 
 /// A run that is being drawn in the program's own view.
@@ -26,7 +26,7 @@ impl Layer {
     /// Before the driver begins the list of a run that draws.
     pub(super) fn start_own(&mut self, gl: &Gl) {
         let request = Request {
-            demand: Demand::Everything("draws while it compiles a display list"),
+            demand: Demand::Everything(Unrepresentable::CompileAndExecute),
             ..Request::of(Kind::List)
         };
         let Decided { plan, .. } = self.decide(gl, &request);

@@ -95,16 +95,16 @@ impl Layer {
 
     /// Writes the shaders of the programs that the frame was drawn with to a folder beside the list.
     fn write_shaders(&mut self, explain: &Explain, explained: &Explained) {
-        let sums = explained.draws.iter().map(|(facts, _)| facts.shader);
-        let sums: BTreeSet<u64> = sums.filter(|&sum| sum != 0).collect();
+        let hashes = explained.draws.iter().map(|(facts, _)| facts.shader);
+        let hashes: BTreeSet<u64> = hashes.filter(|&hash| hash != 0).collect();
         let folder = explain.shaders();
-        for sum in sums {
-            let Some(linked) = self.linked_as(sum) else {
+        for hash in hashes {
+            let Some(linked) = self.linked_as(hash) else {
                 continue;
             };
             let made = std::fs::create_dir_all(&folder);
-            let written = texts(&linked).into_iter().try_for_each(|(stage, text)| {
-                std::fs::write(folder.join(format!("{sum:016x}.{stage}")), text)
+            let written = sources(&linked).into_iter().try_for_each(|(stage, text)| {
+                std::fs::write(folder.join(format!("{hash:016x}.{stage}")), text)
             });
             if let Err(e) = made.and(written) {
                 let folder = folder.display();
@@ -147,7 +147,7 @@ impl Layer {
 }
 
 /// The sources of a program's shaders, as the program has them and as the layer rewrites them for a view, with the endings of their files.
-fn texts(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
+fn sources(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
     let options = Options {
         amplifier: Amplifier::Replay,
         target: rewrite::Target::Whole,
@@ -155,8 +155,8 @@ fn texts(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
         es: false,
     };
     let mut all = Vec::new();
-    for text in linked.texts.iter() {
-        let [own, of_view] = match text.stage {
+    for shader in linked.sources.iter() {
+        let [own, of_view] = match shader.stage {
             Stage::Vertex => ["vert", "view.vert"],
             Stage::TessControl => ["tesc", "view.tesc"],
             Stage::TessEvaluation => ["tese", "view.tese"],
@@ -164,11 +164,11 @@ fn texts(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
             Stage::Fragment => ["frag", "view.frag"],
             Stage::Compute => ["comp", "view.comp"],
         };
-        let view = match rewrite::rewrite(&text.source, text.stage, &options) {
+        let view = match rewrite::rewrite(&shader.source, shader.stage, &options) {
             Ok(new) => new.text.into_owned(),
             Err(why) => format!("// {why}\n").into_bytes(),
         };
-        all.extend([(own, text.source.clone()), (of_view, view)]);
+        all.extend([(own, shader.source.clone()), (of_view, view)]);
     }
     all
 }
@@ -252,7 +252,7 @@ impl Explained {
             let known = |text: String| if seen { text } else { "-".to_owned() };
             let shader = match facts.shader {
                 0 => "-".to_owned(),
-                sum => format!("{sum:016x}"),
+                hash => format!("{hash:016x}"),
             };
             let number = |n: Option<u32>| n.map_or("-".to_owned(), |n| n.to_string());
             let _ = writeln!(

@@ -1,6 +1,6 @@
 //! The end of a frame: interleave, capture, report.
 
-use super::{Layer, OnScreen};
+use super::Layer;
 use crate::atlas::ViewSet;
 use crate::config::Output;
 use crate::display::Placement;
@@ -15,11 +15,49 @@ use image::RgbImage;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Frame {
     /// The display list that is being called.
-    pub(super) list: Option<ListName>,
+    list: Option<ListName>,
     /// Something was drawn that is to be shown.
-    pub(super) drawn: bool,
-    /// A draw since the last swap was made by another strategy than replay.
-    pub(super) amplifies: bool,
+    drawn: bool,
+    /// A draw since the last timed frame was made by another strategy than replay.
+    amplifies: bool,
+}
+
+impl Frame {
+    /// The program calls a display list; none where its call has ended, or the list's name is not known.
+    pub(super) fn calls(&mut self, list: Option<ListName>) {
+        self.list = list;
+    }
+
+    /// The display list that is being called.
+    pub(super) fn list(&self) -> Option<ListName> {
+        self.list
+    }
+
+    /// Something is drawn that is to be shown.
+    pub(super) fn draws(&mut self) {
+        self.drawn = true;
+    }
+
+    /// Whether something was drawn that is to be shown.
+    pub(super) fn drawn(&self) -> bool {
+        self.drawn
+    }
+
+    /// A draw is made by another strategy than replay.
+    pub(super) fn amplifies(&mut self) {
+        self.amplifies = true;
+    }
+
+    /// Takes whether any draw since the last call was made by another strategy than replay.
+    pub(super) fn take_amplified(&mut self) -> bool {
+        std::mem::take(&mut self.amplifies)
+    }
+
+    /// The frame is shown, and the next one begins. A flush shows a frame without a time, so what amplifies is kept.
+    pub(super) fn end(&mut self) {
+        self.drawn = false;
+        self.list = None;
+    }
 }
 
 impl Layer {
@@ -47,8 +85,7 @@ impl Layer {
             self.enter_mono(gl);
         }
         self.realign_tiles();
-        self.frame.drawn = false;
-        self.frame.list = None;
+        self.frame.end();
         self.known.frame = Default::default();
     }
 
@@ -79,7 +116,7 @@ impl Layer {
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
     fn present(&mut self, gl: &Gl, image: u32, neutral: &Neutral) {
         self.end_scene(gl, neutral);
-        if self.synthesis.pyramid.is_none() {
+        if self.synthesis.straight().is_none() {
             let views = match self.is_mono() {
                 true => self.targets.atlas.tiles.own_alone(),
                 false => ViewSet::ALL,
@@ -98,7 +135,7 @@ impl Layer {
         self.judge_proof(gl, neutral, exact);
         let source = self.source(image, depth.as_ref());
         self.capture(gl, neutral, &source);
-        self.track_depths(gl);
+        self.track_depths(gl, neutral);
     }
 
     /// The source of pictures: the atlas, with one of its images.
@@ -107,7 +144,7 @@ impl Layer {
             tiles: self.targets.atlas.tiles,
             texture: self.targets.atlas.sampled(image),
             depth: depth.map(|depth| (self.targets.atlas.depth, depth)),
-            pyramid: self.synthesis.pyramid,
+            pyramid: self.synthesis.straight(),
             top_down: self.targets.atlas.flipped,
             srgb: self.state.window.srgb,
         }
@@ -128,11 +165,7 @@ impl Layer {
             false => self.pictures(output, image),
         };
         let panel = PanelPlacement {
-            display: self
-                .session
-                .fitted
-                .as_ref()
-                .unwrap_or(&self.session.config.display),
+            display: self.session.display(),
             placement: self.placement(),
         };
         for (buffer, output) in pictures {
@@ -204,52 +237,33 @@ impl Layer {
     /// Place of the window's picture on the screen, in pixels. Where the window system does not report it, the picture is taken to be the
     /// whole screen.
     pub(super) fn placement(&self) -> Placement {
-        let (width, height) = self.size();
-        let on_screen = self.session.on_screen.unwrap_or(OnScreen {
-            screen: (width, height),
-            at: (0, 0),
-        });
-        Placement {
-            screen_width: on_screen.screen.0,
-            screen_height: on_screen.screen.1,
-            x: on_screen.at.0,
-            y: on_screen.at.1,
-            width,
-            height,
-        }
+        self.session.placement(self.size())
     }
 
     /// Counts the frame and writes the report where one is asked for.
     pub fn count_frame(&mut self) {
-        if let (Some(ms), Some(number)) = (self.diagnostics.report.frame(), self.synthesis.number())
+        let views = self.session.config.views;
+        if let Some(ms) = self.diagnostics.report.frame()
+            && let Some(drawn) = self.synthesis.timed(ms, views)
         {
-            let drawn = self.synthesis.take_drawn();
-            self.diagnostics
-                .report
-                .drew(ms, drawn.unwrap_or(self.session.config.views));
-            // A frame without synthesis, such as a menu, does not tell what drawn views cost.
-            if drawn.is_some() || number == self.session.config.views {
-                self.synthesis.adapt(ms);
-            }
+            self.diagnostics.report.drew(ms, drawn);
         }
         self.diagnostics.report.memory(self.targets.atlas.bytes);
-        for (reason, count) in self.diagnostics.fallbacks.take() {
-            self.diagnostics.report.fallbacks(&reason, count);
-        }
+        self.diagnostics.report_fallbacks();
         self.count_names();
         self.diagnostics.report.write_if_due(self.session.config);
     }
 
     /// Whether a flush shows what was drawn: it went to the front buffer, or there is no other, and somebody can see it.
     pub fn shows_on_flush(&self) -> bool {
-        self.frame.drawn
+        self.frame.drawn()
             && !self.is_hidden()
             && (!self.state.window.buffers.double_buffered || self.state.framebuffers.draws_front())
     }
 
     /// Whether something was drawn since the last frame was shown.
     pub fn drawn(&self) -> bool {
-        self.frame.drawn
+        self.frame.drawn()
     }
 }
 

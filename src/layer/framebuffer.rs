@@ -1,10 +1,10 @@
 //! The program's framebuffer 0: how it is bound, drawn to, read from and queried.
 
 use super::draw::Request;
-use super::{Layer, as_they_are, keep_bindings};
+use super::{Layer, keep_bindings, with_raw_copies};
 use crate::atlas::Atlas;
 use crate::gl::{FramebufferName, Gl, consts as c};
-use crate::plan::Kind;
+use crate::plan::{Kind, Unrepresentable};
 use crate::state::{BACK, Command, Run, Segment, Touch};
 use crate::view::ViewIndex;
 
@@ -63,7 +63,7 @@ impl Layer {
     }
 
     /// After a run of a list that has popped and pushed attributes; `depth` is the depth of the stack before the run.
-    pub(super) fn left_attribs(&mut self, gl: &Gl, depth: i32, run: &Segment) {
+    pub(super) fn attribs_after_run(&mut self, gl: &Gl, depth: i32, run: &Segment) {
         let floor = (depth - run.pops as i32).max(0);
         for depth in (floor + 1..=depth).rev() {
             self.popped_attribs(gl, depth);
@@ -258,12 +258,12 @@ impl Layer {
             let (names, window) = (&mut self.targets.names, &self.state.window);
             let swapped = self.diagnostics.report.frames() > 0;
             let make = || self.targets.atlas.make_front(gl, names, window, swapped);
-            as_they_are(gl, || keep_bindings(gl, make));
+            with_raw_copies(gl, || keep_bindings(gl, make));
         }
         let f = &self.state.framebuffers;
         if f.uses_front() && !self.targets.atlas.tiles.grid.is_full() {
             // This calls `apply_buffers` again, for the new atlas.
-            return self.hold_everything(gl, "uses the front buffer");
+            return self.hold_everything(gl, Unrepresentable::FrontBuffer);
         }
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw_images(), f.read_image());

@@ -10,7 +10,7 @@ use crate::draw::{Drawing, ReplayHazard};
 use crate::gl::consts as c;
 use crate::gl::{Ends, Gl, ListName, Recording};
 use crate::plan::{Bounds, Kind, Plan};
-use crate::state::{Begin, Command, Effect, Immediate, Touch};
+use crate::state::{Begin, Command, Effect, Touch};
 use crate::view::ViewIndex;
 
 /// Number of calls between glBegin and glEnd from which on a display list pays. Measured on llvmpipe 22.3 with 8 views: a frame with it takes
@@ -43,18 +43,14 @@ impl Layer {
     }
 
     pub(super) fn start_recording(&mut self, mode: u32) {
-        self.lists.recording.clear();
-        self.lists.immediate = Immediate::default();
-        self.lists.ends = Ends::default();
+        self.lists.start();
         self.state.begin = Begin::Recorded(mode);
     }
 
     /// Records a call between glBegin and glEnd. The caller writes its arguments to the recording.
     #[inline]
     pub fn record(&mut self, slot: usize, effect: Effect) -> &mut Recording {
-        self.lists.immediate.note(effect);
-        self.lists.recording.call(slot);
-        &mut self.lists.recording
+        self.lists.record(slot, effect)
     }
 
     /// After the driver's glEnd: makes the recorded calls.
@@ -63,21 +59,17 @@ impl Layer {
             return;
         };
         let Decided { plan, images } = self.decide(gl, &Request::of(Kind::Begin(mode)));
-        let hazard = match self.lists.immediate.must_restore() {
-            Effect::NONE => ReplayHazard::None,
-            effects => ReplayHazard::Current(effects),
-        };
-        let recording = std::mem::take(&mut self.lists.recording);
-        let ends = self.lists.ends;
-        let sets = self.lists.immediate.sets();
+        let hazard = self.lists.hazard();
+        let recording = self.lists.take();
+        let (ends, whole) = (self.lists.ends(), self.lists.is_whole());
+        let sets = self.lists.sets();
         let mut list = None;
         let drawing = Drawing {
             mode: Some(mode),
             vertices: recording.calls() as u64,
             cuts: [c::TRIANGLES, c::QUADS].contains(&mode),
-            material: self.lists.immediate.changes_material(),
+            material: self.lists.changes_material(),
         };
-        let whole = ends == Ends::default();
         let execution = self.choose(gl, &plan, &drawing, whole);
         let mut views = None;
         if let Execution::Replay = execution {
@@ -106,8 +98,8 @@ impl Layer {
         if let Some(list) = list {
             self.drop_list(gl, list);
         }
-        self.lists.recording = recording;
-        if self.lists.immediate.changes_material() {
+        self.lists.put(recording);
+        if self.lists.changes_material() {
             self.state.touch(Touch::MATERIAL);
         }
     }
@@ -120,11 +112,7 @@ impl Layer {
             &self.targets.atlas.tiles,
             &self.state,
         );
-        let unknown = self
-            .lists
-            .immediate
-            .sets()
-            .has(Effect::UNKNOWN | Effect::ATTRIB);
+        let unknown = self.lists.sets().has(Effect::UNKNOWN | Effect::ATTRIB);
         let triangles = (c::TRIANGLES..=c::POLYGON).contains(&mode);
         if self.session.config.disabled.has(Optimisation::Frustum)
             || unknown
@@ -165,7 +153,7 @@ impl Layer {
         hazard: ReplayHazard,
         views: ViewSet,
     ) -> Option<ListName> {
-        let sets = self.lists.immediate.sets();
+        let sets = self.lists.sets();
         let pays = !self.session.config.disabled.has(Optimisation::Lists)
             && recording.calls() >= MANY
             && Tiles {
@@ -176,7 +164,7 @@ impl Layer {
             .count()
                 >= SEVERAL;
         let as_it_is = hazard == ReplayHazard::None
-            && self.lists.ends == Ends::default()
+            && self.lists.is_whole()
             && !sets.has(Effect::UNKNOWN | Effect::ATTRIB | Effect::MATERIAL);
         if !pays || !as_it_is || !(c::TRIANGLES..=c::TRIANGLE_FAN).contains(&mode) {
             return None;

@@ -4,8 +4,8 @@ use super::Layer;
 use super::draw::{Decided, Draw, Request, UNKNOWN};
 use crate::draw::{Drawing, ReplayHazard};
 use crate::gl::{Gl, ListName, consts as c, slot};
-use crate::plan::Kind;
 use crate::plan::decide::Demand;
+use crate::plan::{Kind, Unrepresentable};
 use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Start, Touch};
 
 /// GL_MAX_LIST_NESTING is at least 64; deeper calls are ignored by the driver too.
@@ -191,9 +191,10 @@ impl Layer {
 
     /// glCallList and glCallLists outside of lists. `lists` has the names where they are known; `call` is the driver's own call.
     pub fn call_lists(&mut self, gl: &Gl, lists: Option<&[ListName]>, call: &mut dyn FnMut()) {
-        self.frame.list = lists.and_then(|lists| lists.first().copied());
+        self.frame
+            .calls(lists.and_then(|lists| lists.first().copied()));
         self.execute_lists(gl, lists, call);
-        self.frame.list = None;
+        self.frame.calls(None);
     }
 
     fn execute_lists(&mut self, gl: &Gl, lists: Option<&[ListName]>, call: &mut dyn FnMut()) {
@@ -224,12 +225,12 @@ impl Layer {
             let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
             let primitives = segments().all(|s| s.primitives);
-            let thin = segments().any(|s| s.thin);
+            let lines_or_points = segments().any(|s| s.lines_or_points);
             let material = segments().any(|s| s.immediate.changes_material());
             let content = Content {
                 current,
                 primitives,
-                thin,
+                lines_or_points,
                 material,
             };
             return self.run(gl, run, touch, content, &mut || {
@@ -259,8 +260,7 @@ impl Layer {
             && self.state.makes_pictures()
         {
             self.start_recording(mode);
-            self.lists.ends.opener = segment.name;
-            self.lists.immediate.note(Effect::UNKNOWN);
+            self.lists.opened_by(segment.name);
             return self.state.touch(segment.touch);
         }
         match segment.run {
@@ -333,7 +333,7 @@ impl Layer {
         let content = Content {
             current: segment.immediate.must_restore(),
             primitives: segment.primitives,
-            thin: segment.thin,
+            lines_or_points: segment.lines_or_points,
             material: segment.immediate.changes_material(),
         };
         self.run(gl, segment.run, segment.touch, content, &mut || {
@@ -342,7 +342,7 @@ impl Layer {
         });
         match (segment.opens, attribs) {
             (Some(_), _) => self.state.begin = Begin::Direct,
-            (None, Some(depth)) => self.left_attribs(gl, depth, segment),
+            (None, Some(depth)) => self.attribs_after_run(gl, depth, segment),
             _ => {}
         }
     }
@@ -355,8 +355,7 @@ impl Layer {
                 self.state.begin = Begin::Outside;
             }
         } else if segment.closes {
-            self.lists.immediate.note(Effect::UNKNOWN);
-            self.lists.ends.closer = segment.name;
+            self.lists.closed_by(segment.name);
             self.end(gl);
         } else {
             self.record(slot::glCallList, Effect::UNKNOWN)
@@ -402,7 +401,8 @@ impl Layer {
     /// Calls a list whose contents only the driver knows.
     fn unknown_list(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         let request = Request {
-            demand: Demand::Everything("calls display lists that were compiled elsewhere"),
+            demand: Demand::Everything(Unrepresentable::ForeignLists),
+            surfaces: false,
             ..Request::of(Kind::List)
         };
         let hazard = ReplayHazard::Anything {
@@ -410,23 +410,20 @@ impl Layer {
             projection: true,
             current: Effect::NONE,
         };
-        self.draw_list(gl, &request, hazard, UNKNOWN, false, call);
+        self.draw_list(gl, &request, hazard, UNKNOWN, call);
         self.state.touched = Touch::ALL;
     }
 
-    /// Draws with compiled commands, which are sent as they are. `surfaces`: they are surfaces and their current values alone.
+    /// Draws with compiled commands, which are sent as they are.
     fn draw_list(
         &mut self,
         gl: &Gl,
         request: &Request,
         hazard: ReplayHazard,
         drawing: Drawing,
-        surfaces: bool,
         call: &mut dyn FnMut(),
     ) {
-        let Decided { mut plan, images } = self.decide(gl, request);
-        // Generated shaders do not follow other changes of state within a list, and lines cannot be drawn to the reference image.
-        plan.reference = plan.reference.filter(|_| surfaces);
+        let Decided { plan, images } = self.decide(gl, request);
         self.execute(
             gl,
             &mut Draw {
@@ -482,13 +479,12 @@ impl Layer {
         let projection = touch.has(Touch::MATRIX) && self.state.matrices.mode == c::PROJECTION;
         let rects = touch.has(Touch::RECTS);
         let request = Request {
-            demand: match (projection || rects, content.thin) {
-                (true, _) => {
-                    Demand::Everything("changes the projection or the viewport in a display list")
-                }
-                (false, true) => Demand::Thin,
+            demand: match (projection || rects, content.lines_or_points) {
+                (true, _) => Demand::Everything(Unrepresentable::ListOfCameras),
+                (false, true) => Demand::LinesOrPoints,
                 (false, false) => Demand::None,
             },
+            surfaces: content.primitives && !content.lines_or_points,
             ..Request::of(Kind::List)
         };
         let hazard = match (content.current, content.primitives) {
@@ -504,8 +500,7 @@ impl Layer {
             material: content.material,
             ..UNKNOWN
         };
-        let surfaces = content.primitives && !content.thin;
-        self.draw_list(gl, &request, hazard, drawing, surfaces, call);
+        self.draw_list(gl, &request, hazard, drawing, call);
     }
 }
 
@@ -517,7 +512,7 @@ struct Content {
     /// They are primitives and current values, and nothing else.
     primitives: bool,
     /// There may be lines or points among them.
-    thin: bool,
+    lines_or_points: bool,
     /// They may change the material.
     material: bool,
 }

@@ -23,6 +23,7 @@ mod mono;
 mod neutral;
 mod occlusion;
 mod orphans;
+mod own_variants;
 mod passes;
 mod programs;
 mod prove;
@@ -146,7 +147,10 @@ impl Layer {
         let state = State::ask(gl, window, support.compatibility);
         let mut report = Report::default();
         report.proof = config.prove.map(|_| Proof::default());
-        support.notes().into_iter().for_each(|n| report.note(n));
+        support
+            .notes(gl.is_es())
+            .into_iter()
+            .for_each(|n| report.note(n));
         let driver = Driver::ask(gl);
         let programs = Programs::new(
             crate::draw::limits(gl, support.glsl),
@@ -222,7 +226,7 @@ impl Layer {
 
     /// Sets the position of the window; none where the window system does not report it.
     pub fn moved(&mut self, on_screen: Option<OnScreen>) {
-        self.session.on_screen = on_screen;
+        self.session.moved(on_screen);
     }
 
     /// The atlas that the program draws to, and the second one of a proof, if there is one.
@@ -232,27 +236,17 @@ impl Layer {
 
     /// Whether a texture is one of ours.
     pub fn owns_texture(&self, name: TextureName) -> bool {
+        let proving = self.diagnostics.proving.atlas();
         !name.is_zero()
-            && (self.atlases().any(|atlas| atlas.owns(name))
-                || self.targets.interleaver.texture() == name
-                || self.targets.offscreen.owns_texture(name)
-                || self
-                    .targets
-                    .accumulated
-                    .buffer
-                    .as_ref()
-                    .is_some_and(|b| b.owns(name)))
+            && (self.targets.owns_texture(name) || proving.is_some_and(|atlas| atlas.owns(name)))
     }
 
     /// Whether a framebuffer object is one of ours.
     pub fn owns_framebuffer(&self, name: FramebufferName) -> bool {
-        let accumulation = self.targets.accumulated.buffer.as_ref();
+        let proving = self.diagnostics.proving.atlas();
         !name.is_zero()
-            && (self
-                .atlases()
-                .any(|atlas| atlas.framebuffers().any(|t| t == name))
-                || self.targets.offscreen.owns_framebuffer(name)
-                || accumulation.is_some_and(|a| a.framebuffer() == name))
+            && (self.targets.owns_framebuffer(name)
+                || proving.is_some_and(|atlas| atlas.framebuffers().any(|own| own == name)))
     }
 
     /// The program is about to bind a texture, or to compile the binding into a list.
@@ -333,7 +327,7 @@ impl Layer {
         ) else {
             return false;
         };
-        as_they_are(gl, || {
+        with_raw_copies(gl, || {
             self.reading(gl, BACK, |layer| {
                 if atlas.tiles.lies_like(&layer.targets.atlas.tiles) {
                     return atlas.copy(gl, &layer.targets.atlas);
@@ -362,10 +356,8 @@ impl Layer {
     /// Counts the GL names that the layer has made and deleted on this thread since the last call. It has to be called before another context
     /// is made current, so that all of them are this context's.
     pub fn count_names(&mut self) {
-        self.diagnostics.made.catch_up();
-        self.diagnostics
-            .report
-            .names(self.diagnostics.made, self.session.group.lists().held());
+        let lists = self.session.group.lists().held();
+        self.diagnostics.count_names(lists);
     }
 
     /// Adds a sentence for the user to the report.
@@ -441,7 +433,7 @@ fn make_atlas(
 }
 
 /// Runs a copy without scissor test and sRGB conversion, so that bits stay as they are.
-fn as_they_are<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
+fn with_raw_copies<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
     let (cut, srgb) = (gl.is_enabled(c::SCISSOR_TEST), gl.is_srgb_enabled());
     gl.disable(c::SCISSOR_TEST);
     gl.enable_srgb(false);

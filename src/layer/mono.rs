@@ -1,7 +1,7 @@
 //! Mono frames: they are the same in all views, such as menus and programs without depth. Only the program's own view is drawn, and the panel
 //! shows it. The other views get a copy of it as soon as something is drawn that depends on the view.
 
-use super::{Layer, as_they_are};
+use super::{Layer, with_raw_copies};
 use crate::config::{CaptureWhat, Filter, Optimisation, Output};
 use crate::gl::{Gl, consts as c};
 use crate::plan::decide::ALL_BUFFERS;
@@ -36,7 +36,7 @@ impl Layer {
         self.targets.atlas.tiles.shown = self.shown();
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
-        as_they_are(gl, || {
+        with_raw_copies(gl, || {
             self.reading(gl, BACK, |layer| layer.targets.atlas.share_own(gl));
         });
         self.rebind(gl);
@@ -67,8 +67,7 @@ impl Layer {
             && !self.session.config.disabled.has(Optimisation::MonoFrames)
             && self.session.support.shares
             && self.targets.atlas.tiles.grid.is_full()
-            && !self.targets.atlas.has_front()
-            && self.targets.accumulated.buffer.is_none()
+            && self.targets.back_alone()
             && !self.has_copies()
             && !self.targets.undrawn
             && self.session.config.prove.is_none()

@@ -8,7 +8,7 @@
 //! Draws that cannot be distorted are missing in the reference image: their hidden parts stay unknown, as they are without this strategy.
 
 use super::draw::{Draw, Send};
-use super::programs::{Entered, VariantUse};
+use super::own_variants::{Entered, VariantUse};
 use super::{Layer, keep_bindings};
 use crate::config::Word;
 use crate::draw::{Drawing, Rays, draw_to_reference};
@@ -31,16 +31,33 @@ pub(super) struct ReferenceImage {
     /// There is a distortion map, of the previous frame.
     mapped: bool,
     /// The scene that is being drawn goes to the reference image.
-    pub(super) on: bool,
+    on: bool,
+}
+
+impl ReferenceImage {
+    /// A scene begins, and goes to the reference image if there is a distortion map and an image (`made`). Returns whether it does.
+    pub(super) fn begin(&mut self, made: bool) -> bool {
+        self.on = self.mapped && made;
+        self.on
+    }
+
+    /// Whether the scene that is being drawn goes to the reference image.
+    pub(super) fn is_on(&self) -> bool {
+        self.on
+    }
+
+    /// Whether the driver has made a distortion map for the next frame.
+    pub(super) fn set_mapped(&mut self, mapped: bool) {
+        self.mapped = mapped;
+    }
 }
 
 impl Layer {
     /// A scene begins with a clear of its depths: clears the reference image as well, if the scene goes there.
     pub(super) fn begin_reference(&mut self, gl: &Gl) {
         let framebuffer = self.targets.atlas.reference_framebuffer();
-        let reference = &mut self.synthesis.reference;
-        reference.on = reference.mapped && framebuffer.is_some();
-        if let (true, Some(framebuffer)) = (reference.on, framebuffer) {
+        let on = self.synthesis.reference.begin(framebuffer.is_some());
+        if let (true, Some(framebuffer)) = (on, framebuffer) {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
             gl.clear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
             let drawn = self.targets.atlas.framebuffer();
@@ -71,7 +88,7 @@ impl Layer {
                 let class = draw.plan.class.word();
                 self.diagnostics.report.draw("reference", class);
             }
-            Err(reason) => self.diagnostics.fallbacks.add(reason),
+            Err(reason) => self.diagnostics.fallback(reason),
         }
     }
 
@@ -181,7 +198,7 @@ impl Layer {
     /// The reference image, row 0 on top. Changes the read framebuffer. Fails where this frame has no reference image.
     pub(super) fn reference_image(&self, gl: &Gl, neutral: &Neutral) -> Result<RgbImage, String> {
         let framebuffer = self.targets.atlas.reference_framebuffer();
-        let framebuffer = framebuffer.filter(|_| self.synthesis.reference.on).ok_or(
+        let framebuffer = framebuffer.filter(|_| self.synthesis.reference.is_on()).ok_or(
             "there is no reference image in this frame: `--strategy occlusion` draws one from the second frame of a scene on",
         )?;
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, framebuffer);
@@ -209,8 +226,8 @@ impl Layer {
             }
         }
         if let (Some(passes), false) = (&self.synthesis.passes, self.synthesis.reference.refused) {
-            self.synthesis.reference.mapped =
-                passes.map_distortion(gl, neutral, &mut self.targets.atlas, disparities);
+            let mapped = passes.map_distortion(gl, neutral, &mut self.targets.atlas, disparities);
+            self.synthesis.reference.set_mapped(mapped);
         }
     }
 }

@@ -102,10 +102,10 @@ impl Layer {
     pub(super) fn sampled(&mut self, gl: &Gl) -> Arc<[Bound]> {
         let program = self.state.in_use.program;
         let changes = self.targets.offscreen.changes();
-        let key = Some((program, uniform_change(), changes));
+        let key = (program, uniform_change(), changes);
         let stale = self.state.touched.has(Touch::UNITS);
-        if std::mem::replace(&mut self.variants.sampled_by, key) == key && !stale {
-            return self.variants.sampled.clone();
+        if let Some(sampled) = self.variants.sampled(key, stale) {
+            return sampled;
         }
         self.state.touched = self.state.touched.without(Touch::UNITS);
         let bound = match program {
@@ -116,8 +116,7 @@ impl Layer {
                 self.targets.offscreen.bound_among(gl, units.into_iter())
             }
         };
-        self.variants.sampled = bound.into();
-        self.variants.sampled.clone()
+        self.variants.sample(bound)
     }
 
     /// Splits a framebuffer of the program's: each view gets one like it. False where the driver makes none.

@@ -60,7 +60,7 @@ pub(super) struct Proving {
     begun: bool,
     /// The frame did not begin with a clear of the whole window, so it shows contents of earlier frames. Kept until the next proved frame,
     /// because a program begins all its frames alike.
-    carries: bool,
+    keeps_contents: bool,
     /// Start of a frame that is timed.
     since: Option<Instant>,
     trials: usize,
@@ -185,7 +185,7 @@ impl Layer {
         }
         if first {
             let clears = matches!(facts.kind, Kind::Clear { .. });
-            self.diagnostics.proving.carries = !clears || self.state.rectangles.scissor_test;
+            self.diagnostics.proving.keeps_contents = !clears || self.state.rectangles.scissor_test;
         }
         match plan.method {
             Method::Once if self.state.primitives.render_mode == c::RENDER => {
@@ -267,7 +267,7 @@ impl Layer {
     ) -> Option<RgbImage> {
         // These outputs are made of more than one picture of colours.
         let single = !matches!(self.output(), Output::Quad | Output::Rgbd);
-        if !single || !self.diagnostics.proving.proves() || !self.frame.drawn {
+        if !single || !self.diagnostics.proving.proves() || !self.frame.drawn() {
             return None;
         }
         self.change_places();
@@ -301,7 +301,7 @@ impl Layer {
                 .diagnostics
                 .proving
                 .refused
-                .or((!self.frame.drawn).then_some(EMPTY));
+                .or((!self.frame.drawn()).then_some(EMPTY));
             if let Some(why) = refused {
                 self.diagnostics.proving.search = None;
                 self.tell(|proof| proof.skipped(why));
@@ -357,7 +357,7 @@ impl Layer {
         }
         gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         let picture = worst_pair.and_then(|[exact, shown]| self.draw_failure(&exact, &shown));
-        let carried = self.diagnostics.proving.carries;
+        let carried = self.diagnostics.proving.keeps_contents;
         self.tell(|proof| {
             proof.frame(frame, carried, &views, &panel);
             culprit.into_iter().for_each(|c| proof.culprit(c));
@@ -368,7 +368,7 @@ impl Layer {
             .report
             .proof
             .as_ref()
-            .map_or(0, Proof::explained);
+            .map_or(0, Proof::worst_explained);
         let worst = (0..).zip(&views).max_by_key(|(_, d)| d.worst());
         self.diagnostics.proving.suspect = worst
             .filter(|(_, d)| d.worst() > explained)
@@ -494,7 +494,7 @@ impl Layer {
             }
             self.apply_buffers(gl);
         }
-        self.hand_over(gl);
+        self.copy_to_second(gl);
         if let Some(view) = self.diagnostics.proving.suspect.take()
             && self.diagnostics.proving.searches < SEARCHES
         {
@@ -510,7 +510,7 @@ impl Layer {
     }
 
     /// Copies the first atlas to the second one, for what the program does not clear.
-    fn hand_over(&mut self, gl: &Gl) {
+    fn copy_to_second(&mut self, gl: &Gl) {
         let Some(mut other) = self.diagnostics.proving.atlas.take() else {
             return;
         };
@@ -531,7 +531,7 @@ impl Layer {
         // Contents of earlier frames, the front buffer and the accumulation buffer would have to be in the second atlas as well.
         if self.uses_front()
             || self.targets.accumulated.buffer.is_some()
-            || self.diagnostics.proving.carries && !full
+            || self.diagnostics.proving.keeps_contents && !full
         {
             return;
         }
@@ -541,7 +541,7 @@ impl Layer {
         self.diagnostics.proving.now = Now::Timed { by_replay };
         if by_replay {
             if full {
-                self.hand_over(gl);
+                self.copy_to_second(gl);
             }
             self.session.strategy = Strategy::Replay;
             self.put_other(gl);
@@ -551,10 +551,10 @@ impl Layer {
     /// After a frame by replay alone: returns to the chosen strategy and the first atlas. `whole`: the frame is at its end.
     fn choose_again(&mut self, gl: &Gl, whole: bool) {
         self.diagnostics.proving.now = Now::Plain;
-        self.session.strategy = self.chosen();
+        self.session.strategy = self.session.chosen();
         let full = |atlas: &Atlas| atlas.tiles.grid.is_full();
         if whole && self.diagnostics.proving.atlas.as_ref().is_some_and(full) {
-            self.hand_over(gl);
+            self.copy_to_second(gl);
         }
         self.put_other(gl);
     }

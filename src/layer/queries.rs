@@ -92,14 +92,10 @@ impl Queries {
             self.spare.extend(names);
         }
     }
-}
 
-impl Layer {
-    /// After the driver's glBeginQuery.
-    pub fn begun_query(&mut self, gl: &Gl, target: u32, query: QueryName) {
-        let q = &mut self.queries;
-        let known = q.active.iter().any(|a| a.target == target);
-        // The driver may have refused it.
+    /// After the driver's glBeginQuery, which it may have refused.
+    pub(super) fn begun(&mut self, gl: &Gl, target: u32, query: QueryName) {
+        let known = self.active.iter().any(|a| a.target == target);
         if !TARGETS.contains(&target)
             || known
             || gl.current_query(target) != query
@@ -107,8 +103,8 @@ impl Layer {
         {
             return;
         }
-        q.forget(query);
-        q.active.push(Active {
+        self.forget(query);
+        self.active.push(Active {
             target,
             query,
             counted: false,
@@ -117,47 +113,118 @@ impl Layer {
     }
 
     /// After the driver's glEndQuery.
-    pub fn ended_query(&mut self, target: u32) {
-        let q = &mut self.queries;
-        if let Some(at) = q.active.iter().position(|a| a.target == target) {
-            let ended = q.active.swap_remove(at);
+    pub(super) fn ended(&mut self, target: u32) {
+        if let Some(at) = self.active.iter().position(|a| a.target == target) {
+            let ended = self.active.swap_remove(at);
             if !ended.more.is_empty() {
-                q.more.insert(ended.query, (target, ended.more));
+                self.more.insert(ended.query, (target, ended.more));
             }
         }
     }
 
+    /// The program deletes queries: ours that have continued them can continue others.
+    pub(super) fn deleted(&mut self, queries: &[QueryName]) {
+        queries.iter().for_each(|&query| self.forget(query));
+    }
+
+    /// The program's query that is active at a target, if it is one that ours may continue.
+    pub(super) fn current(&self, target: u32) -> Option<QueryName> {
+        let active = self.active.iter().find(|a| a.target == target);
+        active.map(|a| a.query)
+    }
+
+    /// The query to ask the driver about in the place of one of the program's: while a query of ours continues that, ours is the active one.
+    pub(super) fn asked(&self, query: QueryName) -> QueryName {
+        let active = self.active.iter().find(|a| a.query == query);
+        active.and_then(|a| a.more.last().copied()).unwrap_or(query)
+    }
+
+    /// The query by which the driver decides conditional rendering in the place of one of the program's. The driver asks only whether the
+    /// result is zero. So it is a query of ours with another result than zero if there is one, or else the program's. `result` waits for the
+    /// result of a query.
+    pub(super) fn deciding(
+        &self,
+        query: QueryName,
+        result: impl Fn(QueryName) -> u32,
+    ) -> QueryName {
+        if self.active.iter().any(|a| a.query == query) {
+            // The driver refuses the query that is active there.
+            return self.asked(query);
+        }
+        let more = self.more.get(&query).map_or(&[][..], |(_, names)| names);
+        let counted = more.iter().copied().find(|&name| result(name) != 0);
+        counted.unwrap_or(query)
+    }
+
+    /// The program renders by a condition from now on: the query that decides, and the mode; or by none.
+    pub(super) fn set_condition(&mut self, condition: Option<(QueryName, u32)>) {
+        self.condition = condition;
+    }
+
+    /// Whether queries of ours hold a part of the result of an ended query of the program's.
+    pub(super) fn is_continued(&self, query: QueryName) -> bool {
+        self.more.contains_key(&query)
+    }
+
+    /// The part of a result of the program's query that our queries hold, if there are any. `result` asks for a value of a query.
+    pub(super) fn answer(
+        &self,
+        query: QueryName,
+        name: u32,
+        result: impl Fn(QueryName, u32) -> u32,
+    ) -> Option<Answer> {
+        let (target, more) = self.more.get(&query)?;
+        let mut values = more.iter().map(|&query| match name {
+            c::QUERY_RESULT_AVAILABLE => result(query, name),
+            _ => result(query, c::QUERY_RESULT),
+        });
+        Some(match name {
+            c::QUERY_RESULT | c::QUERY_RESULT_NO_WAIT => match *target {
+                c::SAMPLES_PASSED | c::PRIMITIVES_GENERATED => {
+                    Answer::Count(values.map(u64::from).sum())
+                }
+                _ => Answer::Any(values.any(|value| value != 0)),
+            },
+            c::QUERY_RESULT_AVAILABLE => Answer::Available(values.all(|value| value != 0)),
+            _ => return None,
+        })
+    }
+}
+
+impl Layer {
+    /// After the driver's glBeginQuery.
+    pub fn begun_query(&mut self, gl: &Gl, target: u32, query: QueryName) {
+        self.queries.begun(gl, target, query);
+    }
+
+    /// After the driver's glEndQuery.
+    pub fn ended_query(&mut self, target: u32) {
+        self.queries.ended(target);
+    }
+
     /// glDeleteQueries.
     pub fn deleted_queries(&mut self, queries: &[QueryName]) {
-        queries.iter().for_each(|&q| self.queries.forget(q));
+        self.queries.deleted(queries);
     }
 
     /// The answer of glGetQueryiv for GL_CURRENT_QUERY of a target, if a query of ours may be active there.
     pub fn current_query(&self, target: u32) -> Option<QueryName> {
-        let active = self.queries.active.iter().find(|a| a.target == target);
-        active.map(|a| a.query)
+        self.queries.current(target)
     }
 
-    /// Before glBeginConditionalRender: the query for the driver in the place of the program's. The driver asks only whether the result is
-    /// zero. So it is a query of ours with another result than zero if there is one, or else the program's. This waits for results, which
-    /// every mode allows.
+    /// Before glBeginConditionalRender: the query for the driver in the place of the program's. This waits for results, which every mode
+    /// allows.
     pub fn condition(&mut self, gl: &Gl, query: QueryName) -> QueryName {
         self.catch_up(gl);
         self.state.keep_errors(gl);
-        let q = &self.queries;
-        if q.active.iter().any(|a| a.query == query) {
-            // The driver refuses the query that is active there.
-            return self.asked_query(query);
-        }
-        let more = q.more.get(&query).map_or(&[][..], |(_, names)| names);
-        let counted = |&q: &QueryName| gl.query_object(q, c::QUERY_RESULT) != 0;
-        more.iter().copied().find(counted).unwrap_or(query)
+        let result = |name| gl.query_object(name, c::QUERY_RESULT);
+        self.queries.deciding(query, result)
     }
 
     /// After the driver's glBeginConditionalRender.
     pub fn begun_condition(&mut self, gl: &Gl, query: QueryName, mode: u32) {
         match gl.get_error() {
-            c::NO_ERROR if !self.compiles() => self.queries.condition = Some((query, mode)),
+            c::NO_ERROR if !self.compiles() => self.queries.set_condition(Some((query, mode))),
             c::NO_ERROR => {}
             // Only the first error is kept, as by the driver.
             error if self.state.errors.is_empty() => self.state.errors.push_back(error),
@@ -167,34 +234,24 @@ impl Layer {
 
     /// After the driver's glEndConditionalRender, which leaves no condition, whether there was one or not.
     pub fn ended_condition(&mut self) {
-        self.queries.condition = None;
+        self.queries.set_condition(None);
     }
 
-    /// The query to ask the driver about in the place of one of the program's: while a query of ours continues that, ours is the active one.
+    /// The query to ask the driver about in the place of one of the program's.
     pub fn asked_query(&self, query: QueryName) -> QueryName {
-        let active = self.queries.active.iter().find(|a| a.query == query);
-        active.and_then(|a| a.more.last().copied()).unwrap_or(query)
+        self.queries.asked(query)
     }
 
     /// The part of a result of the program's query that our queries hold, if there are any.
     pub fn query_answer(&self, gl: &Gl, query: QueryName, name: u32) -> Option<Answer> {
-        let (target, more) = self.queries.more.get(&query)?;
         // The driver itself writes results into a query buffer, where nothing can be added.
-        if self.session.support.version >= (4, 4) && gl.get_integer(c::QUERY_BUFFER_BINDING) != 0 {
+        let buffers = self.session.support.version >= (4, 4);
+        if !self.queries.is_continued(query)
+            || buffers && gl.get_integer(c::QUERY_BUFFER_BINDING) != 0
+        {
             return None;
         }
-        let ask = |name| more.iter().map(move |&q| gl.query_object(q, name));
-        Some(match name {
-            c::QUERY_RESULT | c::QUERY_RESULT_NO_WAIT => match *target {
-                c::SAMPLES_PASSED | c::PRIMITIVES_GENERATED => {
-                    Answer::Count(ask(c::QUERY_RESULT).map(u64::from).sum())
-                }
-                _ => Answer::Any(ask(c::QUERY_RESULT).any(|r| r != 0)),
-            },
-            c::QUERY_RESULT_AVAILABLE => {
-                Answer::Available(ask(c::QUERY_RESULT_AVAILABLE).all(|r| r != 0))
-            }
-            _ => return None,
-        })
+        let result = |query, name| gl.query_object(query, name);
+        self.queries.answer(query, name, result)
     }
 }

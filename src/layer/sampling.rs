@@ -7,7 +7,8 @@ use crate::config::{CaptureWhat, Config, Filter, Optimisation, Output, ViewScale
 use crate::display::{Display, Placement};
 use crate::gl::Gl;
 use crate::interleave::Form;
-use crate::plan::decide::{Demand, Detail};
+use crate::plan::Unrepresentable;
+use crate::plan::decide::{Demand, Detail, retreat};
 use crate::view::ViewIndex;
 
 /// The grid of the views. `shader`: the output is made on the GPU, which can sample tiles that are aligned with the panel's lenses.
@@ -41,10 +42,7 @@ impl Layer {
     pub(super) fn grid(&self) -> Grid {
         grid(
             self.session.config,
-            self.session
-                .fitted
-                .as_ref()
-                .unwrap_or(&self.session.config.display),
+            self.session.display(),
             self.output(),
             &self.placement(),
             self.targets.detail,
@@ -53,8 +51,12 @@ impl Layer {
     }
 
     /// Goes over to the window's own pixels, because only those can hold what comes. `what` continues the note "because the program".
-    pub(super) fn hold_everything(&mut self, gl: &Gl, what: &'static str) {
-        self.retreat(gl, Demand::Everything(what));
+    pub(super) fn hold_everything(&mut self, gl: &Gl, what: Unrepresentable) {
+        let grid = self.targets.atlas.tiles.grid;
+        let demand = Demand::Everything(what);
+        if let Some((detail, why)) = retreat(demand, grid.is_full(), grid.is_sample_aligned()) {
+            self.give_up(gl, detail, why);
+        }
     }
 
     /// Before a frame is shown: makes the atlas anew, with its contents, where the output now needs tiles of another kind or size.

@@ -3,7 +3,7 @@
 
 use super::{Member, OnScreen, Support, auto};
 use crate::config::{Config, Live, Strategy};
-use crate::display::Display;
+use crate::display::{Display, Placement};
 use crate::gl::Gl;
 use crate::plan::decide::has_depths_of_replay;
 use std::sync::Arc;
@@ -19,9 +19,9 @@ pub(super) struct Session {
     /// The values that the user may change while the program runs.
     pub(super) live: Live,
     /// Position of the window; none where the window system does not report it.
-    pub(super) on_screen: Option<OnScreen>,
+    on_screen: Option<OnScreen>,
     /// The display with other numbers of its lens sheet, once they have been changed.
-    pub(super) fitted: Option<Display>,
+    fitted: Option<Display>,
     pub(super) auto: Option<auto::Auto>,
 }
 
@@ -53,6 +53,48 @@ impl Session {
             fitted: None,
             auto,
         }
+    }
+
+    /// The strategy that the user has chosen, or that `auto` uses now. [`Session::strategy`] is another one while a proof replays.
+    pub(super) fn chosen(&self) -> Strategy {
+        let auto = self.auto.as_ref();
+        auto.map_or(self.config.strategy, auto::Auto::strategy)
+    }
+
+    /// The display, with the numbers of its lens sheet in force.
+    pub(super) fn display(&self) -> &Display {
+        self.fitted.as_ref().unwrap_or(&self.config.display)
+    }
+
+    /// Puts other values in force.
+    pub(super) fn adopt(&mut self, live: Live) {
+        if let Some(lens) = live.lens
+            && live.lens != self.live.lens
+        {
+            let config = self.config;
+            let display = self.fitted.get_or_insert_with(|| config.display.clone());
+            display.set_lens(lens);
+        }
+        self.live = live;
+    }
+
+    /// Sets the position of the window; none where the window system does not report it.
+    pub(super) fn moved(&mut self, on_screen: Option<OnScreen>) {
+        self.on_screen = on_screen;
+    }
+
+    /// Place of the picture of a window of this size on the screen, all in pixels. Where the window system does not report it, the picture is
+    /// taken to be the whole screen.
+    pub(super) fn placement(&self, (width, height): (u32, u32)) -> Placement {
+        let whole = Placement::full_screen(width, height);
+        let at = self.on_screen.map(|on_screen| Placement {
+            screen_width: on_screen.screen.0,
+            screen_height: on_screen.screen.1,
+            x: on_screen.at.0,
+            y: on_screen.at.1,
+            ..whole
+        });
+        at.unwrap_or(whole)
     }
 
     /// Whether amplified draws have exactly the depths of replayed ones.

@@ -12,8 +12,6 @@ use serde::{Deserialize, Serialize};
 pub struct Support {
     /// Major and minor version.
     pub version: (u32, u32),
-    /// Whether the context is of OpenGL ES.
-    pub es: bool,
     /// Whether the context has the fixed-function pipeline.
     pub compatibility: bool,
     /// Whether framebuffer objects can be drawn to upside down, as windows are (GL_MESA_framebuffer_flip_y).
@@ -64,7 +62,6 @@ impl Support {
         let side = gl.get_integer(c::MAX_TEXTURE_SIZE).min(width).min(height);
         Ok(Self {
             version,
-            es,
             compatibility,
             flip: gl.has_extension("GL_MESA_framebuffer_flip_y"),
             glsl,
@@ -120,16 +117,16 @@ impl Support {
         .collect()
     }
 
-    /// What a user should know about pictures from this context.
+    /// What a user should know about pictures from this context; `es`: of OpenGL ES.
     #[must_use]
-    pub fn notes(&self) -> Vec<String> {
+    pub fn notes(&self, es: bool) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.flip {
             notes.push("the driver has no GL_MESA_framebuffer_flip_y: a view may differ from the window in single pixels".to_owned());
         }
         if !self.instanced() && (self.compatibility || !self.layers()) {
             let reason = match (self.compatibility, self.glsl) {
-                _ if self.es => "OpenGL ES has no shaders that choose among layers",
+                _ if es => "OpenGL ES has no shaders that choose among layers",
                 (false, _) => "a core profile has no fixed function to generate shaders for",
                 (_, 150..) => "the driver has fewer than two clip distances",
                 _ => "instanced and geometry need GLSL 1.50",
@@ -167,7 +164,6 @@ mod tests {
     fn support(glsl: u32, compatibility: bool, clip_distances: u32) -> Support {
         Support {
             version: (3, 2),
-            es: false,
             compatibility,
             flip: true,
             glsl,
@@ -186,28 +182,33 @@ mod tests {
     fn what_is_missing_is_said() {
         let full = support(150, true, 8);
         assert_eq!(full.strategies(), ["replay", "instanced", "geometry"]);
-        assert!(full.notes().is_empty());
+        assert!(full.notes(false).is_empty());
         for (less, word) in [
             (support(120, true, 0), "GLSL 1.50"),
             (support(150, true, 1), "clip distances"),
             (support(450, false, 0), "core profile"),
         ] {
             assert_eq!(less.strategies(), ["replay"]);
-            assert!(less.notes()[0].contains(word), "{:?}", less.notes());
+            assert!(
+                less.notes(false)[0].contains(word),
+                "{:?}",
+                less.notes(false)
+            );
         }
-        let es = Support {
-            es: true,
-            ..support(320, false, 0)
-        };
+        let es = support(320, false, 0);
         assert_eq!(es.strategies(), ["replay"]);
-        assert!(es.notes()[0].contains("OpenGL ES"), "{:?}", es.notes());
+        assert!(
+            es.notes(true)[0].contains("OpenGL ES"),
+            "{:?}",
+            es.notes(true)
+        );
         // Programs of a core profile have shaders of their own, and the variants of those choose layers.
         let core = Support {
             vertex_layer: Some(VertexLayer::ArbShaderViewportLayerArray),
             ..support(450, false, 0)
         };
         assert_eq!(core.strategies(), ["replay", "instanced"]);
-        assert!(core.notes().is_empty());
+        assert!(core.notes(false).is_empty());
     }
 
     #[test]

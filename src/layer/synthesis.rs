@@ -37,9 +37,9 @@ pub(super) struct Synthesis {
     /// How many views were drawn in this frame, where others were synthesised from them.
     drew: Option<u32>,
     pub(super) reference: ReferenceImage,
-    pub(super) surfaces: Surfaces,
+    surfaces: Surfaces,
     /// The disparity pyramid, while the panel's picture is synthesised straight from the views that are drawn.
-    pub(super) pyramid: Option<(PyramidTextures, Disparities)>,
+    pyramid: Option<(PyramidTextures, Disparities)>,
     /// Samples of this frame's scene, where they are to be written.
     samples: Option<Samples>,
 }
@@ -86,7 +86,7 @@ impl Synthesis {
     pub(super) fn new(gl: &Gl, config: &Config, glsl: u32) -> (Synthesis, Option<String>) {
         let passes = config
             .synthesis()
-            .map(|behind| Passes::new(gl, glsl, behind))
+            .map(|source| Passes::new(gl, glsl, source))
             .transpose();
         let (passes, note) = match passes {
             Ok(passes) => (passes, None),
@@ -118,9 +118,9 @@ impl Synthesis {
         sources.flat_map(|sources| sources.iter()).collect()
     }
 
-    /// Takes the number of views that the frame drew, where others were synthesised from them; none where all were drawn.
-    pub(super) fn take_drawn(&mut self) -> Option<u32> {
-        self.drew.take()
+    /// The views of a frame are synthesised from these; none where that is the own one alone.
+    pub(super) fn draws(&mut self, sources: Option<Sources>) {
+        self.drew = sources.map(|sources| sources.count());
     }
 
     /// Number of views that a scene is drawn in, as sources of the others; none where it is the own one alone.
@@ -128,11 +128,32 @@ impl Synthesis {
         self.passes.as_ref().and_then(|_| self.number.views())
     }
 
-    /// A frame took so many milliseconds.
-    pub(super) fn adapt(&mut self, ms: f32) {
-        if let Number::Governed(governor) = &mut self.number {
+    /// Number of views that a scene may be drawn in at most, for `views` in all: the layers of the disparity pyramid.
+    pub(super) fn most(&self, views: u32) -> u32 {
+        match &self.number {
+            Number::One => 1,
+            Number::Fixed(count) => (*count).min(Sources::MOST),
+            Number::Governed(_) => Sources::MOST.min(views),
+        }
+    }
+
+    /// A frame of `views` in all took so many milliseconds, which may change the number of views that the next scene is drawn in. Returns how
+    /// many views the frame drew; none where scenes are drawn in the own view alone.
+    pub(super) fn timed(&mut self, ms: f32, views: u32) -> Option<u32> {
+        let number = self.number()?;
+        let drawn = self.drew.take();
+        // A frame without synthesis, such as a menu, does not tell what drawn views cost.
+        if (drawn.is_some() || number == views)
+            && let Number::Governed(governor) = &mut self.number
+        {
             governor.frame(ms);
         }
+        Some(drawn.unwrap_or(views))
+    }
+
+    /// The disparity pyramid from which the panel's picture is synthesised straight; none where all views are there.
+    pub(super) fn straight(&self) -> Option<(PyramidTextures, Disparities)> {
+        self.pyramid
     }
 }
 
@@ -150,8 +171,7 @@ impl Layer {
         self.session.config.prove.is_none()
             && !self.targets.atlas.depth.is_zero()
             && self.targets.atlas.tiles.grid.is_full()
-            && !self.targets.atlas.has_front()
-            && self.targets.accumulated.buffer.is_none()
+            && self.targets.back_alone()
             && !self.has_copies()
             && !self.session.live.flat
             && self.synthesis.number().is_none_or(|n| n < self.needed())
@@ -172,13 +192,21 @@ impl Layer {
     /// Synthesises the views of a scene, or copies the own one where the scene has no disparities. Changes the framebuffers that are bound.
     fn synthesise(&mut self, gl: &Gl, scene: &Scene, neutral: &Neutral) {
         self.reading(gl, BACK, |layer| match scene.mapping {
-            Some(mapping) if layer.has_pyramid(gl) => layer.make_of(gl, scene, &mapping, neutral),
+            Some(mapping) if layer.has_pyramid(gl) => {
+                layer.synthesise_from(gl, scene, &mapping, neutral)
+            }
             _ => layer.targets.atlas.share_own(gl),
         });
     }
 
     /// Synthesises the views of a scene from those that are drawn. Changes the framebuffers that are bound.
-    fn make_of(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping, neutral: &Neutral) {
+    fn synthesise_from(
+        &mut self,
+        gl: &Gl,
+        scene: &Scene,
+        mapping: &DisparityMapping,
+        neutral: &Neutral,
+    ) {
         let disparities = self.disparities(scene, mapping);
         self.resolve_sources(gl);
         self.take_samples(gl, neutral, scene, mapping);
@@ -226,11 +254,7 @@ impl Layer {
             return self.synthesis.passes.is_some();
         }
         let (names, window) = (&mut self.targets.names, &self.state.window);
-        let layers = match &self.synthesis.number {
-            Number::One => 1,
-            Number::Fixed(count) => (*count).min(Sources::MOST),
-            Number::Governed(_) => Sources::MOST.min(self.session.config.views),
-        };
+        let layers = self.synthesis.most(self.session.config.views);
         let made = keep_bindings(gl, || {
             self.targets.atlas.make_pyramid(gl, names, window, layers)
         });
@@ -262,7 +286,7 @@ impl Layer {
         copied: bool,
         neutral: &Neutral,
     ) -> Option<PyramidTextures> {
-        self.synthesis.drew = disparities.sources.map(|sources| sources.count());
+        self.synthesis.draws(disparities.sources);
         let mut textures = self.targets.atlas.pyramid(copied)?;
         let passes = self.synthesis.passes.as_ref()?;
         passes.measure(gl, neutral, &mut self.targets.atlas, disparities, &textures);
@@ -271,7 +295,7 @@ impl Layer {
             .targets
             .atlas
             .reference()
-            .filter(|_| self.synthesis.reference.on);
+            .filter(|_| self.synthesis.reference.is_on());
         Some(textures)
     }
 

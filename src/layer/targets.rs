@@ -5,7 +5,7 @@ use super::{LayerError, accumulate, framebuffer, make_atlas, sampling};
 use crate::atlas::{Atlas, Names};
 use crate::config::ViewScale;
 use crate::display::Placement;
-use crate::gl::Gl;
+use crate::gl::{FramebufferName, Gl, TextureName};
 use crate::interleave::Interleaver;
 use crate::offscreen::Offscreen;
 use crate::plan::decide::Detail;
@@ -77,5 +77,27 @@ impl Targets {
             undrawn: false,
             pushed: Vec::new(),
         })
+    }
+
+    /// Whether a texture is one of these.
+    pub(super) fn owns_texture(&self, name: TextureName) -> bool {
+        let accumulation = self.accumulated.buffer.as_ref();
+        self.atlas.owns(name)
+            || self.interleaver.texture() == name
+            || self.offscreen.owns_texture(name)
+            || accumulation.is_some_and(|buffer| buffer.owns(name))
+    }
+
+    /// Whether a framebuffer object is one of these.
+    pub(super) fn owns_framebuffer(&self, name: FramebufferName) -> bool {
+        let accumulation = self.accumulated.buffer.as_ref();
+        self.atlas.framebuffers().any(|own| own == name)
+            || self.offscreen.owns_framebuffer(name)
+            || accumulation.is_some_and(|buffer| buffer.framebuffer() == name)
+    }
+
+    /// Whether framebuffer 0 has its back buffer and depths alone: no front buffer, and no accumulation buffer.
+    pub(super) fn back_alone(&self) -> bool {
+        !self.atlas.has_front() && self.accumulated.buffer.is_none()
     }
 }

@@ -1,6 +1,6 @@
 //! The programs that views are drawn with: those generated for fixed function, and variants of the program's own.
 
-use super::programs::OwnVariants;
+use super::own_variants::OwnVariants;
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::ProgramName;
 use crate::offscreen::Bound;
@@ -17,12 +17,15 @@ pub(super) struct Variants {
     /// Rewritten from the program's own.
     pub(super) own: OwnVariants,
     /// The textures that the last draw sampled and that differ between the views.
-    pub(super) sampled: Arc<[Bound]>,
-    /// The program that `sampled` was found for, and the counts of changes of uniforms and of images at that time.
-    pub(super) sampled_by: Option<(ProgramName, u64, u64)>,
+    sampled: Arc<[Bound]>,
+    /// What `sampled` was found for.
+    sampled_by: Option<SampledBy>,
     /// The program has set some attribute to advance by instances.
-    pub(super) divides: bool,
+    divides: bool,
 }
+
+/// What the textures of a draw depend on: its program, and the counts of changes of uniforms and of images.
+pub(super) type SampledBy = (ProgramName, u64, u64);
 
 impl Variants {
     pub(super) fn new(programs: Programs, driver: Driver) -> Self {
@@ -35,5 +38,34 @@ impl Variants {
             sampled_by: None,
             divides: false,
         }
+    }
+
+    /// The textures of the last draw, if they are those of the next one too: it has the same key, and no texture unit has changed (`stale`).
+    /// Otherwise they have to be found and given to [`Variants::sample`].
+    pub(super) fn sampled(&mut self, key: SampledBy, stale: bool) -> Option<Arc<[Bound]>> {
+        let same = self.sampled_by.replace(key) == Some(key) && !stale;
+        same.then(|| self.sampled.clone())
+    }
+
+    /// Sets the textures that the draw samples and that differ between the views.
+    pub(super) fn sample(&mut self, bound: Vec<Bound>) -> Arc<[Bound]> {
+        self.sampled = bound.into();
+        self.sampled.clone()
+    }
+
+    /// Some attribute is about to advance by instances.
+    pub(super) fn divide(&mut self) {
+        self.divides = true;
+    }
+
+    /// Whether the program has set some attribute to advance by instances.
+    pub(super) fn divides(&self) -> bool {
+        self.divides
+    }
+
+    /// Counts one more variant of a program, and returns the number of programs that were compiled so far.
+    pub(super) fn count_compiled(&mut self) -> u64 {
+        self.programs.compiled += 1;
+        self.programs.compiled
     }
 }

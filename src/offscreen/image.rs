@@ -21,7 +21,7 @@ pub(super) struct Image {
     /// The program's own object is out of date.
     pub(super) stale: bool,
     /// By view: the number of the last change of texture parameters that was copied from the program's texture.
-    looks: Vec<u64>,
+    parameter_changes: Vec<u64>,
 }
 
 /// The layers of an image.
@@ -137,7 +137,7 @@ impl Image {
     fn new(target: u32, views: Vec<Object>, array: Option<Array>) -> Image {
         Image {
             target,
-            looks: vec![u64::MAX; views.len()],
+            parameter_changes: vec![u64::MAX; views.len()],
             views,
             array,
             stale: false,
@@ -186,26 +186,26 @@ impl Image {
     }
 
     /// Binds a view's texture at the active unit, in place of the program's own or another view's.
-    /// `looks`: number of changes of texture parameters so far.
+    /// `changes`: number of changes of texture parameters so far.
     pub(super) fn bind(
         &mut self,
         gl: &Gl,
         support: &ImageSupport,
-        looks: u64,
+        changes: u64,
         (own, view): (TextureName, ViewIndex),
     ) {
         let at = view.0 as usize;
-        let (Some(&Object::Texture(name)), Some(look)) =
-            (self.views.get(at), self.looks.get_mut(at))
+        let (Some(&Object::Texture(name)), Some(copied)) =
+            (self.views.get(at), self.parameter_changes.get_mut(at))
         else {
             return;
         };
-        if name != own && *look != looks && !is_multisampled(self.target) {
+        if name != own && *copied != changes && !is_multisampled(self.target) {
             gl.bind_texture(self.target, own);
-            let (values, border) = support.look(gl, self.target);
+            let (values, border) = support.parameters(gl, self.target);
             gl.bind_texture(self.target, name);
-            support.set_look(gl, self.target, &values, &border);
-            *look = looks;
+            support.set_parameters(gl, self.target, &values, &border);
+            *copied = changes;
         }
         gl.bind_texture(self.target, name);
     }
@@ -238,7 +238,7 @@ impl ImageSupport {
         }
     }
 
-    fn look(&self, gl: &Gl, target: u32) -> (Vec<f32>, [f32; 4]) {
+    fn parameters(&self, gl: &Gl, target: u32) -> (Vec<f32>, [f32; 4]) {
         let all = self.parameters.iter();
         let values = all.map(|&p| gl.tex_parameter_floats(target, p)[0]);
         let border = match self.borders {
@@ -248,7 +248,7 @@ impl ImageSupport {
         (values.collect(), border)
     }
 
-    fn set_look(&self, gl: &Gl, target: u32, values: &[f32], border: &[f32; 4]) {
+    fn set_parameters(&self, gl: &Gl, target: u32, values: &[f32], border: &[f32; 4]) {
         for (&name, &value) in self.parameters.iter().zip(values) {
             gl.tex_parameterf(target, name, value);
         }

@@ -15,7 +15,7 @@ pub struct Images {
     /// Number of changes of attachments, draw buffers and images.
     pub(super) changes: u64,
     /// Number of changes of texture parameters.
-    pub(super) looks: u64,
+    pub(super) parameter_changes: u64,
 }
 
 impl Images {
@@ -98,9 +98,9 @@ impl Images {
         texture: TextureName,
         view: ViewIndex,
     ) {
-        let looks = self.looks;
+        let parameter_changes = self.parameter_changes;
         if let Some(image) = self.all.get_mut(&Object::Texture(texture)) {
-            image.bind(gl, support, looks, (texture, view));
+            image.bind(gl, support, parameter_changes, (texture, view));
         }
     }
 

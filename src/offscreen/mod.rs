@@ -105,8 +105,8 @@ impl Offscreen {
     }
 
     /// Takes note that a parameter of some texture has changed.
-    pub fn look_changed(&mut self) {
-        self.images().looks += 1;
+    pub fn parameters_changed(&mut self) {
+        self.images().parameter_changes += 1;
     }
 
     /// Takes note that attachments or draw buffers of some framebuffer have changed.

@@ -15,7 +15,7 @@ pub struct Target {
     /// The framebuffers by view, of which the program's may be one; empty where it is not split.
     views: Vec<FramebufferName>,
     /// The number of the last change (see [`Images`]) after which the fields below were read.
-    seen: u64,
+    last_change: u64,
     /// The attachments of the program's framebuffer.
     pub attachments: Vec<Attachment>,
     draw_buffers: Vec<u32>,
@@ -37,7 +37,7 @@ impl Target {
             number: None,
             views: Vec::new(),
             // Nothing has been read yet.
-            seen: u64::MAX,
+            last_change: u64::MAX,
             attachments: Vec::new(),
             draw_buffers: Vec::new(),
             read_buffer: c::NONE,
@@ -99,7 +99,7 @@ impl Target {
     /// Reads the attachments and buffers again after a change, and drops the views' framebuffers if they no longer match. Leaves the program's
     /// state as it is.
     pub(super) fn reattach(&mut self, gl: &Gl, images: &Images) {
-        if std::mem::replace(&mut self.seen, images.changes) == images.changes {
+        if std::mem::replace(&mut self.last_change, images.changes) == images.changes {
             return;
         }
         let bindings = [

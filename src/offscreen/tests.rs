@@ -237,7 +237,7 @@ fn a_views_texture_is_bound_for_its_draw() {
     stage.fake.forget();
     stage.offscreen.bind(&gl, &bound, ViewIndex(3));
     assert_eq!(stage.fake.count("glTexParameter*"), 0);
-    stage.offscreen.look_changed();
+    stage.offscreen.parameters_changed();
     stage.offscreen.bind(&gl, &bound, ViewIndex(3));
     assert!(stage.fake.count("glTexParameter*") > 0);
     stage.offscreen.unbind(&gl, &bound);

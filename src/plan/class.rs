@@ -74,9 +74,9 @@ pub enum Why {
     /// No projection at all.
     NoProjection,
     /// It is rotated about the eye, writes no depth and comes before the scene.
-    Around,
+    TurnsAboutEye,
     /// It lies at the far end of the depth range: behind everything.
-    Behind,
+    FarRange,
     /// In perspective, and nothing speaks against it.
     Perspective,
     /// Its own shaders place it: in perspective where w varies.
@@ -93,10 +93,10 @@ impl core::fmt::Display for Why {
             Why::Raster => f.write_str("at the raster position"),
             Why::Orthographic => f.write_str("orthographic projection"),
             Why::NoProjection => f.write_str("no projection"),
-            Why::Around => {
+            Why::TurnsAboutEye => {
                 f.write_str("turns about the eye, writes no depth, comes before the scene")
             }
-            Why::Behind => f.write_str("at the far end of the depth range, behind everything"),
+            Why::FarRange => f.write_str("at the far end of the depth range, behind everything"),
             Why::Perspective => f.write_str("perspective projection"),
             Why::Shaders => f.write_str("shaders of its own: in perspective where w varies"),
         }
@@ -238,9 +238,9 @@ impl Classifier {
             Projection::None => classed(Class::Flat, Why::NoProjection),
             // Only a sky is drawn like this: anything that is not behind everything needs depths.
             Projection::Perspective if facts.range == DepthRange::Far => {
-                classed(Class::Sky, Why::Behind)
+                classed(Class::Sky, Why::FarRange)
             }
-            Projection::Perspective if is_sky(facts) => classed(Class::Sky, Why::Around),
+            Projection::Perspective if is_sky(facts) => classed(Class::Sky, Why::TurnsAboutEye),
             Projection::Perspective => classed(Class::Scene, Why::Perspective),
         }
     }

@@ -342,4 +342,15 @@ mod tests {
         let cameras = comfort.track(&scene(2.0, 50.0), &LIMITS);
         assert_eq!(comfort.track(&Seen::default(), &LIMITS), cameras);
     }
+
+    #[test]
+    fn a_scene_without_depths_lies_between_the_planes_of_its_projection() {
+        let seen = Seen::by_planes([1.0, 100.0]);
+        let [far, near] = seen.scene.expect("a scene");
+        assert_eq!(far, 0.0, "something may be infinitely far");
+        assert!((near - (1.0 + BEFORE / BEHIND) / 10.0).abs() < 1e-12);
+        let cameras = Comfort::new(None).track(&seen, &LIMITS);
+        // Zero parallax lies at the geometric mean of the planes.
+        assert!((cameras.expect("cameras").1 - 10.0).abs() < 1e-9);
+    }
 }

@@ -6,7 +6,7 @@
 use crate::config::Viewport;
 
 /// One sample in so many is ignored at the far end, and as many at the near end.
-pub const SPECKS: usize = 200;
+pub const OUTLIERS: usize = 200;
 
 /// How many depth mappings are told apart in one picture.
 const MOST: usize = 8;
@@ -65,7 +65,7 @@ impl Ramp {
     /// The depth that separates `part` from this ramp. `part` is the same projection in a narrower depth range that begins at the nearest
     /// depth, for objects before everything else, such as a weapon in the hand; `self` has almost nothing there. None where `part` is not
     /// such a part.
-    pub fn beyond(&self, part: &Ramp) -> Option<f64> {
+    pub fn nearer_part(&self, part: &Ramp) -> Option<f64> {
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-6;
         let [from, to] = match self.nearer_is_larger() {
             true => [part.range[1], part.range[0]],
@@ -125,8 +125,8 @@ impl DepthMappings {
         }
         // A camera that is multiplied into the projection leaves rounding errors.
         let same = |w: &&mut DepthMapping| w.ramp.is_like(&ramp) && w.focal == focal;
-        if let Some(way) = self.mappings.iter_mut().rev().find(same) {
-            way.draws = way.draws.saturating_add(1);
+        if let Some(mapping) = self.mappings.iter_mut().rev().find(same) {
+            mapping.draws = mapping.draws.saturating_add(1);
         } else if self.mappings.len() < MOST {
             self.mappings.push(DepthMapping {
                 ramp,
@@ -174,9 +174,9 @@ impl DepthMappings {
             // Depths of 24 bits come back with an error of one step.
             if (depth - clear).abs() < 1e-7 {
                 found.sky |= self.sky;
-            } else if let Some(way) = self.mapping(depth.into()) {
-                let inverse = way.ramp.inverse(depth.into());
-                match way.focal {
+            } else if let Some(mapping) = self.mapping(depth.into()) {
+                let inverse = mapping.ramp.inverse(depth.into());
+                match mapping.focal {
                     None => found.scene.push(inverse),
                     Some(focal) => found.others.push((inverse, focal)),
                 }
@@ -210,12 +210,12 @@ impl Distances {
     /// 1/w of the farthest, the median and the nearest sample of the scene. One sample in 200 is ignored at either end, so that a passing
     /// spark moves no cameras.
     pub fn scene(&self) -> Option<[f64; 3]> {
-        let (count, specks) = (self.scene.len(), self.scene.len() / SPECKS);
+        let (count, outliers) = (self.scene.len(), self.scene.len() / OUTLIERS);
         let at = |index: usize| self.scene.get(index).copied();
         Some([
-            at(specks)?,
+            at(outliers)?,
             at(count / 2)?,
-            at(count.checked_sub(specks + 1)?)?,
+            at(count.checked_sub(outliers + 1)?)?,
         ])
     }
 }
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn specks_do_not_count() {
+    fn outliers_do_not_count() {
         let mut scene = vec![0.1; 1000];
         scene[..5].fill(0.0);
         scene[995..].fill(3.0);

@@ -9,17 +9,17 @@ pub mod depths;
 pub mod frustum;
 mod governor;
 pub mod parallax;
+pub mod reason;
 pub mod trial;
 
 pub use class::{Classed, Classifier, Traits};
 pub use comfort::Comfort;
-pub use decide::{
-    Decision, Facts, Flat, Known, Method, Plan, Preparation, Reason, Settings, decide,
-};
+pub use decide::{Decision, Facts, Flat, Known, Method, Plan, Preparation, Settings, decide};
 pub use depths::{DepthMappings, Ramp};
 pub use frustum::Bounds;
 pub use governor::Governor;
 pub use parallax::{Rig, Shear};
+pub use reason::{Reason, Unrepresentable};
 pub use trial::Trial;
 
 /// The kind of the program's command.

@@ -434,4 +434,23 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn measured_cameras_place_scene_and_sky() {
+        let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0).to_cols_array();
+        let mut rig = Rig::new(2, Camera::Measured(None), None);
+        assert_eq!(rig.latched(), None);
+        assert_eq!(rig.at_depth(&p, 1.0), None, "nothing is known yet");
+        rig.set_measured((0.02, 5.0), 0.5);
+        assert_eq!(rig.latched(), Some((0.02, 5.0)));
+        let shear = rig.shear(&p).expect("a scene");
+        assert!(shear.separation(1.0) > 0.0);
+        let [sky, far] = [rig.sky(&p), rig.at_depth(&p, 1.0)].map(|shear| {
+            let shear = shear.expect("two views are enough");
+            shear.separation(1.0)
+        });
+        assert!((sky - 0.5 * far).abs() < 1e-12, "{sky} {far}");
+        let one = Rig::new(1, Camera::Measured(None), None);
+        assert_eq!(one.at_depth(&p, 1.0), None);
+    }
 }

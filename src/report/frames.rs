@@ -1,6 +1,6 @@
 //! Frames: their number by kind, and their times.
 
-use super::walk::Walk;
+use super::true_views::TrueViews;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -17,7 +17,7 @@ pub(super) struct Frames {
     /// Number of those whose views were synthesised.
     pub(super) synthesised: Synthesised,
     /// Time and number of true views of each of the last ones.
-    pub(super) walk: Walk,
+    pub(super) true_views: TrueViews,
     /// Milliseconds of the last ones, in any order.
     times: Vec<f32>,
     last: Option<Instant>,

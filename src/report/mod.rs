@@ -5,7 +5,7 @@ mod counts;
 mod disparity;
 mod frames;
 mod proof;
-mod walk;
+mod true_views;
 
 pub use counts::Counts;
 pub use disparity::Disparity;
@@ -136,7 +136,7 @@ impl Report {
 
     /// Notes the time of a frame in milliseconds, and the number of views that were drawn in it.
     pub fn drew(&mut self, ms: f32, views: u32) {
-        self.frames.walk.frame(ms, views);
+        self.frames.true_views.frame(ms, views);
     }
 
     /// After a frame: writes the report, and the status where frames are captured, if they are due. They are after each of the first 10
@@ -190,7 +190,7 @@ impl Report {
             frames: self.frames.shown,
             frames_drawn_once: self.frames.mono,
             frames_synthesised: self.frames.synthesised,
-            true_views: self.frames.walk.json(),
+            true_views: self.frames.true_views.json(),
             frame_ms: self.frames.times(),
             draws: self.draws.named(|(method, _)| method),
             classes: self.draws.named(|(_, class)| class),

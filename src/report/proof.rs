@@ -235,7 +235,7 @@ impl Proof {
     }
 
     /// The difference of the worst pixel whose draw is known, in steps of 255; 0 if none is.
-    pub fn explained(&self) -> u8 {
+    pub fn worst_explained(&self) -> u8 {
         let known = self.summary.draw.as_ref();
         known.map_or(0, |known| known.worst.difference)
     }

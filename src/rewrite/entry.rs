@@ -47,7 +47,7 @@ pub(super) fn wrap(
     }
     let first = match options.target {
         Target::Whole | Target::DistortedRays => None,
-        Target::Tiles => Some(target::grow(edits, scan, &outputs)?),
+        Target::Tiles => Some(target::add_clip_distances(edits, scan, &outputs)?),
         Target::Layer(extension) => {
             target::layer(edits, scan, &outputs, extension);
             None

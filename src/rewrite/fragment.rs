@@ -9,8 +9,8 @@
 //! defined one under the name of a built-in.
 
 use super::Target;
+use super::displacement;
 use super::edit::Edits;
-use super::moved;
 use super::names::{Names, Uniform};
 use super::scan::Scan;
 use super::version::Version;
@@ -37,7 +37,7 @@ pub(super) fn rewrite(
 ) -> bool {
     let (across, up) = (names.uniform(Uniform::Across), names.uniform(Uniform::Up));
     let local = match target {
-        Target::DistortedRays => moved::write_displacement(names),
+        Target::DistortedRays => displacement::write_displacement(names),
         _ => format!("(gl_FragCoord.x - {across}.z * float(int(gl_FragCoord.x / {across}.z)))"),
     };
     let coord = format!(
@@ -62,7 +62,11 @@ pub(super) fn rewrite(
             uniforms("mediump ")
         )
     } else if target == Target::DistortedRays {
-        format!("{} {}", uniforms(""), moved::declaration(names, version))
+        format!(
+            "{} {}",
+            uniforms(""),
+            displacement::declaration(names, version)
+        )
     } else {
         uniforms(version.highp())
     };

@@ -10,7 +10,7 @@
 //!              names         │    └─ target     layer, or tile and clip distances
 //!                            ├─ emit       geometry: each vertex as it is emitted
 //!                            ├─ fragment   gl_FragCoord
-//!                            └─ moved      fragment: displacement of a sample by distorted rays
+//!                            └─ displacement  fragment: displacement of a sample by distorted rays
 //!                                 └──► edit ──► text
 //! ```
 //! Programs use many versions and dialects of GLSL, so the rewriter understands only what it edits: names and a few patterns of
@@ -18,6 +18,7 @@
 //! the caller does not rewrite the stages before it, and control and compute shaders come back unchanged.
 #![forbid(unsafe_code)]
 
+mod displacement;
 mod edit;
 mod emit;
 mod entry;
@@ -25,7 +26,6 @@ mod error;
 mod facts;
 mod fragment;
 mod instance;
-mod moved;
 mod names;
 mod outputs;
 mod position;
@@ -144,7 +144,7 @@ pub fn rewrite<'a>(
             target::check_fragment(&facts, options.target)?;
             let declared = fragment::rewrite(&mut edits, &scan, &names, version, options.target);
             if options.target == Target::DistortedRays {
-                moved::wrap(&mut edits, &scan, &names, &facts, declared)?;
+                displacement::wrap(&mut edits, &scan, &names, &facts, declared)?;
             }
         }
         Stage::TessControl | Stage::Compute => {}

@@ -70,8 +70,8 @@ const OTHERS: [&str; 9] = [
     "position",
     "distorted",
     "distort_rays",
-    "moved",
-    "beside",
+    "displacement",
+    "displacement_output",
 ];
 
 /// The names in one shader: `mv_…`. If the program uses one of those, all have the next prefix with which it uses none.
@@ -108,8 +108,8 @@ impl Names {
     }
 
     /// The name of the fragment output for the displacement of a sample, where it is no built-in output.
-    pub fn beside(&self) -> String {
-        self.other("beside")
+    pub fn displacement_output(&self) -> String {
+        self.other("displacement_output")
     }
 
     /// The source of the vertex shader object that distorts rays, with these names.

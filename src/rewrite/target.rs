@@ -70,13 +70,13 @@ pub(super) fn layer(edits: &mut Edits, scan: &Scan, outputs: &Outputs, extension
             (word || name.starts_with(b"gl_")) && token.is_some_and(|token| !token.directive)
         };
         if block.clone().all(plain) {
-            dissolve(edits, scan, block);
+            remove_block(edits, scan, block);
         }
     }
 }
 
 /// Removes a block, but keeps its declarations of arrays with a size.
-fn dissolve(edits: &mut Edits, scan: &Scan, block: &Range<usize>) {
+fn remove_block(edits: &mut Edits, scan: &Scan, block: &Range<usize>) {
     let mut remove = |tokens: RangeInclusive<usize>| {
         for token in tokens.filter_map(|at| scan.tokens.get(at)) {
             edits.replace(token, "");
@@ -106,7 +106,11 @@ fn dissolve(edits: &mut Edits, scan: &Scan, block: &Range<usize>) {
 }
 
 /// Adds clip distances for the sides of the tile after the program's own; returns the index of the first of them.
-pub(super) fn grow(edits: &mut Edits, scan: &Scan, outputs: &Outputs) -> Result<u32, Refusal> {
+pub(super) fn add_clip_distances(
+    edits: &mut Edits,
+    scan: &Scan,
+    outputs: &Outputs,
+) -> Result<u32, Refusal> {
     let own = outputs.distances()?;
     let size = own.saturating_add(SIDES);
     if size > MOST {

@@ -5,7 +5,8 @@ use crate::gl::{FramebufferName, Gl, consts as c};
 /// Which buffers a drawable has, and their names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Buffers {
-    /// The context is of OpenGL ES, where the only buffer is called GL_BACK.
+    /// The context is of OpenGL ES, where the only buffer is called GL_BACK. A copy of [`Gl::is_es`], because the program's state answers
+    /// without a driver.
     pub es: bool,
     /// There is a back buffer.
     pub double_buffered: bool,

@@ -93,7 +93,7 @@ pub struct Segment {
     /// A run that draws has nothing but primitives and current values.
     pub primitives: bool,
     /// It may draw lines or points.
-    pub thin: bool,
+    pub lines_or_points: bool,
     /// Number of levels of the attribute stack that it pops without having pushed them.
     pub pops: u32,
     /// Masks of the levels that it pushes and does not pop.
@@ -321,7 +321,7 @@ fn fresh(name: ListName) -> Segment {
         names: Arc::default(),
         immediate: Immediate::default(),
         primitives: true,
-        thin: false,
+        lines_or_points: false,
         pops: 0,
         pushes: Vec::new(),
         opens: None,
@@ -429,7 +429,7 @@ impl Compiling {
             _ => touch,
         };
         self.open.touch = self.open.touch | touch;
-        self.open.thin |= match command {
+        self.open.lines_or_points |= match command {
             Command::Begin(mode) => mode <= c::LINE_STRIP,
             // The mode in which arrays are drawn is not known here.
             Command::Of(Run::Draw) => true,

@@ -15,7 +15,8 @@ pub use framebuffer::{BACK, Buffers, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Lists, Orphans, Run, Segment, Start};
 pub use neutral::Neutral;
 pub use shaders::{
-    Linked, Matrices, Samplers, Shaders, Text, link_change, texts, uniform_change, uniform_changes,
+    Linked, Matrices, Samplers, ShaderSource, Shaders, link_change, sources, uniform_change,
+    uniform_changes,
 };
 
 use crate::gl::{Gl, ProgramName, consts as c};

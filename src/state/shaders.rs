@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// One shader object of a program when it was linked.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Text {
+pub struct ShaderSource {
     /// Its type, such as GL_VERTEX_SHADER.
     pub kind: u32,
     /// The same as a stage.
@@ -23,9 +23,9 @@ pub struct Linked {
     /// The number of this link, counted over all programs of the share group.
     pub link: u64,
     /// Its shader objects.
-    pub texts: Arc<[Text]>,
+    pub sources: Arc<[ShaderSource]>,
     /// A hash of their sources, which is the same in each run of the program.
-    pub sum: u64,
+    pub hash: u64,
 }
 
 /// The programs of a share group.
@@ -58,30 +58,37 @@ pub fn link_change() -> u64 {
 }
 
 /// The sources from which a program has just been linked. `None` if linking failed; the program then keeps its earlier executable.
-pub fn texts(gl: &Gl, program: ProgramName) -> Option<Arc<[Text]>> {
+pub fn sources(gl: &Gl, program: ProgramName) -> Option<Arc<[ShaderSource]>> {
     if gl.program_parameter(program, c::LINK_STATUS) == 0 {
         return None;
     }
-    let text = |shader| {
+    let source = |shader| {
         let kind = gl.shader_parameter(shader, c::SHADER_TYPE) as u32;
-        Some(Text {
+        Some(ShaderSource {
             kind,
             stage: stage(kind)?,
             source: gl.shader_source(shader),
         })
     };
     let shaders = gl.attached_shaders(program).into_iter();
-    Some(shaders.filter_map(text).collect())
+    Some(shaders.filter_map(source).collect())
 }
 
 impl Shaders {
     /// Notes that a program was linked.
-    pub fn linked(&mut self, program: ProgramName, texts: Arc<[Text]>) {
+    pub fn linked(&mut self, program: ProgramName, sources: Arc<[ShaderSource]>) {
         self.links += 1;
         LINKS.fetch_add(1, Ordering::Relaxed);
-        let sum = sum(&texts);
+        let hash = hash(&sources);
         let link = self.links;
-        self.programs.insert(program, Linked { link, texts, sum });
+        self.programs.insert(
+            program,
+            Linked {
+                link,
+                sources,
+                hash,
+            },
+        );
     }
 
     /// Notes that a program got its executable in another way, or is deleted.
@@ -91,8 +98,8 @@ impl Shaders {
     }
 
     /// A program whose sources have this hash.
-    pub fn with(&self, sum: u64) -> Option<Linked> {
-        let found = self.programs.values().find(|linked| linked.sum == sum);
+    pub fn with_hash(&self, hash: u64) -> Option<Linked> {
+        let found = self.programs.values().find(|linked| linked.hash == hash);
         found.cloned()
     }
 
@@ -225,13 +232,13 @@ fn is_image(kind: u32) -> bool {
 }
 
 /// The 64-bit FNV-1a hash of all sources with their types.
-fn sum(texts: &[Text]) -> u64 {
-    let bytes = texts.iter().flat_map(|text| {
-        let kind = text.kind.to_le_bytes();
-        kind.into_iter().chain(text.source.iter().copied())
+fn hash(sources: &[ShaderSource]) -> u64 {
+    let bytes = sources.iter().flat_map(|shader| {
+        let kind = shader.kind.to_le_bytes();
+        kind.into_iter().chain(shader.source.iter().copied())
     });
-    bytes.fold(0xcbf2_9ce4_8422_2325, |sum, byte| {
-        (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }
 

@@ -97,7 +97,7 @@ impl Edges {
 /// How far away a hidden surface may be behind an edge where nothing was drawn.
 struct Beyond {
     width: usize,
-    /// By pixel: 1/w of the farthest sample around, or of the whole image where there is no step to the former.
+    /// By pixel: 1/w of the farthest sample around, or of the whole image where the former is no discontinuity farther away.
     farthest: Vec<f32>,
 }
 

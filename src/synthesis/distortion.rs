@@ -9,7 +9,7 @@
 //!   beyond.
 //! - The distance to an edge is measured from each place, not from the centre of its pixel, so that samples keep their order within a splat.
 //! - D is a maximum. A splat reaches only as far as the viewpoints that matter can separate the two sides of its edge. That matters where small
-//!   steps count as edges, and little where only large ones do (docs/measured.md).
+//!   discontinuities count as edges, and little where only large ones do (docs/measured.md).
 //! - Of two splats, the larger one gets more of the places between them.
 //! - A conflict counts only on the normal of the edge, where the splat's own samples go, not anywhere in its disc. Directions conflict from 60° on.
 //! - α is a maximum, too. A splat has the room before the background up to the first conflict, and is asymmetrical only where that is less than its
@@ -26,7 +26,7 @@ const END: f64 = 0.25;
 const TAKEN: f64 = 0.8;
 /// Directions conflict if the cosine between them is less: above 60°.
 const ALIKE: f64 = 0.5;
-/// Share of the threshold of a step by which a sample may lie behind the drawn surface and still belong to it.
+/// Share of the threshold of a discontinuity by which a sample may lie behind the drawn surface and still belong to it.
 const SAME: f64 = 0.5;
 
 /// How the rays near a depth discontinuity are distorted. Depths are 1/w.

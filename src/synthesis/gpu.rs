@@ -38,9 +38,9 @@ struct Reference {
 }
 
 impl Passes {
-    /// For a context whose shading language has this version × 100; `behind` is the source of disocclusions. The error is the text of naga or of the
+    /// For a context whose shading language has this version × 100; `source` is that of disocclusions. The error is the text of naga or of the
     /// driver.
-    pub fn new(gl: &Gl, glsl: u32, behind: DisocclusionSource) -> Result<Passes, String> {
+    pub fn new(gl: &Gl, glsl: u32, source: DisocclusionSource) -> Result<Passes, String> {
         let program = |pass| Program::new(gl, glsl, Pass::Synthesis(pass));
         let camera = || {
             Ok::<_, String>(Reference {
@@ -50,8 +50,8 @@ impl Passes {
                 view: program(Synthesis::View(DisocclusionSource::Reference))?,
             })
         };
-        let reference = behind == DisocclusionSource::Reference;
-        let plain = match behind {
+        let reference = source == DisocclusionSource::Reference;
+        let plain = match source {
             DisocclusionSource::Nothing | DisocclusionSource::Reference => {
                 DisocclusionSource::Nothing
             }

@@ -54,7 +54,7 @@ const CELL: usize = 2;
 
 /// A depth discontinuity between two pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Step {
+struct Discontinuity {
     /// The pixel on its right.
     at: usize,
     /// 1 where the background lies on the right, else -1.
@@ -64,17 +64,17 @@ struct Step {
 impl RowDistortionMap {
     /// The splats of a row with these values of 1/w, one for every two pixels. None where rays are straight.
     pub fn row(&self, inverses: &[f32]) -> Vec<Option<RowDistortion>> {
-        let steps = self.steps(inverses);
+        let discontinuities = self.discontinuities(inverses);
         let cells = 0..inverses.len().div_ceil(CELL);
         cells
-            .map(|x| self.distortion(inverses, &steps, x))
+            .map(|x| self.distortion(inverses, &discontinuities, x))
             .collect()
     }
 
     /// Discontinuities that the outermost view tears by more than a pixel.
-    fn steps(&self, inverses: &[f32]) -> Vec<Step> {
+    fn discontinuities(&self, inverses: &[f32]) -> Vec<Discontinuity> {
         let torn = |at: &usize| excess(inverses, at - 1) * self.longest > 1.0;
-        let step = |at: usize| Step {
+        let discontinuity = |at: usize| Discontinuity {
             at,
             side: if inverses[at - 1] > inverses[at] {
                 1
@@ -82,24 +82,36 @@ impl RowDistortionMap {
                 -1
             },
         };
-        (1..inverses.len()).filter(torn).map(step).collect()
+        (1..inverses.len())
+            .filter(torn)
+            .map(discontinuity)
+            .collect()
     }
 
-    fn distortion(&self, inverses: &[f32], steps: &[Step], x: usize) -> Option<RowDistortion> {
-        let away = |step: &Step| ((x * CELL + 1) as f64 - step.at as f64).abs();
-        let nearest = steps.iter().reduce(|a, b| match away(b) < away(a) {
-            true => b,
-            false => a,
-        })?;
+    fn distortion(
+        &self,
+        inverses: &[f32],
+        discontinuities: &[Discontinuity],
+        x: usize,
+    ) -> Option<RowDistortion> {
+        let away = |other: &Discontinuity| ((x * CELL + 1) as f64 - other.at as f64).abs();
+        let nearest = discontinuities
+            .iter()
+            .reduce(|a, b| match away(b) < away(a) {
+                true => b,
+                false => a,
+            })?;
         if away(nearest) > self.reach.ceil() {
             return None;
         }
         let [before, after] = [nearest.at - 1, nearest.at].map(|at| f64::from(inverses[at]));
         let (near, far) = (before.max(after), before.min(after));
-        // Pixels to the nearest step on one side of this one that distorts in the other direction.
+        // Pixels to the nearest discontinuity on one side of this one that distorts in the other direction.
         let conflict = |side: i64| {
-            let apart = |other: &Step| (other.at as i64 - nearest.at as i64) * side;
-            let others = steps.iter().filter(|other| other.side != nearest.side);
+            let apart = |other: &Discontinuity| (other.at as i64 - nearest.at as i64) * side;
+            let others = discontinuities
+                .iter()
+                .filter(|other| other.side != nearest.side);
             let apart = others.map(apart).filter(|&apart| apart > 0);
             apart.min().map_or(f64::INFINITY, |apart| apart as f64)
         };
@@ -168,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_hidden_comes_to_lie_beside_what_hides_it() {
+    fn what_is_hidden_comes_to_lie_beside_its_occluder() {
         let row = DISTORTION_MAP.row(&bars(&[[30, 70]]));
         let right = row[37].unwrap();
         assert_eq!((right.edge, right.near), (70.0, 0.5));

@@ -244,7 +244,7 @@ fn distorted(radius: f64, room: f64) -> Distortion {
 }
 
 #[test]
-fn rays_bend_between_near_and_far_only() {
+fn rays_are_distorted_between_near_and_far_only() {
     let distorted = distorted(16.0, 8.0);
     // Nothing moves in front, where the splat ends, and beyond its reach.
     assert_eq!(distorted.at([45.0, 0.0], NEAR), 0.0);

@@ -4,7 +4,7 @@ use super::display::{Cells, Place, rounded};
 use super::fragments::{Fragments, packed};
 
 /// Over at most this many sectors a surface is linear in the grid, to a fifth of a pixel.
-pub(super) const BENT: f32 = 1.5;
+pub(super) const LINEAR_SECTORS: f32 = 1.5;
 
 /// Up to this angle, in radians, and this relative change of the distance from the axis, steps in space are even enough.
 const NARROW: f32 = 0.25;
@@ -30,7 +30,7 @@ pub(super) enum Shape<const N: usize> {
     /// Nearly linear in the grid, with all corners within one turn; and its greatest extent in voxels.
     Straight([Place; N], f32),
     /// Linear in space only.
-    Bent,
+    LinearInSpace,
     /// Too large for even steps, too near to the axis, or no surface at all.
     Cut,
 }
@@ -56,10 +56,10 @@ impl<const N: usize> Shape<N> {
         if !(even && down <= 2.0 * cells.radius) {
             return Shape::Cut;
         }
-        if turns <= BENT {
+        if turns <= LINEAR_SECTORS {
             Shape::Straight(places, turns.max(out).max(down))
         } else if turns <= NARROW * cells.sectors_per_radian {
-            Shape::Bent
+            Shape::LinearInSpace
         } else {
             Shape::Cut
         }
@@ -140,7 +140,7 @@ pub(super) fn fill_anywhere(corners: &[Corner; 4], fragments: &mut Fragments) {
     let places = [place(a), place(b), place(c), place(d)];
     match Shape::of(&cells, places) {
         Shape::Straight(places, _) => return fill_straight(corners, &places, fragments),
-        Shape::Bent => return fill_in_space(corners, &places, fragments),
+        Shape::LinearInSpace => return fill_in_space(corners, &places, fragments),
         Shape::Cut => {}
     }
     let (_, down) = extent(places.map(|p| p.down));
@@ -150,7 +150,7 @@ pub(super) fn fill_anywhere(corners: &[Corner; 4], fragments: &mut Fragments) {
         return around_axis(corners, turns, fragments);
     }
     let large = places.iter().any(|p| p.out > 2.0 * cells.radius) || down > 2.0 * cells.radius;
-    if !(on_axis || large) && turns.1 <= BENT {
+    if !(on_axis || large) && turns.1 <= LINEAR_SECTORS {
         // Within a sector or two uneven steps do no harm.
         return fill_in_space(corners, &places, fragments);
     }

@@ -15,7 +15,7 @@ use crate::synthesis::Pinhole;
 const DEPTH: f64 = 0.5;
 
 /// One sample in this many is left out at the far and at the near end.
-const SPECKS: usize = 200;
+const OUTLIERS: usize = 200;
 
 /// Least range of 1/w in the box, as a part of that in its middle, so that a flat scene stays flat.
 const LEAST: f64 = 0.1;
@@ -45,10 +45,10 @@ impl Box {
         middle: Option<f64>,
     ) -> Option<Box> {
         let (viewer, deep) = (screen.viewer, DEPTH * screen.radius);
-        let specks = depths.len() / SPECKS;
+        let outliers = depths.len() / OUTLIERS;
         let (far, near) = (
-            *depths.get(specks)?,
-            *depths.get(depths.len().checked_sub(specks + 1)?)?,
+            *depths.get(outliers)?,
+            *depths.get(depths.len().checked_sub(outliers + 1)?)?,
         );
         let [behind, axis, before] = [viewer + deep, viewer, viewer - deep].map(|z| 1.0 / z);
         let slope = match middle {
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn specks_do_not_count_and_what_is_flat_stays_flat() {
+    fn outliers_do_not_count_and_what_is_flat_stays_flat() {
         let mut depths = vec![0.2; 398];
         depths.insert(0, 0.0);
         depths.push(9.0);

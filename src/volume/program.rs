@@ -10,7 +10,7 @@ const STEP: f32 = 1e-7;
 
 /// Neighbours are joined if their disparities differ by no more than this for the farthest eye, pixels. Four, as in views of the bench,
 /// joins separate surfaces by sheets: 2 to 14 % of the voxels of its models then had no surface near them, with one less than 1 %.
-const PARTED: f64 = 1.0;
+const JOIN_DISPARITY: f64 = 1.0;
 
 /// The source of slices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,7 +131,7 @@ impl Samples {
             });
             samples.collect()
         };
-        let threshold = PARTED / place.parallax(screen);
+        let threshold = JOIN_DISPARITY / place.parallax(screen);
         let size = self.head.size;
         let of = |image: &Reference| ReferenceImage::of(image, &place.camera, threshold);
         let mut own = put(&self.own, &[]);

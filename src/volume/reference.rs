@@ -246,7 +246,7 @@ fn draw_quad([a, b, c, d]: &[Sample; 4], places: [Place; 4], fragments: &mut Fra
     let corners = [place(a), place(b), place(c), place(d)];
     match shape {
         Shape::Straight(places, _) => fill_straight(&corners, &places, fragments),
-        Shape::Bent => fill_in_space(&corners, &places, fragments),
+        Shape::LinearInSpace => fill_in_space(&corners, &places, fragments),
         Shape::Cut => {
             if corners.iter().flatten().any(|v| !v.is_finite()) {
                 return;

@@ -80,7 +80,7 @@ fn draw(triangle: &Triangle, places: [Place; 3], fragments: &mut Fragments) {
             fragments.put(middle, mean(0) | mean(1) << 8 | mean(2) << 16);
         }
         Shape::Straight(places, _) => draw_straight(triangle, places, fragments),
-        Shape::Bent | Shape::Cut => draw_in_space(triangle, fragments),
+        Shape::LinearInSpace | Shape::Cut => draw_in_space(triangle, fragments),
     }
 }
 

@@ -5,7 +5,7 @@ use crate::row::{Cell, Row};
 use crate::support::Screen;
 use crate::table::Program;
 use crate::tally::cell;
-use crate::wish;
+use crate::variable;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -63,7 +63,7 @@ pub(crate) fn judge(program: &Program, screen: &Screen, folder: &Path) -> Row {
 
 /// Limits the frames, for a quick look at many programs.
 fn most_frames() -> Option<u64> {
-    wish("MANYVIEW_PROGRAMS_FRAMES").map(|n| n.parse().expect("a number of frames"))
+    variable("MANYVIEW_PROGRAMS_FRAMES").map(|n| n.parse().expect("a number of frames"))
 }
 
 pub(crate) struct Bench<'a> {

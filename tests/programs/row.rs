@@ -136,8 +136,8 @@ Each program is recorded once by apitrace and repeated by glretrace or eglretrac
 - 8 views: all frames in 8 views under `replay`, `auto`, `geometry`, and `instanced` where the program brings shaders of its own; no
   crash, and all make the same number of draws.
 - replay, auto, geometry, instanced: 10 frames of the first 120, the middle view of 7 against the frame without the layer. Under
-  `replay` every byte is equal, under the others the gate holds (ARCHITECTURE, What is right). `none by instances`: nothing was drawn so,
-  and `instanced` says no more than `replay` does.
+  `replay` every byte is equal, under the others the gate holds
+  ([Exact views and the gate](decisions/0001-exact-views-and-the-gate.md)). `none by instances`: nothing was drawn so, and `instanced` says no more than `replay` does.
 - outer views: views 0 and 6 of 7 under `geometry`, and `instanced`, against those under `replay` with `--atlas layers`, 5 frames, by
   the gate.
 - parallax: where these frames show a scene with depth, how many pixels of views 0 and 6 differ from the middle one's by more than 8

@@ -268,10 +268,10 @@ pub fn entry(commands: &[Command]) -> String {
                 )
                 .unwrap();
             }
-            "matrix" | "cap" | "any" | "ask" | "uniform" | "texture" | "look" | "divide" | "write_back" | "storage" | "named" | "attached" => {
+            "matrix" | "cap" | "list_only" | "before_uncompiled" | "uniform" | "texture" | "texture_parameter" | "divide" | "write_back" | "storage" | "named" | "attached" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
-                    "any" | "ask" | "uniform" | "look" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
+                    "list_only" | "before_uncompiled" | "uniform" | "texture_parameter" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
                     "texture" => "texture(target)".into(),
                     "named" => format!("named(Object::{arg}({arg}Name({})))", c.params[0].name),
                     _ => format!("cap({}, {})", c.params[0].name, name.starts_with("glEnable")),

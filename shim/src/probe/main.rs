@@ -74,7 +74,7 @@ unsafe fn ask(context: &Context) -> Probe {
         Ok(support) => {
             let names = support.strategies().into_iter().map(str::to_owned);
             probe.strategies = names.collect();
-            probe.notes = support.notes();
+            probe.notes = support.notes(gl.is_es());
             let interleaver = Interleaver::new(&gl, &mut Default::default(), support.glsl, None);
             probe.notes.extend(interleaver.note());
         }

@@ -1,7 +1,7 @@
 //! Immediate mode, vertex arrays, pixels and display lists.
 
 use crate::context::{Inside, enter, inside, peek, peek_inside, real, recording, set_inside};
-use crate::hooks::{ask, compile, imm};
+use crate::hooks::{before_uncompiled, compile, imm};
 use core::slice::from_raw_parts;
 use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Indices, Vertices};
@@ -142,7 +142,7 @@ pub(crate) unsafe fn glCopyPixels(x: i32, y: i32, width: i32, height: i32, type_
 }
 
 pub(crate) unsafe fn glNewList(list: u32, mode: u32) {
-    ask();
+    before_uncompiled();
     let name = enter(|gl, l| l.new_list(gl, ListName(list), mode)).flatten();
     // SAFETY: the program's own call, or the first run of its list.
     unsafe { real().glNewList(name.map_or(list, |name| name.0), mode) };
@@ -155,7 +155,7 @@ pub(crate) unsafe fn glEndList() {
 }
 
 pub(crate) unsafe fn glGenLists(range: i32) -> u32 {
-    ask();
+    before_uncompiled();
     // SAFETY: the program's own call.
     let first = unsafe { real().glGenLists(range) };
     match u32::try_from(range) {
@@ -168,7 +168,7 @@ pub(crate) unsafe fn glGenLists(range: i32) -> u32 {
 }
 
 pub(crate) unsafe fn glIsList(list: u32) -> u8 {
-    ask();
+    before_uncompiled();
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsList(list) };
     // Lists of ours do not exist for the program.
@@ -176,7 +176,7 @@ pub(crate) unsafe fn glIsList(list: u32) -> u8 {
 }
 
 pub(crate) unsafe fn glDeleteLists(list: u32, range: i32) {
-    ask();
+    before_uncompiled();
     // SAFETY: the program's own call.
     unsafe { real().glDeleteLists(list, range) };
     if let Ok(range) = u32::try_from(range) {

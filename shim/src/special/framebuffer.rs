@@ -1,7 +1,7 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
 use crate::context::{enter, real};
-use crate::hooks::{Object, ask, compile, copied, named, write_back};
+use crate::hooks::{Object, before_uncompiled, compile, if_split, named, write_back};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{FramebufferName, Gl, Ptr, RenderbufferName, TextureName, consts as c};
 use manyview_core::layer::{Layer, is_scaled};
@@ -9,7 +9,7 @@ use manyview_core::plan::Kind;
 use manyview_core::state::{Command, Run, Touch};
 
 pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
-    ask();
+    before_uncompiled();
     // SAFETY: a name that the program or the layer made.
     let mut bind = |t, n: FramebufferName| unsafe { real().glBindFramebuffer(t, n.0) };
     let framebuffer = FramebufferName(framebuffer);
@@ -19,7 +19,7 @@ pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
 }
 
 pub(crate) unsafe fn glBindFramebufferEXT(target: u32, framebuffer: u32) {
-    ask();
+    before_uncompiled();
     // SAFETY: a name that the program or the layer made.
     let mut bind = |t, n: FramebufferName| unsafe { real().glBindFramebufferEXT(t, n.0) };
     let framebuffer = FramebufferName(framebuffer);
@@ -29,7 +29,7 @@ pub(crate) unsafe fn glBindFramebufferEXT(target: u32, framebuffer: u32) {
 }
 
 pub(crate) unsafe fn glDeleteFramebuffers(n: i32, framebuffers: Ptr) {
-    ask();
+    before_uncompiled();
     let names = match usize::try_from(n) {
         Ok(n) if !framebuffers.is_null() => {
             // SAFETY: n names (the program's array), copied before the driver runs.
@@ -43,11 +43,11 @@ pub(crate) unsafe fn glDeleteFramebuffers(n: i32, framebuffers: Ptr) {
 }
 
 pub(crate) unsafe fn glDeleteRenderbuffers(n: i32, renderbuffers: Ptr) {
-    ask();
+    before_uncompiled();
     if !renderbuffers.is_null() && n > 0 {
         // SAFETY: n names (the program's array).
         let names = unsafe { from_raw_parts(renderbuffers as *const RenderbufferName, n as usize) };
-        copied(|gl, l| l.deleted_renderbuffers(gl, names));
+        if_split(|gl, l| l.deleted_renderbuffers(gl, names));
     }
     // SAFETY: the program's own call.
     unsafe { real().glDeleteRenderbuffers(n, renderbuffers) };
@@ -85,12 +85,12 @@ pub(crate) unsafe fn glCopyImageSubData(
 }
 
 pub(crate) unsafe fn glGenerateTextureMipmap(texture: u32) {
-    ask();
+    before_uncompiled();
     // SAFETY: the program's own call.
     unsafe { real().glGenerateTextureMipmap(texture) };
     // SAFETY: the program's own call, on a texture of ours.
     let call = &mut |name: TextureName| unsafe { real().glGenerateTextureMipmap(name.0) };
-    copied(|gl, l| l.mipmaps_of(gl, TextureName(texture), call));
+    if_split(|gl, l| l.mipmaps_of(gl, TextureName(texture), call));
 }
 
 /// A call that chooses buffers. `ours` handles framebuffer 0; the driver handles the others, and names that `ours` does not know.

@@ -1,7 +1,7 @@
 //! Queries that count samples or primitives. They count those of one view instead of all.
 
 use crate::context::{enter, peek, real};
-use crate::hooks::{ask, compile};
+use crate::hooks::{before_uncompiled, compile};
 use core::slice::from_raw_parts;
 use manyview_core::gl::consts::CURRENT_QUERY;
 use manyview_core::gl::{Ptr, QueryName};
@@ -89,7 +89,7 @@ fn more(query: QueryName, pname: u32, params: Ptr) -> Option<Answer> {
 macro_rules! query_object {
     ($name:ident, $value:ty) => {
         pub(crate) unsafe fn $name(id: u32, pname: u32, params: Ptr) {
-            ask();
+            before_uncompiled();
             let query = QueryName(id);
             let asked = peek(|l| l.asked_query(query)).unwrap_or(query);
             // SAFETY: the program's own call.

@@ -1,7 +1,7 @@
 //! State that the layer follows call by call, and queries of the program.
 
 use crate::context::{draws_to_memory, enter, frame, peek, real, viewport_set, write_back_shared};
-use crate::hooks::{ask, compile, touch};
+use crate::hooks::{before_uncompiled, compile, touch};
 use manyview_core::gl::{FramebufferName, Ptr, TextureName, consts::PROGRAM_BINARY_FORMATS};
 use manyview_core::state::{Command, Touch};
 
@@ -32,7 +32,7 @@ pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
 }
 
 pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
-    ask();
+    before_uncompiled();
     let names = match usize::try_from(n) {
         // SAFETY: n names (the program's array).
         Ok(n) if !textures.is_null() => unsafe {
@@ -70,7 +70,7 @@ pub(crate) unsafe fn glPopAttrib() {
 }
 
 pub(crate) unsafe fn glIsTexture(texture: u32) -> u8 {
-    ask();
+    before_uncompiled();
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsTexture(texture) };
     // Textures of ours do not exist for the program.
@@ -78,14 +78,14 @@ pub(crate) unsafe fn glIsTexture(texture: u32) -> u8 {
 }
 
 pub(crate) unsafe fn glIsFramebuffer(framebuffer: u32) -> u8 {
-    ask();
+    before_uncompiled();
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsFramebuffer(framebuffer) };
     is & u8::from(peek(|l| l.owns_framebuffer(FramebufferName(framebuffer))) != Some(true))
 }
 
 pub(crate) unsafe fn glRenderMode(mode: u32) -> i32 {
-    ask();
+    before_uncompiled();
     // SAFETY: the program's own call.
     let hits = unsafe { real().glRenderMode(mode) };
     peek(|l| l.render_mode(mode));
@@ -106,7 +106,7 @@ pub(crate) unsafe fn glEndTransformFeedback() {
 
 /// The answer to glGet where it differs from the driver's because the program's framebuffer 0 is the atlas.
 fn answer(name: u32) -> Option<i64> {
-    ask();
+    before_uncompiled();
     peek(|l| l.answer(name)).flatten()
 }
 
@@ -160,7 +160,7 @@ pub(crate) unsafe fn glGetInteger64v(pname: u32, data: Ptr) {
 }
 
 pub(crate) unsafe fn glGetError() -> u32 {
-    ask();
+    before_uncompiled();
     if let Some(Some(e)) = peek(|l| l.take_error()) {
         // While this error was pending, the driver would have recorded no other, so the driver's is dropped.
         // SAFETY: no arguments.
@@ -172,7 +172,7 @@ pub(crate) unsafe fn glGetError() -> u32 {
 }
 
 pub(crate) unsafe fn glFlush() {
-    ask();
+    before_uncompiled();
     write_back_shared();
     // SAFETY: the program's own call.
     let flush = || unsafe { real().glFlush() };
@@ -184,7 +184,7 @@ pub(crate) unsafe fn glFlush() {
 }
 
 pub(crate) unsafe fn glFinish() {
-    ask();
+    before_uncompiled();
     write_back_shared();
     // SAFETY: the program's own call.
     let finish = || unsafe { real().glFinish() };

@@ -16,7 +16,7 @@ const fn both(measure: Measure, most: f64) -> Bound {
     Bound {
         measure,
         most,
-        beside: most,
+        side_by_side: most,
     }
 }
 
@@ -284,7 +284,7 @@ pub const CASES: &[Case] = &[
         &[Bound {
             measure: Measure::Same,
             most: 0.0,
-            beside: 0.03,
+            side_by_side: 0.03,
         }],
         "a flat display is the same in all views",
     ),

@@ -74,7 +74,7 @@ pub struct Bound {
     /// Inclusive. Replay into layers makes the program's own calls, so its pictures have to be equal (0).
     pub most: f64,
     /// The same where views lie side by side, so that their vertices round at another place.
-    pub beside: f64,
+    pub side_by_side: f64,
 }
 
 /// A quantity. The oracle is the scene's own picture of the view in fixed function, drawn at the place of the layer's view.
@@ -139,8 +139,8 @@ impl Bound {
         let full = !options.iter().any(|(id, _)| *id == OptionId::ViewScale);
         if full && self.measure.of_oracle() && replays(configuration) {
             0.0
-        } else if beside(configuration) {
-            self.beside
+        } else if side_by_side(configuration) {
+            self.side_by_side
         } else {
             self.most
         }
@@ -158,7 +158,7 @@ fn replays(configuration: &Configuration) -> bool {
 
 /// Whether the views lie side by side: by default with replay, and on request with strategies that draw all views at once.
 #[must_use]
-pub fn beside(configuration: &Configuration) -> bool {
+pub fn side_by_side(configuration: &Configuration) -> bool {
     if replays(configuration) {
         value(configuration, OptionId::Atlas) != Some("layers")
     } else {

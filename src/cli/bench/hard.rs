@@ -8,7 +8,7 @@ use image::{RgbImage, imageops};
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::atlas::{Grid, Limits, Tiles};
 use manyview::bench::hard::{
-    self, Bound, CASES, Case, Measure, Outcome, Subject, Verdict, beside, measure,
+    self, Bound, CASES, Case, Measure, Outcome, Subject, Verdict, measure, side_by_side,
 };
 use manyview::bench::{BenchError, CONFIGURATIONS, Configuration, find};
 use manyview::config::{AtlasLayout, OptionId, Origin, Settings};
@@ -228,7 +228,7 @@ impl Runner<'_> {
             }
             Err(error) => return Err(error),
         };
-        let layout = if beside(configuration) && self.options.is_empty() {
+        let layout = if side_by_side(configuration) && self.options.is_empty() {
             AtlasLayout::SideBySide
         } else {
             AtlasLayout::Layers

@@ -3,7 +3,7 @@
 
 use super::super::error::CommandError;
 use super::super::layer::variable;
-use super::super::run::Told;
+use super::super::run::StatusFile;
 use super::super::{Outcome, print, tell};
 use super::{Arguments, measure, write_json};
 use manyview::bench::{
@@ -23,7 +23,7 @@ const LIMIT: Duration = Duration::from_secs(60);
 struct Turn {
     name: String,
     launch: Launch,
-    told: Told,
+    status: StatusFile,
 }
 
 pub(super) fn run(arguments: &Arguments, frames: u32) -> Outcome {
@@ -38,12 +38,12 @@ pub(super) fn run(arguments: &Arguments, frames: u32) -> Outcome {
         let job = ProveJob {
             launch: &turn.launch,
             screen: &screen,
-            status: turn.told.file(),
+            status: turn.status.file(),
             frames: frames.into(),
             limit: LIMIT,
         };
         let notes = job.run(&mut stop)?;
-        let proof = turn.told.proof().unwrap_or_default();
+        let proof = turn.status.proof().unwrap_or_default();
         rows.push(ProofRow {
             configuration: turn.name.clone(),
             verdict: proof.verdict(),
@@ -55,8 +55,8 @@ pub(super) fn run(arguments: &Arguments, frames: u32) -> Outcome {
     bar.finish_and_clear();
     let nothing = |row: &ProofRow| row.proof.frames == 0 && row.proof.skipped.is_empty();
     if rows.iter().all(nothing) {
-        let told = rows.into_iter().flat_map(|row| row.notes).last();
-        return Err(BenchError::Unproved(told.unwrap_or_default()).into());
+        let note = rows.into_iter().flat_map(|row| row.notes).last();
+        return Err(BenchError::Unproved(note.unwrap_or_default()).into());
     }
     let command = arguments.command.iter();
     let proofs = Proofs {
@@ -117,7 +117,7 @@ fn turns(arguments: &Arguments) -> Result<Vec<Turn>, CommandError> {
             for (id, value) in options.chain(ours).filter(|(_, value)| !value.is_empty()) {
                 settings.set(id, value, Origin::CommandLine);
             }
-            let told = Told::new(&mut settings)?;
+            let status = StatusFile::new(&mut settings)?;
             let settings = settings.over(Settings::from_env(variable)?);
             let name = variant.name();
             turns.push(Turn {
@@ -126,7 +126,7 @@ fn turns(arguments: &Arguments) -> Result<Vec<Turn>, CommandError> {
                     false => name,
                 },
                 launch: Launch::prepare(&arguments.command, &settings)?,
-                told,
+                status,
             });
         }
     }

@@ -3,7 +3,7 @@
 
 use super::super::error::CommandError;
 use super::super::layer::variable;
-use super::super::run::Told;
+use super::super::run::StatusFile;
 use super::super::{Outcome, print, scratch, tell};
 use super::{Arguments, measure, unwritten, write_json};
 use image::RgbImage;
@@ -59,7 +59,7 @@ impl<'a> Run<'a> {
         for (id, value) in self.options {
             settings.set(*id, *value, Origin::CommandLine);
         }
-        let status = Told::new(&mut settings)?;
+        let status = StatusFile::new(&mut settings)?;
         let settings = given(self.arguments, settings)?;
         let launch = Launch::prepare(&self.arguments.command, &settings)?;
         let Some(capture) = &launch.config.capture else {
@@ -83,8 +83,8 @@ impl<'a> Run<'a> {
         let end = frames.end() + 1;
         let (_, report) = self.pictures("end", &(end..=end))?;
         let notes = report["notes"].as_array().and_then(|notes| notes.last());
-        let told = told(&report, frames.clone());
-        told.ok_or_else(|| {
+        let views = told(&report, frames.clone());
+        views.ok_or_else(|| {
             let note = notes.and_then(|note| note.as_str());
             let reason = note.unwrap_or("`manyview run --strategy hybrid --report` says why");
             BenchError::NoWalk(reason.to_owned()).into()

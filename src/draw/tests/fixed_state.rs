@@ -217,8 +217,8 @@ fn lights_and_the_material_are_in_the_key() {
     }
 }
 
-/// The flag `dull` for the shininess and the specular red of both faces; `follows`: the material parameter that follows the colour.
-fn dull(shininess: [f64; 2], red: [f64; 2], follows: Option<u32>) -> bool {
+/// The flag `zero_shininess` for the shininess and the specular red of both faces; `follows`: the material parameter that follows the colour.
+fn zero_shininess(shininess: [f64; 2], red: [f64; 2], follows: Option<u32>) -> bool {
     let fake = Fake::new();
     for (face, (shininess, red)) in [c::FRONT, c::BACK]
         .into_iter()
@@ -234,11 +234,11 @@ fn dull(shininess: [f64; 2], red: [f64; 2], follows: Option<u32>) -> bool {
         values.extend([(c::COLOR_MATERIAL, ON), (c::COLOR_MATERIAL_PARAMETER, mode)]);
     }
     let state = read(&fake, &values, 0);
-    let is = state.key.lighting.expect("lighting").dull;
+    let is = state.key.lighting.expect("lighting").zero_shininess;
     // Reading the material alone gives the same.
     let mut again = state;
     again.key.lighting = Some(Lighting {
-        dull: !is,
+        zero_shininess: !is,
         ..state.key.lighting.expect("lighting")
     });
     again.reread_material(&fake.gl());
@@ -248,13 +248,13 @@ fn dull(shininess: [f64; 2], red: [f64; 2], follows: Option<u32>) -> bool {
 
 #[test]
 fn a_dull_face_has_shininess_0_and_some_specular_colour() {
-    assert!(!dull([0.0; 2], [0.0; 2], None));
-    assert!(dull([0.0, 5.0], [0.5, 0.0], None));
-    assert!(dull([5.0, 0.0], [0.0, 0.5], None));
-    assert!(!dull([5.0, 0.0], [0.5, 0.0], None));
-    assert!(!dull([5.0; 2], [0.5; 2], Some(c::SPECULAR)));
-    assert!(dull([0.0; 2], [0.0; 2], Some(c::SPECULAR)));
-    assert!(!dull([0.0; 2], [0.0; 2], Some(c::DIFFUSE)));
+    assert!(!zero_shininess([0.0; 2], [0.0; 2], None));
+    assert!(zero_shininess([0.0, 5.0], [0.5, 0.0], None));
+    assert!(zero_shininess([5.0, 0.0], [0.0, 0.5], None));
+    assert!(!zero_shininess([5.0, 0.0], [0.5, 0.0], None));
+    assert!(!zero_shininess([5.0; 2], [0.5; 2], Some(c::SPECULAR)));
+    assert!(zero_shininess([0.0; 2], [0.0; 2], Some(c::SPECULAR)));
+    assert!(!zero_shininess([0.0; 2], [0.0; 2], Some(c::DIFFUSE)));
 }
 
 #[test]
@@ -368,12 +368,12 @@ fn for_mode(values: &[(u32, &[f64])], mode: u32) -> (FixedKey, crate::fixed::Sur
 #[test]
 fn a_mode_says_what_is_rasterised() {
     let rasterised = |values: &[(u32, &[f64])], mode| {
-        let (_, around) = for_mode(values, mode);
-        let drawn = around.rasterised;
-        assert_eq!(around.polygon_mode, around.edge_flags);
+        let (_, surroundings) = for_mode(values, mode);
+        let drawn = surroundings.rasterised;
+        assert_eq!(surroundings.polygon_mode, surroundings.edge_flags);
         (
             [drawn.points, drawn.lines, drawn.polygons],
-            around.polygon_mode,
+            surroundings.polygon_mode,
         )
     };
     assert_eq!(rasterised(&[], c::POINTS), ([true, false, false], false));
@@ -425,8 +425,8 @@ fn quads_are_cut_by_the_convention() {
 fn a_material_inside_is_told() {
     let state = read(&Fake::new(), &[], 0);
     for inside in [false, true] {
-        let (_, around) = state.for_mode(c::TRIANGLES, &IDENTITY, inside);
-        assert_eq!(around.material_per_vertex, inside);
+        let (_, surroundings) = state.for_mode(c::TRIANGLES, &IDENTITY, inside);
+        assert_eq!(surroundings.material_per_vertex, inside);
     }
 }
 

@@ -18,12 +18,12 @@ impl Stage {
     fn replay_and(
         &mut self,
         hazard: ReplayHazard,
-        leaves: bool,
+        keeps_state: bool,
         call: &mut dyn FnMut(ViewIndex),
     ) -> bool {
         let (gl, shear) = (self.gl, self.shear());
         let (atlas, state, rig) = (&mut self.atlas, &self.state, &self.rig);
-        replay(&gl, atlas, state, rig, shear, hazard, leaves, call)
+        replay(&gl, atlas, state, rig, shear, hazard, keeps_state, call)
     }
 }
 
@@ -254,13 +254,13 @@ fn a_list_leaves_what_the_programs_own_call_leaves() {
 
 #[test]
 fn a_full_attribute_stack_leaves_the_own_view_alone() {
-    for leaves in [true, false] {
+    for keeps_state in [true, false] {
         let mut stage = Stage::new(SideBySide, Grid::FULL);
         stage.program(|gl| (0..16).for_each(|_| gl.push_attrib(c::CURRENT_BIT)));
         let before = stage.fake.state();
         let mut views = Vec::new();
-        assert!(!stage.replay_and(LIST, leaves, &mut |view| views.push(view)));
-        let own: &[ViewIndex] = if leaves { &[ViewIndex(1)] } else { &[] };
+        assert!(!stage.replay_and(LIST, keeps_state, &mut |view| views.push(view)));
+        let own: &[ViewIndex] = if keeps_state { &[ViewIndex(1)] } else { &[] };
         assert_eq!(views, own);
         stage.fake.assert_restored(&before);
     }
@@ -319,6 +319,48 @@ fn a_picture_at_the_raster_position_moves_with_its_view() {
     // view 3 leaves the viewport.
     assert_eq!(places, [64.0 + 22.0, 138.0 + -4.0, 10.0 + 4.0]);
     stage.fake.assert_restored(&before);
+}
+
+/// Places, relative to their tiles, where a draw at the raster position `x` is sent, in a viewport of 32 pixels that begins at 8.
+fn raster_places(x: i32) -> Vec<f64> {
+    let mut stage = Stage::new(SideBySide, Grid::FULL);
+    stage.program(|gl| {
+        gl.viewport(8, 0, 32, 48);
+        gl.window_pos_2i(x, 10);
+    });
+    let before = stage.fake.state();
+    let hazard = ReplayHazard::Raster(stage.shear());
+    let mut places = Vec::new();
+    let gl = stage.gl;
+    replay(
+        &gl,
+        &mut stage.atlas,
+        &stage.state,
+        &stage.rig,
+        None,
+        hazard,
+        true,
+        &mut |_| {
+            let tile = stage.fake.value(c::SCISSOR_BOX)[0];
+            places.push(stage.fake.value(c::CURRENT_RASTER_POSITION)[0] - tile);
+        },
+    );
+    stage.fake.assert_restored(&before);
+    places
+}
+
+#[test]
+fn a_raster_position_is_valid_within_the_viewport() {
+    // The views are shifted by 6, 2, -2 and -6 pixels; the own one, which is view 1, is sent last.
+    let aside = |places: Vec<f64>| places.len();
+    assert_eq!(aside(raster_places(24)), 4);
+    assert_eq!(aside(raster_places(10)), 3, "view 3 leaves at the left");
+    assert_eq!(aside(raster_places(36)), 3, "view 0 leaves at the right");
+    // The own view is always sent, so that the program finds the position that it expects; it shows nothing where the position leaves.
+    let places = raster_places(39);
+    assert_eq!(places.len(), 3);
+    let own = places.last().copied().unwrap_or_default();
+    assert!(own > 64.0, "{places:?}");
 }
 
 #[test]

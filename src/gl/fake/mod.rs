@@ -178,7 +178,7 @@ impl Fake {
         self
     }
 
-    /// Disabled fixed function.
+    /// Without fixed function.
     pub fn core(self) -> Fake {
         self.limit(c::CONTEXT_PROFILE_MASK, &[1.0])
     }

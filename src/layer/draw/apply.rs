@@ -3,24 +3,17 @@
 use super::super::Layer;
 use super::Request;
 use crate::gl::Gl;
-use crate::plan::decide::{Demand, Detail, Effect, Preparation, Scene, retreat};
+use crate::plan::Unrepresentable;
+use crate::plan::decide::{Detail, Effect, Preparation, Scene};
 
 impl Layer {
-    /// Gives up the grid of the atlas where it cannot hold what a command demands.
-    pub(in crate::layer) fn retreat(&mut self, gl: &Gl, demand: Demand) {
-        let grid = self.targets.atlas.tiles.grid;
-        if let Some((detail, why)) = retreat(demand, grid.is_full(), grid.is_sample_aligned()) {
-            self.give_up(gl, detail, why);
-        }
-    }
-
     /// Carries out a preparation, which changes the facts. The next observation tells whether it has succeeded.
     pub(super) fn prepare(&mut self, gl: &Gl, preparation: Preparation) {
         match preparation {
-            Preparation::Remake(detail, why) => self.give_up(gl, detail, why),
-            Preparation::LinkVariant(program) => self.know(gl, program),
+            Preparation::ChangeGrid(detail, why) => self.give_up(gl, detail, why),
+            Preparation::LinkVariant(program) => self.link_variant(gl, program),
             Preparation::LinkLayers { program, all } => {
-                self.know_layers(gl, program, all);
+                self.link_layer_variant(gl, program, all);
             }
             Preparation::Split(framebuffer) => {
                 if !self.split(gl, framebuffer) {
@@ -54,7 +47,7 @@ impl Layer {
                 Effect::CaptureSurface => self.capture_surface(gl, request.primitives),
                 Effect::SynthesiseViews => self.synthesise_views(gl),
                 Effect::LeaveMono => self.draw_all_views(gl),
-                Effect::Fallback(reason) => self.diagnostics.fallbacks.add(reason),
+                Effect::Fallback(reason) => self.diagnostics.fallback(reason),
                 Effect::Note(sentence) => self.diagnostics.report.note(sentence.into()),
             }
         }
@@ -62,7 +55,7 @@ impl Layer {
 
     /// Gives up a grid that cannot hold what the program draws, for the rest of the run, and makes the atlas anew. `what` continues the note
     /// "because the program".
-    pub(in crate::layer) fn give_up(&mut self, gl: &Gl, detail: Detail, what: &str) {
+    pub(in crate::layer) fn give_up(&mut self, gl: &Gl, detail: Detail, what: Unrepresentable) {
         self.targets.detail = detail;
         let now = match self.grid() {
             grid if grid.is_full() => "at the size of the window",

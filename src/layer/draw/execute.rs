@@ -1,7 +1,7 @@
 //! Execute: sends one [`Draw`] to the driver by the method that was decided, or by replay where that method turns out to be impossible.
 
 use super::super::Layer;
-use super::super::programs::{Entered, VariantUse};
+use super::super::own_variants::{Entered, VariantUse};
 use super::super::targets::Targets;
 use super::{Draw, Images, Send};
 use crate::atlas::{Surface, Tiles};
@@ -102,14 +102,14 @@ impl Layer {
         let framebuffer = self.state.framebuffers.draw;
         let shown = self.wanted_views();
         match self.targets.offscreen.take(framebuffer, shown) {
-            Some(target) => self.replay_aside(gl, draw, target),
+            Some(target) => self.replay_split(gl, draw, target),
             None => self.replay_by(gl, draw, None, VariantUse::Views),
         }
     }
 
     /// Draws to a framebuffer of which each view has its own: to the layers of one framebuffer where a variant chooses among them, or for a
     /// clear.
-    fn replay_aside(&mut self, gl: &Gl, draw: &mut Draw, mut target: Target) {
+    fn replay_split(&mut self, gl: &Gl, draw: &mut Draw, mut target: Target) {
         let layered = target.layered();
         let clears = draw.hazard == ReplayHazard::Clear;
         let chooses = draw.plan.variant && self.chooses_layers(self.state.in_use.program);
@@ -252,7 +252,7 @@ impl Layer {
             }
             None => self.targets.atlas.bind_row(gl, 0),
         }
-        self.frame.amplifies = true;
+        self.frame.amplifies();
         self.count_draw(Method::Instanced, plan);
     }
 
@@ -280,14 +280,14 @@ impl Layer {
         self.diagnostics.report.shaders(programs.compiled);
         match how {
             Ok(how) => {
-                self.frame.amplifies = true;
+                self.frame.amplifies();
                 self.count_draw(plan.method, plan);
                 Some(how)
             }
             Err(reason) => {
                 self.diagnostics.proving.replayed();
                 self.count_draw(Method::Replay, plan);
-                self.diagnostics.fallbacks.add(reason);
+                self.diagnostics.fallback(reason);
                 None
             }
         }

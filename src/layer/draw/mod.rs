@@ -10,6 +10,8 @@ mod execute;
 mod observe;
 mod observers;
 mod primitives;
+#[cfg(test)]
+mod tests;
 
 pub(super) use execute::Execution;
 pub use primitives::Primitives;
@@ -35,6 +37,9 @@ pub(super) struct Request {
     /// The arguments of a draw from arrays.
     pub(super) primitives: Option<Primitives>,
     pub(super) demand: Demand,
+    /// It may be repeated in the reference image. Display lists are only if they are surfaces and current values alone: generated shaders do
+    /// not follow other changes of state within a list, and lines cannot be drawn there.
+    pub(super) surfaces: bool,
 }
 
 impl Request {
@@ -43,6 +48,7 @@ impl Request {
             kind,
             primitives: None,
             demand: Demand::None,
+            surfaces: true,
         }
     }
 }
@@ -139,7 +145,7 @@ impl Layer {
             // The raster position is shifted, and the projection no longer matters.
             Kind::Pixels if plan.class == Class::Scene => {
                 plan.shear = None;
-                ReplayHazard::Raster(self.cameras.raster)
+                ReplayHazard::Raster(self.cameras.raster())
             }
             Kind::Pixels => ReplayHazard::Raster(plan.shear.take()),
             _ => ReplayHazard::None,
@@ -197,7 +203,6 @@ impl Layer {
     pub(super) fn decide(&mut self, gl: &Gl, request: &Request) -> Decided {
         self.explain_last(gl);
         self.state.refresh(gl);
-        self.retreat(gl, request.demand);
         for _ in 0..ROUNDS {
             let (facts, images) = self.observe(gl, request);
             match decide(&facts, &self.known, &self.settings()) {
@@ -230,14 +235,14 @@ impl Layer {
     /// After the driver's glRasterPos: the position stands for a point of the scene and moves with the view.
     pub fn placed_raster(&mut self, gl: &Gl) {
         self.state.refresh(gl);
-        self.cameras.raster = self.known.rig.shear(&self.state.matrices.projection);
-        self.cameras.raster_placed = self.state.projection_kind();
+        let shift = self.known.rig.shear(&self.state.matrices.projection);
+        self.cameras
+            .place_raster(shift, self.state.projection_kind());
     }
 
     /// After the driver's glWindowPos: the position is a place in the window and is the same in all views.
     pub fn placed_in_window(&mut self) {
-        self.cameras.raster = None;
-        self.cameras.raster_placed = crate::config::Projection::None;
+        self.cameras.place_raster_in_window();
     }
 
     /// Marks state groups that a command touches as stale; false where the command is compiled into a list instead.

@@ -54,7 +54,7 @@ impl Layer {
             shaders,
             state: self.state.classification,
             destination: self.observe_destination(gl, &shaders),
-            grid: self.observe_grid(gl, kind),
+            grid: self.observe_grid(gl, request),
             clear: ClearFacts::default(),
             synthesis: SynthesisFacts::default(),
             counted: self.queries.active(),
@@ -76,7 +76,7 @@ impl Layer {
             matrix,
             scene,
             lens,
-            raster_moves: self.cameras.raster.is_some(),
+            raster_moves: self.cameras.raster().is_some(),
         }
     }
 
@@ -97,7 +97,7 @@ impl Layer {
         let shown = matches!(target, Target::Window | Target::Pass(_));
         let clear = matches!(kind, Kind::Clear { .. } | Kind::Accum);
         let counts = !clear && self.state.list.is_none();
-        let first = !self.known.frame.deep || clear && shown;
+        let first = !self.known.frame.wrote_depth || clear && shown;
         let projection = match shaders {
             Shaders::Variant(variant) if shown && !clear && variant.lost => Projection::None,
             Shaders::Variant(_) if shown && !clear => Projection::Perspective,
@@ -114,7 +114,7 @@ impl Layer {
         }
         let (program, shader) = match self.state.in_use.program {
             ProgramName::ZERO => (0, 0),
-            program if classifier.needs_shader() => self.told_of(program),
+            program if classifier.needs_shader() => self.link_and_hash(program),
             _ => (0, 0),
         };
         Traits {
@@ -122,8 +122,8 @@ impl Layer {
             program,
             shader,
             draw: self.known.frame.draws + u32::from(counts),
-            list: self.frame.list,
-            raster: self.cameras.raster_placed,
+            list: self.frame.list(),
+            raster: self.cameras.raster_placed(),
             first,
             projection,
             ..Traits::of(kind, &self.state)
@@ -180,19 +180,24 @@ impl Layer {
 
     /// Facts of tiles with other samples than the window's pixels; none where the tiles have those, the draw goes elsewhere, or no other
     /// atlas can be made.
-    fn observe_grid(&self, gl: &Gl, kind: Kind) -> Option<GridFacts> {
+    fn observe_grid(&self, gl: &Gl, request: &Request) -> Option<GridFacts> {
         let grid = self.targets.atlas.tiles.grid;
         if grid.is_full() || self.targets.stuck || !self.state.draws_to_window() {
             return None;
         }
         let fixed = self.state.in_use.program.is_zero() && self.state.in_use.pipeline == 0;
-        let surfaces = fixed && !matches!(kind, Kind::Clear { .. } | Kind::Accum | Kind::Pixels);
+        let surfaces = fixed
+            && !matches!(
+                request.kind,
+                Kind::Clear { .. } | Kind::Accum | Kind::Pixels
+            );
         let stippled = surfaces && gl.is_enabled(c::POLYGON_STIPPLE);
         let aligned = grid.is_sample_aligned();
         let asks = surfaces && aligned && !stippled;
         Some(GridFacts {
+            demand: request.demand,
             aligned,
-            leans: grid.shear != 0.0,
+            slanted: grid.shear != 0.0,
             stippled,
             outlined: asks && gl.get_integers::<2>(c::POLYGON_MODE) != [c::FILL as i32; 2],
         })
@@ -250,15 +255,15 @@ impl Layer {
         debug_assert_eq!(facts.classed, *classed);
         SynthesisFacts {
             possible: clear && self.may_synthesise(),
-            joins: clear && self.joins(),
+            adds_views: clear && self.adds_views(),
             over_last: over && self.is_over_last(gl, request.primitives),
-            reference: map.filter(|_| self.synthesis.reference.on),
+            reference: map.filter(|_| self.synthesis.reference.is_on() && request.surfaces),
             fixed_function: self.state.has.compatibility,
         }
     }
 
     /// Whether a scene that begins with this clear would be drawn to a view that was not drawn before.
-    fn joins(&self) -> bool {
+    fn adds_views(&self) -> bool {
         let (own, views) = (self.targets.atlas.tiles.own(), self.session.config.views);
         let count = self.synthesis.number();
         let sources = count.map(|count| Sources::spread(own, views, count));

@@ -24,7 +24,7 @@ impl Layer {
         if plan.method == Method::Once {
             self.queries.drawn();
         } else {
-            self.frame.drawn = true;
+            self.frame.draws();
         }
         // An amplified draw is counted when it is known that it can be made.
         if matches!(plan.method, Method::Once | Method::Replay) {

@@ -32,7 +32,7 @@ impl Layer {
         self.synthesis.samples = None;
         let reference = self.targets.atlas.reference_framebuffer();
         let (Some(reference), true) = (
-            reference.filter(|_| self.synthesis.reference.on),
+            reference.filter(|_| self.synthesis.reference.is_on()),
             self.wants_samples(),
         ) else {
             return;

@@ -17,7 +17,7 @@ pub(in crate::layer) struct Surface {
     mode: u32,
     count: u32,
     /// Hash of the positions.
-    sum: u64,
+    hash: u64,
     modelview: [f32; 16],
     depths: [f32; 2],
     /// GL_CULL_FACE; GL_CULL_FACE_MODE and GL_FRONT_FACE; GL_POLYGON_MODE.
@@ -48,7 +48,7 @@ impl Layer {
         if !fixed || mode > c::POLYGON || !(1..=MOST).contains(&count) {
             return None;
         }
-        let sum = match next {
+        let hash = match next {
             Primitives::Arrays { vertices, .. } => gl.positions_sum(vertices)?,
             // An index that ends a primitive is the index of no vertex.
             Primitives::Elements { .. } if self.session.support.restarts(gl) => return None,
@@ -56,14 +56,14 @@ impl Layer {
         };
         self.state
             .read_classification(gl, Touch::MODELVIEW | Touch::RANGE);
-        let look = &self.state.classification;
+        let classification = &self.state.classification;
         let sides = [c::CULL_FACE_MODE, c::FRONT_FACE].map(|name| gl.get_integer(name));
         Some(Surface {
             mode,
             count,
-            sum,
-            modelview: look.modelview,
-            depths: look.depths,
+            hash,
+            modelview: classification.modelview,
+            depths: classification.depths,
             sides: (
                 gl.is_enabled(c::CULL_FACE),
                 sides,

@@ -1,6 +1,8 @@
 //! Frames on the fake driver: what is drawn for them, that their state comes back, and what the driver is asked.
 
+use super::super::frame::Frame;
 use super::bench::{Bench, MESA, PERSPECTIVE};
+use crate::gl::ListName;
 use crate::gl::consts as c;
 use crate::gl::fake::Fake;
 use crate::state::Touch;
@@ -13,6 +15,23 @@ fn replayed(options: &[(&str, &str)]) -> Bench {
     let mut bench = Bench::new(&options);
     bench.look();
     bench
+}
+
+#[test]
+fn a_frame_ends_without_its_list_and_its_draws_but_keeps_what_was_amplified() {
+    let mut frame = Frame::default();
+    assert_eq!((frame.list(), frame.drawn()), (None, false));
+    let list = Some(ListName(3));
+    frame.calls(list);
+    frame.draws();
+    assert_eq!((frame.list(), frame.drawn()), (list, true));
+    assert!(!frame.take_amplified(), "it was replayed");
+    frame.amplifies();
+    // A flush shows a frame whose time is not taken.
+    frame.end();
+    assert_eq!((frame.list(), frame.drawn()), (None, false));
+    assert!(frame.take_amplified());
+    assert!(!frame.take_amplified(), "it is taken once");
 }
 
 #[test]

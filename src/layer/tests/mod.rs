@@ -1,4 +1,12 @@
 //! The layer as a whole, on the fake driver.
 
-mod bench;
+pub(super) mod bench;
+mod cameras;
+mod diagnostics;
 mod frame;
+mod queries;
+mod recordings;
+mod session;
+mod synthesis;
+mod targets;
+pub(super) mod variants;

@@ -105,7 +105,7 @@ fn the_state_tells_what_a_draw_is() {
             Class::OffScreen,
             Why::NoPicture,
         ),
-        (sky, Class::Sky, Why::Around),
+        (sky, Class::Sky, Why::TurnsAboutEye),
         (
             Traits {
                 range: DepthRange::Far,
@@ -113,7 +113,7 @@ fn the_state_tells_what_a_draw_is() {
                 ..facts()
             },
             Class::Sky,
-            Why::Behind,
+            Why::FarRange,
         ),
         (
             Traits {
@@ -138,7 +138,7 @@ fn the_state_tells_what_a_draw_is() {
                 ..sky
             },
             Class::Sky,
-            Why::Around,
+            Why::TurnsAboutEye,
         ),
     ];
     for (facts, want, why) in cases {
@@ -365,4 +365,65 @@ fn rules_know_shaders_and_passes() {
         wrong.contains("shader is 'ff'; give the 16 hexadecimal digits"),
         "{wrong}"
     );
+}
+
+#[test]
+fn the_depth_of_the_display_changes_what_no_rule_places() {
+    let mut c = classifier("[[rule]]\ntexture = 9\nclass = \"flat\"\ndepth = 0.5\n");
+    let flat = Traits {
+        projection: Projection::Orthographic,
+        ..facts()
+    };
+    let ruled = Traits {
+        texture: TextureName(9),
+        ..facts()
+    };
+    let position = Traits {
+        kind: Kind::Pixels,
+        raster: Projection::Orthographic,
+        ..facts()
+    };
+    for depth in [0.0, 0.25, -0.5] {
+        c.change_hud_depth(depth);
+        assert_eq!(c.class(&flat).depth, depth);
+        assert_eq!(c.class(&position).depth, depth);
+        assert_eq!(c.class(&ruled).depth, 0.5);
+        assert_eq!(c.class(&facts()).depth, 0.0, "a scene has its own depths");
+    }
+}
+
+#[test]
+fn the_modelview_is_read_only_where_a_sky_is_possible() {
+    let c = classifier("");
+    for (projection, first, depth, needed) in [
+        (Projection::Perspective, true, DepthState::Off, true),
+        (Projection::Perspective, true, DepthState::TestOnly, true),
+        (Projection::Perspective, true, DepthState::On, false),
+        (Projection::Perspective, false, DepthState::Off, false),
+        (Projection::Orthographic, true, DepthState::Off, false),
+        (Projection::None, true, DepthState::Off, false),
+    ] {
+        assert_eq!(c.needs_modelview(projection, first, depth), needed);
+    }
+}
+
+#[test]
+fn the_proposed_class_is_another_one() {
+    let proposed = |facts: &Traits| {
+        let rule = facts.rule(&classifier("").class(facts)).expect("a rule");
+        let class = rule.split("class = \"").nth(1).expect("a class");
+        class.split('"').next().unwrap_or_default().to_owned()
+    };
+    let flat = Traits {
+        kind: Kind::Pixels,
+        raster: Projection::Orthographic,
+        ..facts()
+    };
+    // Pixels have no depths of their own, whatever the projection is.
+    assert_eq!(proposed(&flat), "flat");
+    assert_eq!(proposed(&facts()), "flat");
+    // What a rule makes flat in perspective may be a part of the scene.
+    let flat = classifier("[[rule]]\ntexture = 3\nclass = \"flat\"\n");
+    let rule = facts().rule(&flat.class(&facts())).expect("a rule");
+    assert!(rule.contains("class = \"scene\""), "{rule}");
 }

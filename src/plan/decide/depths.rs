@@ -29,7 +29,7 @@ pub(super) fn watch(
     }
     let depths = &mut known.depths;
     let take = |depths: &mut super::DepthWatch, effects: &mut Vec<Effect>| {
-        if depths.pending && !depths.spoilt {
+        if depths.pending && !depths.overwritten {
             depths.pending = false;
             effects.push(Effect::TakeDepths);
         }
@@ -40,7 +40,7 @@ pub(super) fn watch(
             take(depths, effects);
             // With a scissor only a part of the window is cleared; the depths of the rest stay valid.
             if facts.rects.scissor.is_none() {
-                depths.spoilt = false;
+                depths.overwritten = false;
                 effects.push(Effect::ForgetDepths);
             }
         }
@@ -48,7 +48,7 @@ pub(super) fn watch(
         (_, Class::Flat) => {
             if depths.pending && facts.state.depth == DepthState::On {
                 take(depths, effects);
-                depths.spoilt = true;
+                depths.overwritten = true;
             }
         }
         (kind, Class::Scene) => {

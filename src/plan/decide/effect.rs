@@ -2,7 +2,8 @@
 
 use crate::config::Viewport;
 use crate::gl::{FramebufferName, ProgramName};
-use crate::plan::{Ramp, Reason};
+use crate::plan::Ramp;
+use crate::plan::reason::{Reason, Unrepresentable};
 
 /// How finely the tiles are sampled. Each value can represent more kinds of draws than the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,7 +22,7 @@ pub enum Detail {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preparation {
     /// Makes the atlas anew with another grid, because the program does this.
-    Remake(Detail, &'static str),
+    ChangeGrid(Detail, Unrepresentable),
     /// Examines a program and links its variant for one view.
     LinkVariant(ProgramName),
     /// Links the program's variant that chooses layers, for one view or for all at once.

@@ -2,6 +2,7 @@
 
 use crate::gl::{FramebufferName, ProgramName, TextureName};
 use crate::plan::class::{Classed, Traits};
+use crate::plan::reason::Unrepresentable;
 use crate::state::ClassificationState;
 
 /// One command, and the state that it finds.
@@ -142,13 +143,26 @@ impl Destination {
     }
 }
 
+/// A demand on the grid that does not follow from a command's kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Demand {
+    /// No demand.
+    None,
+    /// The command may draw lines or points, as display lists may.
+    LinesOrPoints,
+    /// The window's own pixels are needed, because the program does this.
+    Everything(Unrepresentable),
+}
+
 /// A grid of the tiles whose samples are fewer than the window's pixels, or lie elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GridFacts {
+    /// The demand of the command that does not follow from its kind.
+    pub demand: Demand,
     /// The samples lie where the panel shows the view.
     pub aligned: bool,
     /// Columns of samples are slanted.
-    pub leans: bool,
+    pub slanted: bool,
     /// GL_POLYGON_STIPPLE.
     pub stippled: bool,
     /// GL_POLYGON_MODE is not GL_FILL.
@@ -172,7 +186,7 @@ pub struct SynthesisFacts {
     /// Atlas, output and settings allow views to be synthesised.
     pub possible: bool,
     /// From this clear on a view would be drawn that was not drawn before, so its tile holds no earlier picture.
-    pub joins: bool,
+    pub adds_views: bool,
     /// The draw is another pass over the same vertices as the last surface.
     pub over_last: bool,
     /// The distortion map of the reference image, while draws go there.

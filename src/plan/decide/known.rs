@@ -11,7 +11,7 @@ pub struct Known {
     /// The cameras of the views.
     pub rig: Rig,
     /// The program draws passes whose depths have to be equal (GL_EQUAL), so all its draws are replayed.
-    pub together: bool,
+    pub replays_all: bool,
     /// The projection of the last program that had a camera, for programs that have none.
     pub camera: Option<[f32; 16]>,
     /// A of the camera that the window is drawn with, which tells it from the camera of a light source.
@@ -34,7 +34,7 @@ pub struct Frame {
     /// The number of draws, without clears.
     pub draws: u32,
     /// Something in perspective has written depth since the frame began or was last cleared.
-    pub deep: bool,
+    pub wrote_depth: bool,
     /// Whether nearer points have larger depths, by the first draw of the scene.
     pub nearer_is_larger: Option<bool>,
 }
@@ -47,7 +47,7 @@ pub struct DepthWatch {
     /// The scene has been drawn since the last capture.
     pub pending: bool,
     /// A flat draw has written depths since the scene.
-    pub spoilt: bool,
+    pub overwritten: bool,
     /// The last projection of the frame's scene, column-major.
     pub projection: Option<[f32; 16]>,
 }
@@ -57,7 +57,7 @@ impl Known {
     pub fn new(rig: Rig) -> Self {
         Known {
             rig,
-            together: false,
+            replays_all: false,
             camera: None,
             lens: None,
             frame: Frame::default(),

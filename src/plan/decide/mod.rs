@@ -20,13 +20,13 @@ mod tests;
 
 pub use effect::{Detail, Effect, Preparation};
 pub use facts::{
-    ClearFacts, Destination, Facts, GridFacts, Linked, Projections, Rects, Shaders, SynthesisFacts,
-    VariantFacts,
+    ClearFacts, Demand, Destination, Facts, GridFacts, Linked, Projections, Rects, Shaders,
+    SynthesisFacts, VariantFacts,
 };
-pub use grid::{Demand, retreat};
+pub use grid::retreat;
 pub use known::{DepthWatch, Frame, Known, Settings};
 pub use mono::{ALL_BUFFERS, Mono};
-pub use plan::{Flat, Method, Plan, Reason, ReferenceDraw};
+pub use plan::{Flat, Method, Plan, ReferenceDraw};
 pub use scene::{DisparityMapping, Scene};
 pub use synthesis::is_over_candidate;
 
@@ -54,7 +54,7 @@ pub fn decide(facts: &Facts, known: &Known, settings: &Settings) -> Result<Decis
     let mut known = *known;
     let mut effects = Vec::new();
     if let Some((detail, why)) = grid::demanded(facts) {
-        return Err(Preparation::Remake(detail, why));
+        return Err(Preparation::ChangeGrid(detail, why));
     }
     if let Shaders::Unlinked(program) = facts.shaders
         && settings.views > 1
@@ -109,7 +109,7 @@ pub fn needs(
         flat && settings.measures_depths && known.depths.pending,
         Touch::DEPTH,
     );
-    add(!settings.same_depths && !known.together, Touch::DEPTH);
+    add(!settings.same_depths && !known.replays_all, Touch::DEPTH);
     let variant = matches!(shaders, Shaders::Variant(_));
     add(variant && !clear, Touch::DEPTH);
     let synthesises = settings.synthesises && known.scene.is_some() && !clear;
@@ -122,8 +122,8 @@ pub fn needs(
 /// Instances in layers have exactly the depths of replay; tiles beside each other and geometry shaders do not. So from the first draw
 /// with GL_EQUAL on, all draws are replayed. An earlier pass, in the program's first frame, is not drawn again.
 fn watch_equal_depths(facts: &Facts, known: &mut Known, settings: &Settings) {
-    if !settings.same_depths && !known.together && facts.destination.is_window() {
-        known.together = facts.state.equal;
+    if !settings.same_depths && !known.replays_all && facts.destination.is_window() {
+        known.replays_all = facts.state.equal;
     }
 }
 

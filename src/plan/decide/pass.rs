@@ -1,8 +1,9 @@
 //! Draws that sample or draw to images that are split into one per view: they are replayed. A framebuffer is split when a draw that depends
 //! on the view goes to it.
 
-use super::{Facts, Flat, Linked, Method, Plan, Preparation, Reason, Settings, Shaders, is_whole};
+use super::{Facts, Flat, Linked, Method, Plan, Preparation, Settings, Shaders, is_whole};
 use crate::config::Class;
+use crate::plan::reason::{Reason, Replayed};
 
 /// Adapts a plan to the images that the draw reads and to the framebuffer that it goes to.
 pub(super) fn plan(facts: &Facts, settings: &Settings, plan: Plan) -> Result<Plan, Preparation> {
@@ -21,9 +22,7 @@ pub(super) fn plan(facts: &Facts, settings: &Settings, plan: Plan) -> Result<Pla
         }
         if matches!(plan.method, Method::Instanced | Method::Geometry) {
             plan.method = Method::Replay;
-            plan.reason = Some(Reason::Kind(
-                "draws with a texture that each view has its own of",
-            ));
+            plan.reason = Some(Reason::Replayed(Replayed::SplitTexture));
         }
     }
     if destination.framebuffer.is_zero() {

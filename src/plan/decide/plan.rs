@@ -3,42 +3,8 @@
 use super::{Facts, Known, Rects, Settings};
 use crate::config::{Class, Repetition, Viewport};
 use crate::gl::TextureName;
+use crate::plan::reason::{Missing, Reason, Replayed};
 use crate::plan::{Kind, Shear};
-
-/// Why a draw is not made by the requested strategy. The texts are keys of the report.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Reason {
-    /// Only replay can make this kind of draw.
-    Kind(&'static str),
-    /// The program uses its own shaders.
-    Program,
-    /// No shader can be generated for the fixed-function state.
-    Fixed(crate::fixed::Unsupported),
-    /// The driver lacks a feature.
-    Driver(&'static str),
-    /// The driver refused a generated shader.
-    Compile,
-    /// The draw cannot be repeated in the reference image.
-    NoReference(String),
-    /// The views were synthesised before a command that has to be drawn in each of them.
-    SynthesisedBefore(&'static str),
-}
-
-impl core::fmt::Display for Reason {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Reason::Kind(what) => write!(f, "{what} are replayed"),
-            Reason::Program => f.write_str("the program's own shaders are replayed"),
-            Reason::Fixed(u) => write!(f, "{u}"),
-            Reason::Driver(what) => write!(f, "the driver has no {what}"),
-            Reason::Compile => f.write_str("the driver refused the generated shader"),
-            Reason::NoReference(why) => {
-                write!(f, "a program draws nothing to the reference image: {why}")
-            }
-            Reason::SynthesisedBefore(what) => write!(f, "views are synthesised before {what}"),
-        }
-    }
-}
 
 /// How the views are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -165,19 +131,15 @@ fn method(facts: &Facts, known: &Known, settings: &Settings) -> Result<Method, O
     };
     match kind {
         Kind::Clear { .. } | Kind::Pixels | Kind::Accum => return Err(None),
-        _ if known.together => {
-            return Err(Some(Reason::Kind(
-                "draws of a program whose passes have to meet in every pixel (GL_EQUAL)",
-            )));
+        _ if known.replays_all => {
+            return Err(Some(Reason::Replayed(Replayed::EqualDepths)));
         }
-        Kind::List => return Err(Some(Reason::Kind("display lists"))),
+        Kind::List => return Err(Some(Reason::Replayed(Replayed::Lists))),
         Kind::Other => {
-            return Err(Some(Reason::Kind(
-                "rectangles, evaluators, multi-draws and instanced draws",
-            )));
+            return Err(Some(Reason::Replayed(Replayed::OtherCommands)));
         }
         Kind::Begin(_) if wish == Method::Instanced => {
-            return Err(Some(Reason::Kind("immediate-mode draws under `instanced`")));
+            return Err(Some(Reason::Replayed(Replayed::Immediate)));
         }
         _ => {}
     }
@@ -185,12 +147,10 @@ fn method(facts: &Facts, known: &Known, settings: &Settings) -> Result<Method, O
         return Err(Some(Reason::Program));
     }
     match wish {
-        Method::Instanced if !settings.instanced => Err(Some(Reason::Driver(
-            "instancing with clip distances in compatibility shaders (GLSL 1.50)",
-        ))),
-        Method::Geometry if !settings.geometry => Err(Some(Reason::Driver(
-            "geometry shaders in compatibility contexts (GLSL 1.50)",
-        ))),
+        Method::Instanced if !settings.instanced => Err(Some(Reason::Driver(Missing::Instancing))),
+        Method::Geometry if !settings.geometry => {
+            Err(Some(Reason::Driver(Missing::GeometryShaders)))
+        }
         m => Ok(m),
     }
 }
@@ -200,7 +160,7 @@ pub(super) fn uncounted(facts: &Facts, plan: Plan) -> Plan {
     match plan.method {
         Method::Instanced | Method::Geometry if facts.counted => Plan {
             method: Method::Replay,
-            reason: Some(Reason::Kind("draws that a query counts")),
+            reason: Some(Reason::Replayed(Replayed::Counted)),
             ..plan
         },
         _ => plan,

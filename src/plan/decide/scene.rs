@@ -71,7 +71,10 @@ impl Scene {
             return false;
         }
         // The weapon's draw may come before or after the rest.
-        self.before = match (first.ramp.beyond(&new.ramp), new.ramp.beyond(&first.ramp)) {
+        self.before = match (
+            first.ramp.nearer_part(&new.ramp),
+            new.ramp.nearer_part(&first.ramp),
+        ) {
             (Some(depth), _) => Some((new, depth)),
             (_, Some(depth)) => {
                 self.mapping = Some(new);
@@ -92,9 +95,9 @@ pub(super) fn observe(facts: &Facts, known: &mut Known, settings: &Settings) {
     if shown {
         let behind = facts.traits.range == DepthRange::Far;
         if clear {
-            known.frame.deep = false;
+            known.frame.wrote_depth = false;
         } else if is_perspective(facts) && facts.traits.first && !behind {
-            known.frame.deep = facts.traits.depth_state == DepthState::On;
+            known.frame.wrote_depth = facts.traits.depth_state == DepthState::On;
         }
     }
     if facts.classed.class != Class::Scene {

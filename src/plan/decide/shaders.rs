@@ -53,7 +53,6 @@ pub(super) fn plan(
         }
     };
     Plan {
-        method: Method::Replay,
         class,
         shear,
         variant: true,
@@ -85,7 +84,7 @@ pub(super) fn all_at_once(
         && matches!(facts.traits.kind, Kind::Arrays(_) | Kind::Elements(_))
         && !facts.reads_views
         && !facts.counted
-        && !known.together;
+        && !known.replays_all;
     if !wanted || !facts.destination.layered || variant.divides {
         return Ok(plan);
     }

@@ -1,9 +1,10 @@
 //! Which draws belong to a scene that is drawn to some views only. Before any other draw, the other views are synthesised.
 
-use super::{DisparityMapping, Effect, Facts, Known, Method, Plan, Reason, ReferenceDraw, Scene};
+use super::{DisparityMapping, Effect, Facts, Known, Method, Plan, ReferenceDraw, Scene};
 use super::{Settings, Shaders};
 use crate::config::{Class, DepthState, Viewport};
 use crate::gl::{TextureName, consts as c};
+use crate::plan::reason::{NotOfScene, Reason};
 use crate::plan::{Kind, Ramp};
 
 /// Decides, for a planned command, whether it belongs to the scene. If not, the other views are synthesised before it.
@@ -35,16 +36,12 @@ pub(super) fn watch(
             let rays = mapping.zip(facts.synthesis.reference);
             plan.reference = rays.and_then(|(mapping, map)| reference(facts, &mapping, map));
         }
-        Err(NotOfScene(what)) => {
+        Err(what) => {
             effects.push(Effect::Fallback(Reason::SynthesisedBefore(what)));
             synthesise(known, effects);
         }
     }
 }
-
-/// Why a draw does not belong to the scene; a part of a sentence in the report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct NotOfScene(&'static str);
 
 fn synthesise(known: &mut Known, effects: &mut Vec<Effect>) {
     if known.scene.take().is_some() {
@@ -63,7 +60,9 @@ fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>
         && scene.begun
         && !((all || colours) && scene.shown)
     {
-        effects.push(Effect::Fallback(Reason::SynthesisedBefore("another clear")));
+        effects.push(Effect::Fallback(Reason::SynthesisedBefore(
+            NotOfScene::Clear,
+        )));
         return synthesise(known, effects);
     }
     if !all || known.synthesised {
@@ -71,7 +70,7 @@ fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>
     }
     // Without a clear of colours, the last picture stays visible. The other views do not have it, nor has a view that is drawn for the
     // first time.
-    if !facts.synthesis.possible || (!colours && facts.synthesis.joins) {
+    if !facts.synthesis.possible || (!colours && facts.synthesis.adds_views) {
         return synthesise(known, effects);
     }
     // The last picture is cleared, so the other views need no copy of it.
@@ -105,31 +104,31 @@ fn belongs(
     effects: &mut Vec<Effect>,
 ) -> Result<Option<DisparityMapping>, NotOfScene> {
     let (kind, depth) = (facts.traits.kind, facts.state.depth);
-    let no = |what| Err(NotOfScene(what));
+    let no = Err;
     if facts.state.stencil {
-        return no("draws with a stencil test");
+        return no(NotOfScene::Stencil);
     }
     if facts.state.stipple {
-        return no("draws with a stipple of the screen's");
+        return no(NotOfScene::Stipple);
     }
     if matches!(kind, Kind::Accum | Kind::Pixels) || facts.reads_views {
-        return no("pictures and pixels");
+        return no(NotOfScene::Pixels);
     }
     if facts.traits.viewport != Viewport::Main {
-        return no("a picture in the picture");
+        return no(NotOfScene::PictureInPicture);
     }
     match plan.class {
-        Class::Sky if depth == DepthState::On => no("a sky with depths"),
+        Class::Sky if depth == DepthState::On => no(NotOfScene::SkyWithDepths),
         Class::Sky if depth == DepthState::Off && scene.mapping.is_some() => {
-            no("a sky over the scene")
+            no(NotOfScene::SkyOverScene)
         }
         Class::Sky => {
             scene.sky = true;
             Ok(None)
         }
-        Class::Flat if scene.mapping.is_some() => no("what is flat"),
+        Class::Flat if scene.mapping.is_some() => no(NotOfScene::Flat),
         Class::Flat if plan.shear.is_some() || depth == DepthState::On => {
-            no("what is flat and stands elsewhere than on the panel")
+            no(NotOfScene::FlatElsewhere)
         }
         Class::Flat | Class::OffScreen => Ok(None),
         Class::Scene => of_scene(facts, plan, scene, effects).map(Some),
@@ -142,18 +141,18 @@ fn of_scene(
     scene: &mut Scene,
     effects: &mut Vec<Effect>,
 ) -> Result<DisparityMapping, NotOfScene> {
-    let shear = plan.shear.ok_or(NotOfScene("a scene without parallax"))?;
+    let shear = plan.shear.ok_or(NotOfScene::NoParallax)?;
     let state = &facts.state;
     let ramp = Ramp::of(&facts.projections.matrix, state.depths, state.zero_to_one);
-    let ramp = ramp.ok_or(NotOfScene("a projection without depths"))?;
+    let ramp = ramp.ok_or(NotOfScene::NoDepths)?;
     let shown = state.depth == DepthState::On && !state.blends;
     // Another pass over the last surface has the depths of that surface.
     let over = state.depth != DepthState::Off && facts.synthesis.over_last;
     if !shown && !state.equal && !over {
-        return Err(NotOfScene(match state.blends {
-            true => "what is transparent",
-            false => "what has no depths",
-        }));
+        return Err(match state.blends {
+            true => NotOfScene::Transparent,
+            false => NotOfScene::WithoutDepths,
+        });
     }
     if shown {
         effects.push(Effect::CaptureSurface);
@@ -165,10 +164,8 @@ fn of_scene(
     };
     match scene.takes(new) {
         true => Ok(new),
-        false if facts.classed.focal.is_some() => Err(NotOfScene(
-            "a part of the scene with zero parallax of its own",
-        )),
-        false => Err(NotOfScene("another projection")),
+        false if facts.classed.focal.is_some() => Err(NotOfScene::OwnFocalDepth),
+        false => Err(NotOfScene::OtherProjection),
     }
 }
 

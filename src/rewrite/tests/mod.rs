@@ -5,7 +5,7 @@ use super::*;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-mod spoilt;
+mod malformed;
 
 const REPLAY: Options = Options {
     amplifier: Amplifier::Replay,

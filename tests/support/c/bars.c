@@ -105,10 +105,10 @@ static const char *const coord_fragment =
     "    gl_FragColor = vec4(wall ? mix(vec3(80.0, 96.0, 128.0), vec3(112.0, 128.0, 160.0), light) / 255.0 : colour, 1.0);\n"
     "}\n";
 static const char *const new_vertex =
-    "#version 330 core\nuniform mat4 camera;\nin vec3 place, paint;\nout vec3 mv_moved;\n"
-    "void main() { mv_moved = paint; gl_Position = camera * vec4(place, 1.0); }\n";
+    "#version 330 core\nuniform mat4 camera;\nin vec3 place, paint;\nout vec3 mv_displacement;\n"
+    "void main() { mv_displacement = paint; gl_Position = camera * vec4(place, 1.0); }\n";
 static const char *const new_fragment =
-    "#version 330 core\nin vec3 mv_moved;\nout vec4 shown;\nvoid main() { shown = vec4(mv_moved, 1.0); }\n";
+    "#version 330 core\nin vec3 mv_displacement;\nout vec4 shown;\nvoid main() { shown = vec4(mv_displacement, 1.0); }\n";
 static const char *const several_fragment =
     "#version 120\nvarying vec3 colour;\nvoid main() { gl_FragData[0] = vec4(colour, 1.0); gl_FragData[1] = vec4(1.0); }\n";
 static const char *const geometry_vertex =

@@ -103,18 +103,23 @@ fn what_is_flat_spoils_the_depths_where_it_writes_them() {
     let drawn = next(&scene(), &begun()).known;
     for harmless in [DepthState::Off, DepthState::TestOnly] {
         let decision = next(&flat(harmless), &drawn);
-        assert!(!decision.known.depths.spoilt && decision.known.depths.pending);
+        assert!(!decision.known.depths.overwritten && decision.known.depths.pending);
     }
-    let spoilt = next(&flat(DepthState::On), &drawn);
-    assert!(spoilt.effects.contains(&Effect::TakeDepths));
-    assert!(spoilt.known.depths.spoilt && !spoilt.known.depths.pending);
+    let overwritten = next(&flat(DepthState::On), &drawn);
+    assert!(overwritten.effects.contains(&Effect::TakeDepths));
+    assert!(overwritten.known.depths.overwritten && !overwritten.known.depths.pending);
     // Later draws are ignored until the depths are cleared.
-    let more = next(&scene(), &spoilt.known);
+    let more = next(&scene(), &overwritten.known);
     let cleared = next(&clear(true), &more.known);
     assert!(!cleared.effects.contains(&Effect::TakeDepths));
-    assert!(!cleared.known.depths.spoilt);
+    assert!(!cleared.known.depths.overwritten);
     // Before any scene there is nothing to spoil.
-    assert!(!next(&flat(DepthState::On), &begun()).known.depths.spoilt);
+    assert!(
+        !next(&flat(DepthState::On), &begun())
+            .known
+            .depths
+            .overwritten
+    );
 }
 
 #[test]
@@ -189,9 +194,9 @@ fn state_is_read_only_where_something_depends_on_it() {
         ..plain
     };
     assert_eq!(asked(draw, Class::Flat, &differing, &apart), Touch::DEPTH);
-    let mut together = differing;
-    together.together = true;
-    assert_eq!(asked(draw, Class::Flat, &together, &apart), Touch::NONE);
+    let mut replays_all = differing;
+    replays_all.replays_all = true;
+    assert_eq!(asked(draw, Class::Flat, &replays_all, &apart), Touch::NONE);
     let synthesises = Settings {
         synthesises: true,
         ..plain

@@ -6,6 +6,7 @@ use crate::config::{Camera, DepthRange, DepthState, Viewport};
 use crate::gl::{FramebufferName, ProgramName, TextureName, consts as c};
 use crate::plan::Rig;
 use crate::plan::class::{Target, Traits, Why};
+use crate::plan::reason::{Missing, Reason, Replayed, Unrepresentable};
 use crate::state::ClassificationState;
 
 mod classes;

@@ -129,14 +129,15 @@ fn the_depths_of_the_frame_before_are_measured_first() {
 #[test]
 fn grids_retreat_from_what_they_cannot_hold() {
     let lens = GridFacts {
+        demand: Demand::None,
         aligned: true,
-        leans: true,
+        slanted: true,
         stippled: false,
         outlined: false,
     };
     let scaled = GridFacts {
         aligned: false,
-        leans: false,
+        slanted: false,
         ..lens
     };
     let of = |grid: GridFacts, change: &dyn Fn(&mut Facts)| {
@@ -144,7 +145,7 @@ fn grids_retreat_from_what_they_cannot_hold() {
         facts.grid = Some(grid);
         change(&mut facts);
         match decide(&facts, &known(), &settings(Strategy::Replay)) {
-            Err(Preparation::Remake(detail, _)) => Some(detail),
+            Err(Preparation::ChangeGrid(detail, _)) => Some(detail),
             _ => None,
         }
     };
@@ -201,14 +202,37 @@ fn grids_retreat_from_what_they_cannot_hold() {
 
 #[test]
 fn demands_of_display_lists_are_met_where_they_are_not_already() {
-    let everything = Demand::Everything("does this");
+    let everything = Demand::Everything(Unrepresentable::Copies);
     assert_eq!(
         retreat(everything, false, false),
-        Some((Detail::Full, "does this"))
+        Some((Detail::Full, Unrepresentable::Copies))
     );
     assert_eq!(retreat(everything, true, false), None);
-    let thin = |aligned| retreat(Demand::Thin, false, aligned).map(|(detail, _)| detail);
-    assert_eq!(thin(true), Some(Detail::Scaled));
-    assert_eq!(thin(false), None);
+    let lines_or_points =
+        |aligned| retreat(Demand::LinesOrPoints, false, aligned).map(|(detail, _)| detail);
+    assert_eq!(lines_or_points(true), Some(Detail::Scaled));
+    assert_eq!(lines_or_points(false), None);
     assert_eq!(retreat(Demand::None, false, true), None);
+}
+
+#[test]
+fn a_demand_changes_the_grid_before_anything_is_drawn() {
+    let of = |demand: Demand, aligned: bool| {
+        let mut facts = scene();
+        facts.grid = Some(GridFacts {
+            demand,
+            aligned,
+            slanted: false,
+            stippled: false,
+            outlined: false,
+        });
+        decide(&facts, &known(), &settings(Strategy::Replay)).err()
+    };
+    let what = Unrepresentable::ForeignLists;
+    let full = Preparation::ChangeGrid(Detail::Full, what);
+    assert_eq!(of(Demand::Everything(what), true), Some(full));
+    assert_eq!(of(Demand::Everything(what), false), Some(full));
+    let lines = Preparation::ChangeGrid(Detail::Scaled, Unrepresentable::ListsOfLines);
+    assert_eq!(of(Demand::LinesOrPoints, true), Some(lines));
+    assert_eq!(of(Demand::LinesOrPoints, false), None);
 }

@@ -1,6 +1,7 @@
 //! Scenes that are drawn to some views only, and where the others are synthesised.
 
 use super::*;
+use crate::plan::reason::NotOfScene;
 
 fn synthesising() -> Settings {
     Settings {
@@ -39,7 +40,7 @@ fn drawn() -> Known {
 }
 
 /// Why a draw does not belong to the scene; none where it does.
-fn parted(facts: &Facts, known: &Known) -> Option<&'static str> {
+fn parted(facts: &Facts, known: &Known) -> Option<NotOfScene> {
     let decision = next(facts, known);
     let why = decision.effects.iter().find_map(|effect| match effect {
         Effect::Fallback(Reason::SynthesisedBefore(why)) => Some(*why),
@@ -85,11 +86,11 @@ fn other_clears_begin_none() {
     impossible.synthesis.possible = false;
     assert!(!begins(&impossible));
     // A view that is drawn for the first time has no earlier picture.
-    let mut joins = clear(c::DEPTH_BUFFER_BIT);
-    joins.synthesis.joins = true;
-    assert!(!begins(&joins));
-    joins.traits.kind = clear(ALL_BUFFERS).traits.kind;
-    assert!(begins(&joins));
+    let mut new_view = clear(c::DEPTH_BUFFER_BIT);
+    new_view.synthesis.adds_views = true;
+    assert!(!begins(&new_view));
+    new_view.traits.kind = clear(ALL_BUFFERS).traits.kind;
+    assert!(begins(&new_view));
     let mut late = known();
     late.synthesised = true;
     assert!(next(&clear(ALL_BUFFERS), &late).known.scene.is_none());
@@ -99,7 +100,10 @@ fn other_clears_begin_none() {
 
 #[test]
 fn a_scene_that_was_drawn_ends_at_the_next_clear() {
-    assert_eq!(parted(&clear(ALL_BUFFERS), &drawn()), Some("another clear"));
+    assert_eq!(
+        parted(&clear(ALL_BUFFERS), &drawn()),
+        Some(NotOfScene::Clear)
+    );
     // Nothing is lost where the scene was shown and is cleared wholly.
     let mut shown = drawn();
     shown.scene.as_mut().expect("a scene").shown = true;
@@ -109,7 +113,7 @@ fn a_scene_that_was_drawn_ends_at_the_next_clear() {
     assert!(colours.known.scene.is_some());
     let mut part = clear(ALL_BUFFERS);
     part.clear.unscissored = false;
-    assert_eq!(parted(&part, &shown), Some("another clear"));
+    assert_eq!(parted(&part, &shown), Some(NotOfScene::Clear));
     // A second clear before any draw does not end the scene.
     assert!(
         next(&clear(c::COLOR_BUFFER_BIT), &begun())
@@ -146,33 +150,30 @@ fn what_does_not_belong_has_its_reason() {
     let (begun, drawn) = (begun(), drawn());
     assert_eq!(of(&drawn, &|_| ()), None);
     let why = of(&drawn, &|f| f.state.stencil = true);
-    assert_eq!(why, Some("draws with a stencil test"));
+    assert_eq!(why, Some(NotOfScene::Stencil));
     let why = of(&drawn, &|f| f.state.stipple = true);
-    assert_eq!(why, Some("draws with a stipple of the screen's"));
-    let pictures = Some("pictures and pixels");
+    assert_eq!(why, Some(NotOfScene::Stipple));
+    let pictures = Some(NotOfScene::Pixels);
     assert_eq!(of(&drawn, &|f| f.reads_views = true), pictures);
     assert_eq!(of(&drawn, &|f| f.traits.kind = Kind::Pixels), pictures);
     assert_eq!(of(&drawn, &|f| f.traits.kind = Kind::Accum), pictures);
     let inset = of(&drawn, &|f| f.traits.viewport = Viewport::Inset);
-    assert_eq!(inset, Some("a picture in the picture"));
+    assert_eq!(inset, Some(NotOfScene::PictureInPicture));
     let blends = of(&drawn, &|f| f.state.blends = true);
-    assert_eq!(blends, Some("what is transparent"));
+    assert_eq!(blends, Some(NotOfScene::Transparent));
     let tests = of(&drawn, &|f| f.state.depth = DepthState::TestOnly);
-    assert_eq!(tests, Some("what has no depths"));
+    assert_eq!(tests, Some(NotOfScene::WithoutDepths));
     let off = of(&drawn, &|f| {
         f.state.depth = DepthState::Off;
         f.synthesis.over_last = true;
     });
-    assert_eq!(off, Some("what has no depths"));
+    assert_eq!(off, Some(NotOfScene::WithoutDepths));
     let viewport = of(&drawn, &|f| f.rects.viewport = [0, 0, 320, 480]);
-    assert_eq!(viewport, Some("another projection"));
+    assert_eq!(viewport, Some(NotOfScene::OtherProjection));
     let focal = of(&drawn, &|f| f.classed.focal = Some(2.0));
-    assert_eq!(
-        focal,
-        Some("a part of the scene with zero parallax of its own")
-    );
+    assert_eq!(focal, Some(NotOfScene::OwnFocalDepth));
     let flat = |f: &mut Facts| f.classed = classed(Class::Flat);
-    assert_eq!(of(&drawn, &flat), Some("what is flat"));
+    assert_eq!(of(&drawn, &flat), Some(NotOfScene::Flat));
     // Before the scene a flat draw belongs to it, if it lies on the panel and writes no depths.
     let flat_early = |depth: DepthState, stands: f64| {
         of(&begun, &|f| {
@@ -181,7 +182,7 @@ fn what_does_not_belong_has_its_reason() {
             f.state.depth = depth;
         })
     };
-    let elsewhere = Some("what is flat and stands elsewhere than on the panel");
+    let elsewhere = Some(NotOfScene::FlatElsewhere);
     assert_eq!(flat_early(DepthState::Off, 0.0), None);
     assert_eq!(flat_early(DepthState::On, 0.0), elsewhere);
     assert_eq!(flat_early(DepthState::Off, 0.5), elsewhere);
@@ -196,9 +197,15 @@ fn skies_stand_behind_the_scene() {
         parted(&facts, known)
     };
     assert_eq!(sky(&begun(), DepthState::Off), None);
-    assert_eq!(sky(&drawn(), DepthState::Off), Some("a sky over the scene"));
+    assert_eq!(
+        sky(&drawn(), DepthState::Off),
+        Some(NotOfScene::SkyOverScene)
+    );
     assert_eq!(sky(&drawn(), DepthState::TestOnly), None);
-    assert_eq!(sky(&begun(), DepthState::On), Some("a sky with depths"));
+    assert_eq!(
+        sky(&begun(), DepthState::On),
+        Some(NotOfScene::SkyWithDepths)
+    );
     let mut facts = scene();
     facts.classed = classed(Class::Sky);
     facts.state.depth = DepthState::Off;
@@ -224,6 +231,11 @@ fn passes_over_a_surface_have_its_depths() {
     let mut off = over;
     off.state.depth = DepthState::Off;
     assert!(!is_over_candidate(&off));
+    let mut tests_only = scene();
+    tests_only.state.depth = DepthState::TestOnly;
+    assert!(is_over_candidate(&tests_only), "opaque, without depths");
+    tests_only.classed = classed(Class::Flat);
+    assert!(!is_over_candidate(&tests_only));
 }
 
 #[test]
@@ -299,30 +311,42 @@ fn a_weapon_in_a_part_of_the_depth_range_stands_before_the_scene() {
     assert!(parted(&of([0.0, 0.1]), &whole).is_none());
     let mut third = next(&of([0.0, 0.3]), &whole).known;
     third.synthesised = false;
-    assert_eq!(parted(&of([0.0, 0.1]), &third), Some("another projection"));
+    assert_eq!(
+        parted(&of([0.0, 0.1]), &third),
+        Some(NotOfScene::OtherProjection)
+    );
 }
 
 #[test]
 fn frames_know_whether_something_in_perspective_wrote_depth() {
-    let deep = |change: &dyn Fn(&mut Facts), known: &Known| {
+    let wrote_depth = |change: &dyn Fn(&mut Facts), known: &Known| {
         let mut facts = scene();
         change(&mut facts);
-        decided(&facts, known, Strategy::Replay).known.frame.deep
+        decided(&facts, known, Strategy::Replay)
+            .known
+            .frame
+            .wrote_depth
     };
     let known = known();
-    assert!(deep(&|_| (), &known));
-    assert!(!deep(&|f| f.traits.depth_state = DepthState::Off, &known));
-    assert!(!deep(
+    assert!(wrote_depth(&|_| (), &known));
+    assert!(!wrote_depth(
+        &|f| f.traits.depth_state = DepthState::Off,
+        &known
+    ));
+    assert!(!wrote_depth(
         &|f| f.traits.projection = Projection::Orthographic,
         &known
     ));
-    assert!(!deep(&|f| f.traits.range = DepthRange::Far, &known));
-    assert!(!deep(&|f| f.traits.first = false, &known));
-    assert!(!deep(&|f| f.traits.target = Target::Framebuffer(1), &known));
+    assert!(!wrote_depth(&|f| f.traits.range = DepthRange::Far, &known));
+    assert!(!wrote_depth(&|f| f.traits.first = false, &known));
+    assert!(!wrote_depth(
+        &|f| f.traits.target = Target::Framebuffer(1),
+        &known
+    ));
     let mut after = known;
-    after.frame.deep = true;
+    after.frame.wrote_depth = true;
     let cleared = |f: &mut Facts| *f = clear(ALL_BUFFERS);
-    assert!(!deep(&cleared, &after));
+    assert!(!wrote_depth(&cleared, &after));
     let mut counted = scene();
     counted.traits.draw = 7;
     let decision = decided(&counted, &known, Strategy::Replay);

@@ -104,12 +104,37 @@ fn pixels_and_clears_go_by_no_variant() {
 }
 
 #[test]
+fn whole_buffers_have_no_shift() {
+    for kind in [
+        Kind::Accum,
+        Kind::Clear {
+            depths: true,
+            whole: 0,
+        },
+    ] {
+        for class in [Class::Scene, Class::Sky, Class::Flat] {
+            let mut facts = scene();
+            facts.traits.kind = kind;
+            facts.classed = Classed {
+                depth: 0.5,
+                ..classed(class)
+            };
+            let plan = decided(&facts, &known(), Strategy::Replay).plan;
+            assert_eq!(plan.shear, None, "{class:?}");
+        }
+    }
+}
+
+#[test]
 fn all_views_at_once_where_layers_and_instances_are_free() {
     let at_once = |change: &dyn Fn(&mut Facts), known: &Known, strategy: Strategy| {
         let mut facts = with_variant(|variant| variant.to_layers = Linked::Yes);
         facts.destination.layered = true;
         change(&mut facts);
-        decided(&facts, known, strategy).plan.method == Method::Instanced
+        let plan = decided(&facts, known, strategy).plan;
+        let instanced = plan.method == Method::Instanced;
+        assert!(!instanced || plan.reason.is_none(), "nothing is refused");
+        instanced
     };
     let (known, instanced) = (known(), Strategy::Instanced);
     assert!(at_once(&|_| (), &known, instanced));
@@ -122,11 +147,11 @@ fn all_views_at_once_where_layers_and_instances_are_free() {
     assert!(!at_once(&|f| f.counted = true, &known, instanced));
     assert!(!at_once(&|f| f.reads_views = true, &known, instanced));
     assert!(!at_once(&|f| f.traits.kind = Kind::List, &known, instanced));
-    let together = Known {
-        together: true,
+    let replays_all = Known {
+        replays_all: true,
         ..known
     };
-    assert!(!at_once(&|_| (), &together, instanced));
+    assert!(!at_once(&|_| (), &replays_all, instanced));
     let change = |f: &mut Facts, change: &dyn Fn(&mut VariantFacts)| {
         let Shaders::Variant(variant) = &mut f.shaders else {
             panic!("a variant")
@@ -153,11 +178,7 @@ fn a_picture_of_a_view_stands_where_that_view_has_it() {
     let plan = decided(&facts, &known(), Strategy::Geometry).plan;
     assert_eq!(plan.method, Method::Replay);
     assert!(plan.shear.is_some());
-    let why = plan.reason.map(|why| why.to_string()).unwrap_or_default();
-    assert!(
-        why.contains("texture that each view has its own of"),
-        "{why}"
-    );
+    assert_eq!(plan.reason, Some(Reason::Replayed(Replayed::SplitTexture)));
     let mut facts = with_variant(|_| ());
     facts.reads_views = true;
     facts.classed = Classed {

@@ -2,9 +2,9 @@
 
 use super::*;
 
-fn method(facts: &Facts, strategy: Strategy) -> (Method, Option<String>) {
+fn method(facts: &Facts, strategy: Strategy) -> (Method, Option<Reason>) {
     let plan = decided(facts, &known(), strategy).plan;
-    (plan.method, plan.reason.map(|reason| reason.to_string()))
+    (plan.method, plan.reason)
 }
 
 fn of(kind: Kind) -> Facts {
@@ -43,21 +43,17 @@ fn what_only_replay_knows_is_replayed_and_says_so() {
     };
     for strategy in [Strategy::Instanced, Strategy::Geometry] {
         let lists = why(&of(Kind::List), strategy);
-        assert_eq!(lists.as_deref(), Some("display lists are replayed"));
+        assert_eq!(lists, Some(Reason::Replayed(Replayed::Lists)));
         let other = why(&of(Kind::Other), strategy);
-        assert!(other.is_some_and(|why| why.contains("evaluators")));
+        assert_eq!(other, Some(Reason::Replayed(Replayed::OtherCommands)));
         // Such a replay needs no reason.
         assert_eq!(why(&of(Kind::Pixels), strategy), None);
         let mut own = scene();
         own.shaders = Shaders::WithoutVariant(ProgramName(2));
-        let why = why(&own, strategy);
-        assert_eq!(
-            why.as_deref(),
-            Some("the program's own shaders are replayed")
-        );
+        assert_eq!(why(&own, strategy), Some(Reason::Program));
     }
     let begun = why(&of(Kind::Begin(c::TRIANGLES)), Strategy::Instanced);
-    assert!(begun.is_some_and(|why| why.starts_with("immediate-mode draws")));
+    assert_eq!(begun, Some(Reason::Replayed(Replayed::Immediate)));
 }
 
 #[test]
@@ -68,12 +64,12 @@ fn drivers_that_lack_something_are_named() {
         let decision = decide(&scene(), &known(), &settings).expect("a decision");
         let Decision { plan, .. } = decision;
         assert_eq!(plan.method, Method::Replay);
-        plan.reason.map(|why| why.to_string()).unwrap_or_default()
+        plan.reason
     };
     let why = of(Strategy::Instanced, |s| s.instanced = false);
-    assert!(why.contains("clip distances"), "{why}");
+    assert_eq!(why, Some(Reason::Driver(Missing::Instancing)));
     let why = of(Strategy::Geometry, |s| s.geometry = false);
-    assert!(why.contains("geometry shaders"), "{why}");
+    assert_eq!(why, Some(Reason::Driver(Missing::GeometryShaders)));
 }
 
 #[test]
@@ -82,10 +78,7 @@ fn counted_draws_are_replayed() {
     facts.counted = true;
     let (method, why) = method(&facts, Strategy::Geometry);
     assert_eq!(method, Method::Replay);
-    assert_eq!(
-        why.as_deref(),
-        Some("draws that a query counts are replayed")
-    );
+    assert_eq!(why, Some(Reason::Replayed(Replayed::Counted)));
 }
 
 #[test]
@@ -105,7 +98,7 @@ fn passes_that_meet_in_every_pixel_go_the_same_way() {
     let mut facts = scene();
     let before = decide(&facts, &known(), &apart).expect("a decision");
     assert_eq!(before.plan.method, Method::Geometry);
-    assert!(!before.known.together);
+    assert!(!before.known.replays_all);
     facts.state.equal = true;
     let equal = decide(&facts, &before.known, &apart).expect("a decision");
     assert_eq!(equal.plan.method, Method::Replay);
@@ -113,15 +106,15 @@ fn passes_that_meet_in_every_pixel_go_the_same_way() {
     facts.state.equal = false;
     let after = decide(&facts, &equal.known, &apart).expect("a decision");
     assert_eq!(after.plan.method, Method::Replay);
-    assert!(after.known.together);
+    assert!(after.known.replays_all);
     // Not where the depths are equal anyway, nor because of a draw to another framebuffer.
     facts.state.equal = true;
     let same = decided(&facts, &known(), Strategy::Geometry);
-    assert!(!same.known.together);
+    assert!(!same.known.replays_all);
     facts.destination.framebuffer = FramebufferName(4);
     facts.classed = classed(Class::OffScreen);
     let elsewhere = decide(&facts, &known(), &apart).expect("a decision");
-    assert!(!elsewhere.known.together);
+    assert!(!elsewhere.known.replays_all);
 }
 
 #[test]

@@ -7,9 +7,9 @@ const KEPT: usize = 1000;
 
 /// Frames whose views are partly synthesised, the oldest first.
 #[derive(Debug, Default)]
-pub(super) struct Walk(VecDeque<(f32, u32)>);
+pub(super) struct TrueViews(VecDeque<(f32, u32)>);
 
-impl Walk {
+impl TrueViews {
     pub(super) fn frame(&mut self, ms: f32, drawn: u32) {
         if self.0.len() == KEPT {
             self.0.pop_front();

@@ -16,7 +16,7 @@ use super::version::Version;
 pub(super) fn write_displacement(names: &Names) -> String {
     format!(
         "(gl_FragCoord.x - {}.x * gl_FragCoord.w)",
-        names.other("moved")
+        names.other("displacement")
     )
 }
 
@@ -26,7 +26,7 @@ pub(super) fn declaration(names: &Names, version: Version) -> String {
         true => "in",
         false => "varying",
     };
-    format!("{direction} vec2 {};", names.other("moved"))
+    format!("{direction} vec2 {};", names.other("displacement"))
 }
 
 /// Rewrites a fragment shader; `declared`: the varying is declared already.
@@ -63,18 +63,20 @@ pub(super) fn wrap(
     let built_in = facts.writes_built_in();
     let output = match built_in {
         true => "gl_FragData[1]".to_owned(),
-        false => names.beside(),
+        false => names.displacement_output(),
     };
     if !built_in {
         edits.append(format!("out vec4 {output};"));
     }
-    let moved = names.other("moved");
+    let displacement = names.other("displacement");
     edits.append("void main() {");
     edits.append(format!("    {}();", names.other("main")));
     // The discard comes last, because textures that are sampled after it have no gradients.
-    edits.append(format!("    if ({moved}.y < 0.999)"));
+    edits.append(format!("    if ({displacement}.y < 0.999)"));
     edits.append("        discard;");
-    edits.append(format!("    {output} = vec4({moved}.x * gl_FragCoord.w);"));
+    edits.append(format!(
+        "    {output} = vec4({displacement}.x * gl_FragCoord.w);"
+    ));
     edits.append("}");
     Ok(())
 }

@@ -1,0 +1,182 @@
+//! The facts of a command, and the requests of hooks, on the fake driver.
+#![forbid(unsafe_code)]
+
+use super::Request;
+use crate::config::Projection;
+use crate::gl::{FramebufferName, ListName, consts as c};
+use crate::layer::tests::bench::Bench;
+use crate::layer::tests::variants::program;
+use crate::plan::class::Target;
+use crate::plan::{Facts, Kind};
+use crate::state::Touch;
+
+const CLEAR: Kind = Kind::Clear {
+    depths: true,
+    whole: c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT,
+};
+const TRIANGLES: Kind = Kind::Arrays(c::TRIANGLES);
+
+fn bench(options: &[(&str, &str)]) -> Bench {
+    let options = [("VIEWS", "4")].into_iter().chain(options.iter().copied());
+    let mut bench = Bench::new(&options.collect::<Vec<_>>());
+    bench.look();
+    bench
+}
+
+impl Bench {
+    fn facts(&mut self, kind: Kind) -> Facts {
+        let gl = self.gl;
+        self.layer.state.refresh(&gl);
+        self.layer.observe(&gl, &Request::of(kind)).0
+    }
+}
+
+#[test]
+fn a_scissor_box_around_the_window_cuts_nothing_off() {
+    let mut bench = bench(&[]);
+    assert!(bench.facts(CLEAR).clear.unscissored);
+    bench.set(Touch::RECTS, |gl| gl.enable(c::SCISSOR_TEST));
+    for (scissor, whole) in [
+        ([0, 0, 64, 48], true),
+        ([-5, -7, 69, 55], true),
+        ([-5, -7, 68, 55], false),
+        ([-5, -7, 69, 54], false),
+        ([0, 0, 63, 48], false),
+        ([0, 0, 64, 47], false),
+        ([1, 0, 64, 48], false),
+        ([0, 1, 64, 48], false),
+    ] {
+        let [x, y, w, h] = scissor;
+        bench.set(Touch::RECTS, |gl| gl.scissor(x, y, w, h));
+        assert_eq!(bench.facts(CLEAR).clear.unscissored, whole, "{scissor:?}");
+        assert_eq!(bench.facts(TRIANGLES).rects.scissor, Some(scissor));
+    }
+    bench.set(Touch::RECTS, |gl| gl.disable(c::SCISSOR_TEST));
+    assert!(bench.facts(CLEAR).clear.unscissored);
+    assert_eq!(bench.facts(TRIANGLES).rects.scissor, None);
+}
+
+#[test]
+fn draws_are_counted_and_know_what_came_before_them() {
+    let mut bench = bench(&[]);
+    bench.clear();
+    let traits = bench.facts(TRIANGLES).traits;
+    assert_eq!((traits.draw, traits.first), (1, true));
+    assert_eq!(traits.projection, Projection::Perspective);
+    bench.draw();
+    let traits = bench.facts(TRIANGLES).traits;
+    assert_eq!((traits.draw, traits.first), (2, false));
+    // A clear is not counted, and begins anew.
+    let traits = bench.facts(CLEAR).traits;
+    assert_eq!((traits.draw, traits.first), (1, true));
+}
+
+#[test]
+fn a_draw_of_a_list_says_so() {
+    let mut bench = bench(&[]);
+    assert_eq!(bench.facts(TRIANGLES).traits.list, None);
+    bench.layer.frame.calls(Some(ListName(7)));
+    assert_eq!(bench.facts(TRIANGLES).traits.list, Some(ListName(7)));
+}
+
+#[test]
+fn the_raster_position_says_by_which_projection_it_was_placed() {
+    let mut bench = bench(&[]);
+    assert_eq!(bench.facts(Kind::Pixels).traits.raster, Projection::None);
+    let gl = bench.gl;
+    bench.layer.placed_raster(&gl);
+    let placed = bench.facts(Kind::Pixels);
+    assert_eq!(placed.traits.raster, Projection::Perspective);
+    bench.layer.placed_in_window();
+    assert_eq!(bench.facts(Kind::Pixels).traits.raster, Projection::None);
+}
+
+#[test]
+fn a_program_is_told_by_its_number_where_somebody_asks() {
+    for (options, asked) in [
+        (&[][..], false),
+        (&[("EXPLAIN", "explained")][..], true),
+    ] {
+        let mut bench = bench(options);
+        let fixed = bench.facts(TRIANGLES).traits;
+        assert_eq!((fixed.program, fixed.shader), (0, 0));
+        program(&mut bench);
+        bench.layer.touch(Touch::OBJECTS);
+        let traits = bench.facts(TRIANGLES).traits;
+        assert_eq!(traits.program > 0, asked);
+        assert_eq!(traits.shader != 0, asked);
+    }
+}
+
+#[test]
+fn draws_say_where_they_go() {
+    let mut bench = bench(&[]);
+    let window = bench.facts(TRIANGLES);
+    assert_eq!(window.traits.target, Target::Window);
+    assert!(window.destination.picture && window.destination.is_window());
+    let gl = bench.gl;
+    let own = bench.fake.program(|gl| gl.gen_framebuffer());
+    bench
+        .layer
+        .bind_framebuffer(c::FRAMEBUFFER, own, &mut |target, name| {
+            gl.bind_framebuffer(target, name);
+        });
+    let aside = bench.facts(TRIANGLES);
+    assert!(matches!(
+        aside.traits.target,
+        Target::Framebuffer(_) | Target::Pass(_)
+    ));
+    assert_eq!(aside.destination.framebuffer, own);
+    assert!(!aside.destination.is_window());
+    // Without a camera of the window's, it is no pass of the scene.
+    bench.layer.bind_framebuffer(
+        c::FRAMEBUFFER,
+        FramebufferName::ZERO,
+        &mut |target, name| {
+            gl.bind_framebuffer(target, name);
+        },
+    );
+    assert_eq!(bench.facts(TRIANGLES).traits.target, Target::Window);
+}
+
+#[test]
+fn a_clear_begins_a_scene_and_a_draw_does_not() {
+    let options = [("STRATEGY", "depth-image"), ("OUTPUT", "panel")];
+    let mut bench = bench(&options);
+    let (clear, draw) = (bench.facts(CLEAR), bench.facts(TRIANGLES));
+    assert!(clear.synthesis.possible && !draw.synthesis.possible);
+    assert!(!clear.synthesis.over_last && !draw.synthesis.over_last);
+    bench.clear();
+    bench.draw();
+    assert!(bench.layer.known.scene.is_some_and(|scene| scene.begun));
+    bench.fake.forget();
+    bench.draw();
+    assert_eq!(
+        bench.drawn("glDrawArrays").len(),
+        1,
+        "in the own view alone"
+    );
+    // A draw that writes no depths, of vertices that cannot be compared, ends the scene.
+    bench.set(Touch::DEPTH, |gl| gl.depth_mask(0));
+    bench.fake.forget();
+    bench.draw();
+    assert!(bench.layer.known.scene.is_none() && bench.layer.known.synthesised);
+}
+
+#[test]
+fn a_request_that_is_no_surface_has_no_reference_image() {
+    let mut bench = bench(&[("STRATEGY", "occlusion"), ("OUTPUT", "panel")]);
+    // The map is that of the frame before.
+    for _ in 0..3 {
+        bench.frame();
+    }
+    bench.clear();
+    let gl = bench.gl;
+    bench.layer.state.refresh(&gl);
+    let mut request = Request::of(Kind::List);
+    let with = bench.layer.observe(&gl, &request).0;
+    assert!(with.synthesis.reference.is_some());
+    request.surfaces = false;
+    let without = bench.layer.observe(&gl, &request).0;
+    assert_eq!(without.synthesis.reference, None);
+}

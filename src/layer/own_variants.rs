@@ -1,0 +1,382 @@
+//! Variants of the program's own shaders, and the uniforms of its programs that the layer follows.
+
+use crate::draw::{Drawn, NoVariant, Variant};
+use crate::gl::{Gl, Held, ImageUnit, ProgramName};
+use crate::plan::camera;
+use crate::plan::decide::Linked as Linking;
+use crate::state::{Matrices, Samplers, link_change, uniform_change};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The programs that were drawn with, by name.
+#[derive(Debug, Default)]
+pub(super) struct OwnVariants {
+    known: HashMap<ProgramName, ProgramRecord>,
+    /// Programs that were deleted while in use. Such a program has to live until the program uses another one, so the layer deletes it only
+    /// then: the layer itself uses others before.
+    pending_deletion: Vec<ProgramName>,
+}
+
+/// What a variant is wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum VariantUse {
+    /// One view, in whatever framebuffer.
+    Views,
+    /// One view in its layer, if there is a variant that chooses it; else as [`VariantUse::Views`].
+    Layers,
+    /// All views in their layers.
+    Instances,
+    /// The reference image of an occlusion camera.
+    Rays,
+}
+
+/// A variant in use.
+#[derive(Clone, Debug)]
+pub(super) struct Entered {
+    pub(super) variant: Arc<Variant>,
+    /// It chooses layers.
+    pub(super) layers: bool,
+}
+
+/// The camera of a program.
+#[derive(Clone, Copy, Debug)]
+struct Camera {
+    /// Index of its matrix among those of the program; `matrix` is the value, column-major.
+    at: usize,
+    matrix: [f32; 16],
+    /// See [`camera::equivalent`].
+    projection: [f32; 16],
+}
+
+/// State of the search for a program's camera.
+#[derive(Debug)]
+struct CameraSearch {
+    /// The last camera that was found among its matrices.
+    found: Option<Camera>,
+    /// None of its matrices has a perspective now.
+    lost: bool,
+    /// [`uniform_change`] at the last search.
+    seen: u64,
+}
+
+/// Record of one program: its variants, and its uniforms that the layer follows.
+#[derive(Debug)]
+pub(super) struct ProgramRecord {
+    /// The link of the program that the record belongs to.
+    link: u64,
+    /// [`link_change`] when this was last known to be the program's last link.
+    checked: u64,
+    how: Result<Drawn, NoVariant>,
+    /// The variants that choose layers, for one view and for all: none until one is wanted, `Some(None)` where there cannot be one.
+    layered: [Option<Option<Arc<Variant>>>; 2],
+    /// The variant that distorts rays, once it has been wanted.
+    distorting: Option<Result<Arc<Variant>, NoVariant>>,
+    matrices: Matrices,
+    samplers: Samplers,
+    /// [`uniform_change`] when the samplers were last read, and their texture units with the targets.
+    units: (u64, Vec<(u32, u32)>),
+    /// Its matrices that unproject depths, with their locations. Before them: [`uniform_change`] and the aspect ratio that they were found
+    /// for.
+    unprojections: (u64, f64, Vec<(i32, [f32; 16])>),
+    camera: CameraSearch,
+    /// [`uniform_change`] when uniforms were last copied to its variants, by [`VariantUse`].
+    followed: [u64; 4],
+}
+
+impl ProgramRecord {
+    /// Record of the link of this number: how the program is drawn, its matrices and its samplers. `checked` is [`link_change`] before they
+    /// were read.
+    pub(super) fn new(
+        (link, checked): (u64, u64),
+        how: Result<Drawn, NoVariant>,
+        matrices: Matrices,
+        samplers: Samplers,
+    ) -> Self {
+        ProgramRecord {
+            link,
+            checked,
+            how,
+            matrices,
+            samplers,
+            units: (0, Vec::new()),
+            unprojections: (0, 0.0, Vec::new()),
+            camera: CameraSearch {
+                found: None,
+                lost: true,
+                seen: 0,
+            },
+            followed: [0; 4],
+            layered: [None, None],
+            distorting: None,
+        }
+    }
+
+    /// Names of its variants.
+    fn variants(&self) -> impl Iterator<Item = ProgramName> {
+        let whole = match &self.how {
+            Ok(Drawn::ByVariant(variant)) => Some(variant),
+            _ => None,
+        };
+        let layered = self.layered.iter().flatten().flatten();
+        let distorting = self.distorting.iter().flatten();
+        whole
+            .into_iter()
+            .chain(layered)
+            .chain(distorting)
+            .map(|variant| variant.name())
+    }
+}
+
+impl OwnVariants {
+    /// Puts a variant of a program in use, with the values of the program's uniforms. None where the program has no such variant.
+    pub(super) fn enter(
+        &mut self,
+        gl: &Gl,
+        program: ProgramName,
+        with: VariantUse,
+    ) -> Option<Entered> {
+        let known = self.known.get_mut(&program)?;
+        let [alone, layer, instances, rays] = &mut known.followed;
+        let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
+        let distorting = known
+            .distorting
+            .as_ref()
+            .and_then(|distorting| distorting.as_ref().ok());
+        let (variant, followed, layers) = match (with, by_layer, by_instances, &known.how) {
+            (VariantUse::Rays, ..) => (distorting?, rays, false),
+            (VariantUse::Instances, _, Some(variant), _) => (variant, instances, true),
+            (VariantUse::Layers, Some(variant), _, _) => (variant, layer, true),
+            (VariantUse::Layers | VariantUse::Views, _, _, Ok(Drawn::ByVariant(variant))) => {
+                (variant, alone, false)
+            }
+            _ => return None,
+        };
+        gl.use_program(variant.name());
+        let change = uniform_change();
+        if std::mem::replace(followed, change) != change {
+            variant.copy_uniforms(gl, program);
+        }
+        let variant = variant.clone();
+        Some(Entered { variant, layers })
+    }
+
+    /// Notes that a program in use was deleted: it has to live until the program uses another one.
+    pub(super) fn defer_deletion(&mut self, program: ProgramName) {
+        if !self.is_pending_deletion(program) {
+            Held::Shader.count(1);
+            self.pending_deletion.push(program);
+        }
+    }
+
+    /// Whether any program waits to be deleted.
+    pub(super) fn has_pending_deletions(&self) -> bool {
+        !self.pending_deletion.is_empty()
+    }
+
+    /// Whether a program waits to be deleted.
+    pub(super) fn is_pending_deletion(&self, program: ProgramName) -> bool {
+        self.pending_deletion.contains(&program)
+    }
+
+    /// Takes the programs that wait to be deleted, but not the one in use.
+    pub(super) fn take_pending(&mut self, used: ProgramName) -> Vec<ProgramName> {
+        let all = std::mem::take(&mut self.pending_deletion).into_iter();
+        let (kept, gone) = all.partition(|&program| program == used);
+        self.pending_deletion = kept;
+        gone
+    }
+
+    /// Deletes the variants of a program that is gone.
+    pub(super) fn forget(&mut self, gl: &Gl, program: ProgramName) {
+        if let Some(known) = self.known.remove(&program) {
+            known
+                .variants()
+                .for_each(|variant| gl.delete_program(variant));
+        }
+    }
+
+    /// Keeps the record of a program's last link in the place of an older one, and deletes the variants of that.
+    pub(super) fn put(&mut self, gl: &Gl, program: ProgramName, record: ProgramRecord) {
+        self.forget(gl, program);
+        self.known.insert(program, record);
+    }
+
+    /// Whether the record of a program is of its last link, whose number `link` gives.
+    pub(super) fn is_current(&mut self, program: ProgramName, link: impl FnOnce() -> u64) -> bool {
+        let checked = link_change();
+        let Some(known) = self.known.get_mut(&program) else {
+            return false;
+        };
+        if known.checked == checked {
+            return true;
+        }
+        let same = known.link == link();
+        if same {
+            known.checked = checked;
+        }
+        same
+    }
+
+    /// Whether the variants of a program that choose layers are linked: the one of one view, and the one of all. None for a program without a
+    /// record.
+    pub(super) fn layered(&self, program: ProgramName) -> Option<[Linking; 2]> {
+        let linked = |made: &Option<Option<Arc<Variant>>>| match made {
+            None => Linking::Untried,
+            Some(None) => Linking::Refused,
+            Some(Some(_)) => Linking::Yes,
+        };
+        let known = self.known.get(&program)?;
+        Some(known.layered.each_ref().map(linked))
+    }
+
+    /// Keeps the variant that chooses layers, of one view or of `all`; none where there cannot be one.
+    pub(super) fn put_layered(
+        &mut self,
+        program: ProgramName,
+        all: bool,
+        variant: Option<Arc<Variant>>,
+    ) {
+        let known = self.known.get_mut(&program);
+        if let Some(slot) = known.and_then(|known| known.layered.get_mut(usize::from(all))) {
+            *slot = Some(variant);
+        }
+    }
+
+    /// The variant that distorts rays, or why there is none; none before it is first wanted.
+    pub(super) fn distorting(
+        &self,
+        program: ProgramName,
+    ) -> Option<&Result<Arc<Variant>, NoVariant>> {
+        self.known.get(&program)?.distorting.as_ref()
+    }
+
+    /// Keeps the variant that distorts rays, or why there is none.
+    pub(super) fn put_distorting(
+        &mut self,
+        program: ProgramName,
+        made: Result<Arc<Variant>, NoVariant>,
+    ) {
+        if let Some(known) = self.known.get_mut(&program) {
+            known.distorting = Some(made);
+        }
+    }
+
+    /// Whether none of a program's matrices has a perspective now, so that its last camera is used.
+    pub(super) fn is_lost(&self, program: ProgramName) -> bool {
+        let known = self.known.get(&program);
+        known.is_none_or(|known| known.camera.lost)
+    }
+
+    /// The matrix of a program's camera, as the program has it and as a pure projection (see [`camera::equivalent`]); both are column-major.
+    pub(super) fn projections(&self, program: ProgramName) -> Option<[[f32; 16]; 2]> {
+        let camera = self.known.get(&program)?.camera.found?;
+        Some([camera.matrix, camera.projection])
+    }
+
+    /// The matrices by which a program computes positions from depths, with their uniform locations. `aspect` is width over height of the
+    /// picture.
+    pub(super) fn unprojections(
+        &mut self,
+        gl: &Gl,
+        program: ProgramName,
+        aspect: f64,
+    ) -> Vec<(i32, [f32; 16])> {
+        let change = uniform_change();
+        let Some(known) = self.known.get_mut(&program) else {
+            return Vec::new();
+        };
+        if (known.unprojections.0, known.unprojections.1) != (change, aspect) {
+            let mut all = known.matrices.uniforms(gl, program);
+            all.retain(|(_, m)| camera::unprojects(m, aspect));
+            known.unprojections = (change, aspect, all);
+        }
+        known.unprojections.2.clone()
+    }
+
+    /// The texture units that a program samples, counted from 0, with the targets.
+    pub(super) fn units(&mut self, gl: &Gl, program: ProgramName) -> Vec<(u32, u32)> {
+        let Some(known) = self.known.get_mut(&program) else {
+            return Vec::new();
+        };
+        let change = uniform_change();
+        if known.units.0 != change {
+            known.units = (change, known.samplers.units(gl, program));
+        }
+        known.units.1.clone()
+    }
+
+    /// What is bound to the image units that a program loads and stores.
+    pub(super) fn images(&self, gl: &Gl, program: ProgramName) -> Vec<ImageUnit> {
+        let known = self.known.get(&program);
+        let units = known.map_or_else(Vec::new, |known| known.samplers.image_units(gl, program));
+        units
+            .into_iter()
+            .filter_map(|unit| gl.image_unit(unit))
+            .collect()
+    }
+
+    /// The projection of the camera of a program with a variant, column-major: `Some(None)` where no camera is found, `None` for a program
+    /// without a variant. `before_reading` is called before buffers are read, which may raise errors.
+    #[allow(clippy::option_option, reason = "a variant, and a camera")]
+    pub(super) fn camera(
+        &mut self,
+        gl: &Gl,
+        program: ProgramName,
+        aspect: f64,
+        before_reading: impl FnOnce(),
+    ) -> Option<Option<[f32; 16]>> {
+        let Some(ProgramRecord {
+            how: Ok(Drawn::ByVariant(_)),
+            matrices,
+            camera:
+                CameraSearch {
+                    found: camera,
+                    lost,
+                    seen,
+                },
+            ..
+        }) = self.known.get_mut(&program)
+        else {
+            return None;
+        };
+        let change = uniform_change();
+        let changed = std::mem::replace(seen, change) != change;
+        // The camera mostly is in the same matrix as before, and has only moved.
+        let mut search = camera.is_none();
+        if let (true, Some(found)) = (changed, camera.as_mut())
+            && let Some(matrix) = matrices.value(gl, program, found.at)
+        {
+            match camera::equivalent(&matrix) {
+                Some(projection) => {
+                    (found.matrix, found.projection, *lost) = (matrix, projection, false);
+                }
+                None => search = true,
+            }
+        }
+        // Uniform buffers are read until a camera is found. A mapped one cannot be read, and raises an error.
+        let reads = camera.is_none() && matrices.has_blocks();
+        if search && (changed || reads) {
+            if reads {
+                before_reading();
+            }
+            let values = matrices.values(gl, program, reads);
+            let found = camera::among(&values, aspect).and_then(|(at, projection)| {
+                let matrix = *values.get(at)?;
+                Some(Camera {
+                    at,
+                    matrix,
+                    projection,
+                })
+            });
+            *lost = found.is_none();
+            *camera = found.or(*camera);
+        }
+        Some(camera.map(|camera| camera.projection))
+    }
+
+    /// The names of all variants, and of the programs that wait to be deleted.
+    pub(super) fn names(&self) -> impl Iterator<Item = ProgramName> {
+        let pending_deletion = self.pending_deletion.iter().copied();
+        pending_deletion.chain(self.known.values().flat_map(ProgramRecord::variants))
+    }
+}

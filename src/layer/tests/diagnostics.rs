@@ -1,0 +1,102 @@
+//! Diagnostics: fallbacks and names for the report, and the picture that is asked for.
+
+use super::super::control::{Picture, Pictured};
+use super::super::diagnostics::Diagnostics;
+use super::bench::Bench;
+use crate::config::{Capture, CaptureWhat};
+use crate::control::{Answer, ControlError};
+use crate::gl::Held;
+use crate::plan::Reason;
+use crate::plan::reason::{Missing, Replayed};
+use crate::report::Report;
+use serde_json::{Value, json};
+
+fn told(diagnostics: &Diagnostics, member: &str) -> Value {
+    let mut report: Value = serde_json::from_str(&diagnostics.report.json()).expect("JSON");
+    report[member].take()
+}
+
+#[test]
+fn fallbacks_are_counted_by_reason_and_reported_once() {
+    let mut diagnostics = Diagnostics::new(Report::default());
+    let [lists, compile, missing] = [
+        Reason::Replayed(Replayed::Lists),
+        Reason::Compile,
+        Reason::Driver(Missing::Instancing),
+    ];
+    for reason in [&lists, &compile, &lists, &lists] {
+        diagnostics.fallback(reason.clone());
+    }
+    assert_eq!(told(&diagnostics, "fallbacks"), json!({}), "not yet");
+    diagnostics.report_fallbacks();
+    let counts = json!({lists.to_string(): 3, compile.to_string(): 1});
+    assert_eq!(told(&diagnostics, "fallbacks"), counts);
+    diagnostics.report_fallbacks();
+    assert_eq!(told(&diagnostics, "fallbacks"), counts);
+    diagnostics.fallback(lists.clone());
+    diagnostics.fallback(missing.clone());
+    diagnostics.report_fallbacks();
+    let counts = json!({lists.to_string(): 4, compile.to_string(): 1, missing.to_string(): 1});
+    assert_eq!(told(&diagnostics, "fallbacks"), counts);
+}
+
+#[test]
+fn a_frame_gives_its_fallbacks_to_the_report() {
+    let mut bench = Bench::new(&[("VIEWS", "2"), ("STRATEGY", "replay")]);
+    let fallbacks = |bench: &Bench| told(&bench.layer.diagnostics, "fallbacks");
+    bench.layer.diagnostics.fallback(Reason::Program);
+    assert_eq!(fallbacks(&bench), json!({}));
+    bench.frame();
+    assert_eq!(fallbacks(&bench), json!({Reason::Program.to_string(): 1}));
+}
+
+#[test]
+fn the_report_has_the_names_that_are_made_and_not_deleted() {
+    let mut diagnostics = Diagnostics::new(Report::default());
+    // What other contexts of this thread have made is theirs.
+    diagnostics.count_names(0);
+    let before = told(&diagnostics, "names");
+    Held::Texture.count(3);
+    Held::Texture.count(-1);
+    Held::Query.count(1);
+    diagnostics.count_names(5);
+    let after = told(&diagnostics, "names");
+    let more = |kind: &str| {
+        after[kind]
+            .as_i64()
+            .zip(before[kind].as_i64())
+            .map(|(a, b)| a - b)
+    };
+    assert_eq!(more("textures"), Some(2));
+    assert_eq!(more("queries"), Some(1));
+    assert_eq!(more("buffers"), Some(0));
+    assert_eq!(after["lists"], 5);
+}
+
+#[test]
+fn the_outcome_of_a_picture_is_taken_once() {
+    let wanted = Capture {
+        out: "/nowhere/picture.png".into(),
+        first: 0,
+        last: 0,
+        what: CaptureWhat::Output,
+    };
+    let mut picture = Picture::None;
+    assert!(!picture.is_awaited() && picture.take().is_none());
+    picture = Picture::Wanted(wanted.clone());
+    assert!(picture.is_awaited());
+    // No frame was shown, so it has to be asked for again.
+    assert!(matches!(picture.take(), Some(Pictured::Later(later)) if later == wanted));
+    assert!(!picture.is_awaited() && picture.take().is_none());
+    let outcomes = [
+        Ok(Answer::Layer(true)),
+        Err(ControlError::Picture("refused".into())),
+    ];
+    for outcome in outcomes {
+        let good = outcome.is_ok();
+        picture = Picture::Done(outcome);
+        assert!(picture.is_awaited());
+        assert!(matches!(picture.take(), Some(Pictured::Done(taken)) if taken.is_ok() == good));
+        assert!(!picture.is_awaited());
+    }
+}
