@@ -38,6 +38,9 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
 
+# The unit tests of the hooks need the driver that records calls. This does not touch libmanyview.so, which `build` alone makes.
+FAKE_DRIVER := --features manyview-shim/fake-driver
+
 # Two calls on purpose: one would give the library the features, and the code, of the command.
 build: rust ## build the command, the library and the probe
 	$(CARGO) build --release -p manyview
@@ -77,26 +80,23 @@ gallery: packages build demos ## make the pictures of docs/gallery.md
 
 test: packages build demos ## run the tests
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace; \
-	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests; fi
-	$(CARGO) test --release -p manyview-shim --features fake-driver --lib
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER); \
+	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests; fi
 	$(CARGO) test --release -p manyview --doc
 
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all -E 'not test(/^(full|programs|soak)_/)'; \
-	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored --skip full_ --skip programs_ --skip soak_; fi
-	$(CARGO) test --release -p manyview-shim --features fake-driver --lib
+	then $(CARGO) nextest run --release --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(full|programs|soak)_/)'; \
+	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip full_ --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
 test-full: packages build demos ## run all tests but those of programs, also all of piglit's and valgrind (an hour)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace --run-ignored all -E 'not test(/^(programs|soak)_/)'; \
-	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored --skip programs_ --skip soak_; fi
-	$(CARGO) test --release -p manyview-shim --features fake-driver --lib
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(programs|soak)_/)'; \
+	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
 programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (two hours)
@@ -144,7 +144,7 @@ book: ## build the manual as HTML in target/book (needs mdbook)
 
 lint: rust ## check format, clippy and documentation
 	$(CARGO) fmt --all --check
-	$(CARGO) clippy --workspace --all-targets --features manyview-shim/fake-driver -- -D warnings
+	$(CARGO) clippy --workspace --all-targets $(FAKE_DRIVER) -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --no-deps -p manyview
 
 packages: ## install the Debian packages that are missing

@@ -93,10 +93,7 @@ fn the_raster_position_says_by_which_projection_it_was_placed() {
 
 #[test]
 fn a_program_is_told_by_its_number_where_somebody_asks() {
-    for (options, asked) in [
-        (&[][..], false),
-        (&[("EXPLAIN", "explained")][..], true),
-    ] {
+    for (options, asked) in [(&[][..], false), (&[("EXPLAIN", "explained")][..], true)] {
         let mut bench = bench(options);
         let fixed = bench.facts(TRIANGLES).traits;
         assert_eq!((fixed.program, fixed.shader), (0, 0));
