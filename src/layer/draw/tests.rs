@@ -3,7 +3,9 @@
 
 use super::Request;
 use crate::config::Projection;
-use crate::gl::{FramebufferName, ListName, consts as c};
+use crate::gl::{
+    Attachment, FramebufferName, Gl, ListName, Object, RenderbufferName, TextureName, consts as c,
+};
 use crate::layer::tests::bench::Bench;
 use crate::layer::tests::variants::program;
 use crate::plan::class::Target;
@@ -176,4 +178,83 @@ fn a_request_that_is_no_surface_has_no_reference_image() {
     request.surfaces = false;
     let without = bench.layer.observe(&gl, &request).0;
     assert_eq!(without.synthesis.reference, None);
+}
+
+/// The report's draws by method, and by class.
+fn counted(bench: &Bench) -> [serde_json::Value; 2] {
+    let report = bench.layer.diagnostics.report.json();
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    ["draws", "classes"].map(|key| report[key].clone())
+}
+
+#[test]
+fn each_draw_is_counted_once_by_the_method_that_made_it() {
+    for (strategy, method, others) in [
+        ("replay", "replay", 0),
+        ("instanced", "instanced", 1),
+        ("geometry", "geometry", 1),
+    ] {
+        let mut bench = bench(&[("STRATEGY", strategy)]);
+        // Clears are always replayed.
+        bench.clear();
+        bench.draw();
+        bench.draw();
+        let [draws, classes] = counted(&bench);
+        let expected = 2 + 1 - others;
+        assert_eq!(draws[method], expected, "{draws}");
+        assert_eq!(classes["scene"], 2, "{classes}");
+        assert_eq!(classes["flat"], 1, "{classes}");
+    }
+}
+
+/// A framebuffer of the program's with a texture and a renderbuffer of the window's size.
+fn framebuffer(gl: &Gl) -> FramebufferName {
+    let (name, texture) = (gl.gen_framebuffer(), gl.gen_texture());
+    gl.bind_texture(c::TEXTURE_2D, texture);
+    gl.tex_image_rgba8_empty(c::TEXTURE_2D, 64, 48);
+    gl.bind_texture(c::TEXTURE_2D, TextureName::ZERO);
+    let depths = gl.renderbuffer([c::DEPTH_COMPONENT24 as i32, 64, 48, 0]);
+    gl.bind_renderbuffer(RenderbufferName::ZERO);
+    gl.bind_framebuffer(c::FRAMEBUFFER, name);
+    gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, texture, 0);
+    let point = Attachment {
+        point: c::DEPTH_ATTACHMENT,
+        object: Object::Renderbuffer(depths),
+        level: 0,
+        face: 0,
+        layer: 0,
+        layered: false,
+    };
+    gl.attach_like(&point, point.object, c::RENDERBUFFER);
+    gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
+    name
+}
+
+#[test]
+fn a_scene_in_a_framebuffer_of_the_program_is_drawn_in_each_view() {
+    let mut bench = bench(&[("STRATEGY", "replay")]);
+    bench.frame();
+    let (gl, own) = (bench.gl, bench.fake.program(framebuffer));
+    bench
+        .layer
+        .bind_framebuffer(c::FRAMEBUFFER, own, &mut |target, name| {
+            gl.bind_framebuffer(target, name);
+        });
+    bench.layer.touch(Touch::ALL);
+    bench.clear();
+    let before = bench.fake.state();
+    bench.fake.forget();
+    bench.draw();
+    let drawn = bench.drawn("glDrawArrays");
+    assert_eq!(drawn.len(), 4);
+    let mut framebuffers: Vec<_> = drawn
+        .iter()
+        .map(|drawn| drawn.state.value(c::DRAW_FRAMEBUFFER_BINDING)[0] as u32)
+        .collect();
+    // Each view has a framebuffer like it, and the own one's is written back before somebody reads the program's.
+    assert!(!framebuffers.contains(&own.0), "{framebuffers:?}");
+    framebuffers.sort_unstable();
+    framebuffers.dedup();
+    assert_eq!(framebuffers.len(), 4, "{framebuffers:?}");
+    bench.fake.assert_restored(&before);
 }
