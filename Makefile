@@ -24,6 +24,8 @@ FULL_PACKAGES := valgrind
 # Demo programs that `manyview bench` draws; they are installed with it.
 SCENES := mesh arrays fill room menu field hard
 BENCH := $(TARGET)/bench
+# Demo programs that `make same` draws, beside the traces of `make programs`.
+SAME := arrays blur clip crowd field fill fogtexgen gears immediate lists menu mesh mirror passes points prims relief room shade sky teapot
 # Packages that only the pictures of the documents need.
 PICTURE_PACKAGES := netpbm
 # A game with a timedemo (423 MB), only for the targets that play it.
@@ -33,7 +35,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures measured mutants shaders man book lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures same measured mutants shaders man book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -121,6 +123,10 @@ openarena-pictures: packages build ## make the pictures of OpenArena in the READ
 	@sh scripts/openarena.sh $(BIN) $(TARGET)/openarena pictures
 	cp $(TARGET)/openarena/quilt.png docs/openarena-views.png
 	cp $(TARGET)/openarena/panel.png docs/openarena-panel.png
+
+same: packages build demos ## are pictures what they were? compares with the build in OTHER, such as ../before/target/release; target/same
+	@test -n "$(OTHER)" || { echo "OTHER is missing: give the folder of another build, such as OTHER=../before/target/release" >&2; exit 1; }
+	@sh scripts/same.sh $(OTHER) $(BIN) $(TARGET)/same $(addprefix $(DEMOS)/,$(SAME)) $(wildcard $(TARGET)/programs/*/program.trace)
 
 measured: packages build demos ## take the tables of docs/measured.md again (an hour, nothing else running); target/measured
 	@sh scripts/measured.sh $(BIN) $(TARGET)/measured
