@@ -23,27 +23,12 @@ struct Stage {
 impl Stage {
     fn new(fake: Fake) -> Stage {
         let gl = fake.gl();
-        let made = fake.program(|gl| {
-            let (framebuffer, texture) = (gl.gen_framebuffer(), gl.gen_texture());
+        let (framebuffer, texture, renderbuffer) = fake.framebuffer(32, 16);
+        fake.program(|gl| {
             gl.bind_texture(c::TEXTURE_2D, texture);
-            gl.tex_image_rgba8_empty(c::TEXTURE_2D, 32, 16);
             gl.tex_parameteri(c::TEXTURE_2D, c::TEXTURE_MIN_FILTER, c::LINEAR as i32);
-            let renderbuffer = gl.renderbuffer([c::DEPTH_COMPONENT24 as i32, 32, 16, 0]);
-            gl.bind_renderbuffer(RenderbufferName::ZERO);
             gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
-            gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, texture, 0);
-            let point = crate::gl::Attachment {
-                point: c::DEPTH_ATTACHMENT,
-                object: Object::Renderbuffer(renderbuffer),
-                level: 0,
-                face: 0,
-                layer: 0,
-                layered: false,
-            };
-            gl.attach_like(&point, point.object, c::RENDERBUFFER);
-            (framebuffer, texture, renderbuffer)
         });
-        let (framebuffer, texture, renderbuffer) = made;
         Stage {
             offscreen: Offscreen::new(&gl, 4, true, SharedImages::default()),
             names: Names::default(),

@@ -26,7 +26,10 @@ pub(in crate::gl) use call::{Answer, Recorded};
 
 use super::real::{Ptr, Real};
 use super::table::NAMES;
-use super::{Gl, ProgramName, consts as c};
+use super::{
+    Attachment, FramebufferName, Gl, Object, ProgramName, RenderbufferName, TextureName,
+    consts as c,
+};
 use objects::Objects;
 use shaders::Shaders;
 use std::cell::RefCell;
@@ -232,6 +235,35 @@ impl Fake {
         let result = calls(&self.gl());
         self.with(|driver| driver.by_program = before);
         result
+    }
+
+    /// A framebuffer of the program's with a texture and a renderbuffer for depths, of this size. Nothing stays bound.
+    pub fn framebuffer(
+        &self,
+        width: i32,
+        height: i32,
+    ) -> (FramebufferName, TextureName, RenderbufferName) {
+        self.program(|gl| {
+            let (name, texture) = (gl.gen_framebuffer(), gl.gen_texture());
+            gl.bind_texture(c::TEXTURE_2D, texture);
+            gl.tex_image_rgba8_empty(c::TEXTURE_2D, width, height);
+            gl.bind_texture(c::TEXTURE_2D, TextureName::ZERO);
+            let depths = gl.renderbuffer([c::DEPTH_COMPONENT24 as i32, width, height, 0]);
+            gl.bind_renderbuffer(RenderbufferName::ZERO);
+            gl.bind_framebuffer(c::FRAMEBUFFER, name);
+            gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, texture, 0);
+            let point = Attachment {
+                point: c::DEPTH_ATTACHMENT,
+                object: Object::Renderbuffer(depths),
+                level: 0,
+                face: 0,
+                layer: 0,
+                layered: false,
+            };
+            gl.attach_like(&point, point.object, c::RENDERBUFFER);
+            gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
+            (name, texture, depths)
+        })
     }
 
     /// Sets a value for which the layer has no command of its own, such as one of a light.
