@@ -317,6 +317,20 @@ mod tests {
     }
 
     #[test]
+    fn a_projection_of_another_scale_has_its_focal_depth_in_its_own_units_of_w() {
+        let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 64.0);
+        let latched = |scale: f32| {
+            let mut rig = Rig::new(5, Camera::Auto, None);
+            rig.latch(&(p * scale).to_cols_array());
+            rig.latched().expect("a perspective projection")
+        };
+        let ((separation, once), (same, three_times)) = (latched(1.0), latched(3.0));
+        assert!((once - 8.0).abs() < 1e-4, "{once}");
+        assert!((three_times - 3.0 * once).abs() < 1e-3, "{three_times}");
+        assert_eq!(separation, same);
+    }
+
+    #[test]
     fn the_leftmost_view_shows_near_things_further_right() {
         let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0).to_cols_array();
         let shear = rig().shear(&p).expect("a shear");

@@ -153,3 +153,51 @@ fn a_variant_draws_with_the_map_in_a_unit_that_it_has_no_use_for() {
         assert_eq!(map, rays.map.0);
     }
 }
+
+/// Flat shading colours a triangle of a strip by one corner, which depends on its place in the strip.
+#[test]
+fn a_strip_is_cut_unless_its_triangles_have_one_colour_each() {
+    for (flat, mode, sent) in [
+        (false, c::TRIANGLE_STRIP, c::PATCHES),
+        (true, c::TRIANGLE_STRIP, c::TRIANGLE_STRIP),
+        (true, c::TRIANGLES, c::PATCHES),
+    ] {
+        let stage = stage();
+        if flat {
+            stage
+                .fake
+                .put(Scope::Context, c::SHADE_MODEL, &[f64::from(c::FLAT)]);
+        }
+        let rays = rays(&stage);
+        let mut drawing = Drawing::new(stage, Clip::Distances, false);
+        let Drawing {
+            stage,
+            programs,
+            fixed,
+        } = &mut drawing;
+        let surfaces = Surfaces {
+            mode: Some(mode),
+            vertices: 30,
+            cuts: true,
+            material: false,
+        };
+        let (gl, shear) = (stage.gl, stage.shear());
+        let mut modes = Vec::new();
+        let drawn = programs.draw_to_reference(
+            &gl,
+            &mut stage.atlas,
+            &stage.state,
+            &stage.rig,
+            shear,
+            fixed,
+            &surfaces,
+            ReplayHazard::None,
+            &rays,
+            &mut |mode| {
+                modes.push(mode);
+                gl.draw_arrays(mode, Vertices::without_arrays(0, 30));
+            },
+        );
+        assert_eq!((drawn.is_ok(), modes), (true, vec![sent]), "flat: {flat}");
+    }
+}

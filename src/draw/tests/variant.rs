@@ -262,3 +262,54 @@ fn places_in_the_window_are_sent_to_those_who_ask() {
         assert_eq!(stage.fake.count("glUniform4fv"), sent);
     }
 }
+
+#[test]
+fn a_variant_is_told_the_layers_of_its_views() {
+    let mut stage = Stage::new(SideBySide, Grid::FULL);
+    let program = program(&mut stage);
+    let layers = VertexLayer::ArbShaderViewportLayerArray;
+    let gl = stage.gl;
+    for (kind, chosen) in [
+        (VariantKind::Layer(layers), &[3][..]),
+        (VariantKind::Instances(layers, 4), &[2, 0, 3, 1]),
+    ] {
+        let variant = variant(&stage, program, kind);
+        gl.use_program(variant.name());
+        stage.fake.forget();
+        variant.set_layers(&gl, chosen);
+        let sent = stage.fake.calls();
+        let tiles = chosen
+            .iter()
+            .flat_map(|&layer| [0.0, 0.0, f64::from(layer), 0.0]);
+        assert_eq!(
+            sent[0].args[2],
+            crate::gl::fake::Arg::Data(tiles.collect()),
+            "{kind:?}: {sent:?}"
+        );
+    }
+}
+
+/// The matrices of fixed function in any stage before the last place the vertices, so they are what differs between the views.
+#[test]
+fn a_projection_of_fixed_function_counts_in_every_stage() {
+    const FIRST: &str = "#version 150 compatibility\nvoid main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; }\n";
+    const PLAIN: &str =
+        "#version 150 compatibility\nin vec4 at;\nvoid main() { gl_Position = at; }\n";
+    const GEOMETRY: &str = "#version 150 compatibility\nlayout(triangles) in;\nlayout(triangle_strip, max_vertices = 3) out;\nvoid main() { for (int i = 0; i < 3; i++) { gl_Position = gl_in[i].gl_Position; EmitVertex(); } }\n";
+    let mut stage = Stage::new(SideBySide, Grid::FULL);
+    let program = program(&mut stage);
+    for (vertex, by_matrix) in [(FIRST, true), (PLAIN, false)] {
+        let sources = [
+            (c::VERTEX_SHADER, Shader::Vertex, vertex),
+            (c::GEOMETRY_SHADER, Shader::Geometry, GEOMETRY),
+            (c::FRAGMENT_SHADER, Shader::Fragment, FRAGMENT),
+        ]
+        .map(|(kind, stage, source)| ShaderSource {
+            kind,
+            stage,
+            source: source.into(),
+        });
+        let made = drawn(&stage.gl, program, &sources, VariantKind::Alone);
+        assert_eq!(matches!(made, Ok(Drawn::ByMatrix)), by_matrix, "{made:?}");
+    }
+}

@@ -7,6 +7,7 @@ use crate::gl::{FramebufferName, ListName, consts as c};
 use crate::layer::tests::bench::Bench;
 use crate::layer::tests::variants::program;
 use crate::plan::class::Target;
+use crate::plan::decide::Linked;
 use crate::plan::{Facts, Kind};
 use crate::state::Touch;
 
@@ -224,4 +225,157 @@ fn a_scene_in_a_framebuffer_of_the_program_is_drawn_in_each_view() {
     framebuffers.dedup();
     assert_eq!(framebuffers.len(), 4, "{framebuffers:?}");
     bench.fake.assert_restored(&before);
+}
+
+#[test]
+fn only_surfaces_of_fixed_function_are_asked_how_they_are_filled() {
+    let options = [("VIEW_SCALE", "auto"), ("OUTPUT", "panel")];
+    let mut bench = bench(&options);
+    assert!(!bench.layer.targets.atlas.tiles.grid.is_full());
+    let filled = bench.facts(TRIANGLES).grid.expect("a grid");
+    assert!(filled.aligned && !filled.outlined && !filled.stippled);
+    bench.set(Touch::ALL, |gl| gl.polygon_mode(c::FRONT_AND_BACK, c::LINE));
+    assert!(bench.facts(TRIANGLES).grid.expect("a grid").outlined);
+    assert!(!bench.facts(Kind::Pixels).grid.expect("a grid").outlined);
+    bench.set(Touch::ALL, |gl| gl.enable(c::POLYGON_STIPPLE));
+    let stippled = bench.facts(TRIANGLES).grid.expect("a grid");
+    // Such a draw has another atlas anyway, so nothing more is asked.
+    assert!(stippled.stippled && !stippled.outlined);
+    program(&mut bench);
+    bench.layer.touch(Touch::OBJECTS);
+    let shaded = bench.facts(TRIANGLES).grid.expect("a grid");
+    assert!(!shaded.stippled && !shaded.outlined);
+}
+
+#[test]
+fn a_clear_is_asked_for_the_buffers_that_it_clears() {
+    let mut bench = bench(&[("STRATEGY", "depth-image"), ("OUTPUT", "panel")]);
+    let both = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT;
+    for whole in [0, c::COLOR_BUFFER_BIT, c::DEPTH_BUFFER_BIT, both] {
+        let kind = Kind::Clear {
+            depths: true,
+            whole,
+        };
+        assert_eq!(bench.facts(kind).clear.writable, whole);
+    }
+}
+
+#[test]
+fn the_modelview_is_read_only_where_a_rule_needs_it() {
+    let mut bench = bench(&[]);
+    bench.frame();
+    bench.clear();
+    bench.draw();
+    bench.layer.touch(Touch::MODELVIEW);
+    bench.fake.forget();
+    bench.facts(TRIANGLES);
+    let asked = bench.fake.asked();
+    let modelview = |(call, _): &(String, usize)| call.contains("MODELVIEW_MATRIX");
+    assert!(!asked.iter().any(modelview), "{asked:?}");
+    // Without the depth test the draw may be a sky.
+    bench.clear();
+    bench.set(Touch::DEPTH, |gl| gl.disable(c::DEPTH_TEST));
+    bench.layer.touch(Touch::MODELVIEW);
+    bench.fake.forget();
+    bench.facts(TRIANGLES);
+    let asked = bench.fake.asked();
+    assert!(asked.iter().any(modelview), "{asked:?}");
+}
+
+#[test]
+fn selection_asks_nothing_of_the_programs_framebuffer() {
+    let mut bench = bench(&[("STRATEGY", "replay")]);
+    bench.frame();
+    let (gl, (own, ..)) = (bench.gl, bench.fake.framebuffer(64, 48));
+    bench
+        .layer
+        .bind_framebuffer(c::FRAMEBUFFER, own, &mut |target, name| {
+            gl.bind_framebuffer(target, name);
+        });
+    bench.layer.touch(Touch::ALL);
+    bench.clear();
+    bench.draw();
+    let split = bench.facts(TRIANGLES).destination;
+    assert!(split.picture && split.differs);
+    assert_eq!(split.split, Linked::Yes);
+    bench.layer.render_mode(c::SELECT);
+    let selected = bench.facts(TRIANGLES).destination;
+    assert!(!selected.picture && !selected.differs);
+    assert_eq!(selected.split, Linked::Untried);
+}
+
+#[test]
+fn depths_are_shown_by_one_output_alone() {
+    for (output, shown) in [("panel", false), ("rgbd", true)] {
+        let bench = bench(&[("STRATEGY", "replay"), ("OUTPUT", output)]);
+        assert_eq!(bench.layer.settings().shows_depth, shown, "{output}");
+    }
+}
+
+/// A pass over the surface that was drawn last is known by the positions of its vertices.
+#[test]
+fn the_last_surface_of_a_scene_is_known_by_its_vertices() {
+    let mut bench = bench(&[("STRATEGY", "depth-image"), ("OUTPUT", "panel")]);
+    for _ in 0..2 {
+        bench.frame();
+    }
+    bench.clear();
+    bench.fake.forget();
+    bench.draw();
+    let asked = bench.fake.asked();
+    let arrays = |(call, _): &(String, usize)| call.contains("VERTEX_ARRAY");
+    assert!(asked.iter().any(arrays), "{asked:?}");
+}
+
+#[test]
+fn what_was_drawn_for_each_view_is_sampled_for_each_view() {
+    for views in ["2", "4"] {
+        let mut bench = Bench::new(&[("VIEWS", views), ("STRATEGY", "replay")]);
+        bench.look();
+        bench.frame();
+        let (gl, (own, texture, _)) = (bench.gl, bench.fake.framebuffer(64, 48));
+        let bind = &mut |target, name| gl.bind_framebuffer(target, name);
+        bench.layer.bind_framebuffer(c::FRAMEBUFFER, own, bind);
+        bench.layer.touch(Touch::ALL);
+        bench.clear();
+        bench.draw();
+        let zero = FramebufferName::ZERO;
+        bench.layer.bind_framebuffer(c::FRAMEBUFFER, zero, bind);
+        bench.set(Touch::ALL, |gl| {
+            gl.enable(c::TEXTURE_2D);
+            gl.bind_texture(c::TEXTURE_2D, texture);
+        });
+        bench.layer.state.refresh(&gl);
+        let request = Request::of(TRIANGLES);
+        let (facts, images) = bench.layer.observe(&gl, &request);
+        assert_eq!(images.bound.len(), 1, "{views} views");
+        assert!(facts.destination.is_window());
+        // Selection makes no picture, so it samples nothing.
+        bench.layer.render_mode(c::SELECT);
+        let (_, images) = bench.layer.observe(&gl, &request);
+        assert_eq!(images.bound.len(), 0);
+    }
+}
+
+#[test]
+fn a_layer_is_chosen_only_where_each_view_has_one_of_the_windows_size() {
+    for (atlas, scale, layered) in [
+        ("layers", "1", true),
+        ("layers", "0.5", false),
+        ("side-by-side", "1", false),
+        ("side-by-side", "0.5", false),
+    ] {
+        let mut bench = bench(&[
+            ("STRATEGY", "replay"),
+            ("ATLAS", atlas),
+            ("VIEW_SCALE", scale),
+        ]);
+        let (program, gl) = (program(&mut bench), bench.gl);
+        bench.layer.touch(Touch::OBJECTS);
+        bench.layer.link_variant(&gl, program);
+        let facts = bench.facts(TRIANGLES);
+        assert_eq!(facts.destination.layered, layered, "{atlas}, {scale}");
+        // The program's shaders have a camera, and it is not lost.
+        assert_eq!(facts.traits.projection, Projection::Perspective);
+    }
 }
