@@ -128,7 +128,7 @@ same: packages build demos ## are pictures what they were? compares with the bui
 	@test -n "$(OTHER)" || { echo "OTHER is missing: give the folder of another build, such as OTHER=../before/target/release" >&2; exit 1; }
 	@sh scripts/same.sh $(OTHER) $(BIN) $(TARGET)/same $(addprefix $(DEMOS)/,$(SAME)) $(wildcard $(TARGET)/programs/*/program.trace)
 
-measured: packages build demos ## take the tables of docs/measured.md again (an hour, nothing else running); target/measured
+measured: packages build demos ## take the tables of docs/measured.md again (a quarter of an hour, nothing else running); target/measured
 	@sh scripts/measured.sh $(BIN) $(TARGET)/measured
 
 mutants: rust ## do the unit tests see changes of the path of a draw? MUTANTS=6/10 (needs cargo-mutants; an hour)

@@ -41,6 +41,7 @@ optimisations() {
 
 many_views() {
 	bench --scene mesh-100k,draws-3000,fill --strategy replay --views 8,16,32 --frames 5
+	bench --scene mesh-100k --strategy replay,instanced --views 2,4,8,17 --frames 3
 	bench --scene mesh-4m --strategy replay --frames 3
 }
 
