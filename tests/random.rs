@@ -129,60 +129,58 @@ fn explain(bare: &Side, layer: &Side, seed: u64, without: &str) -> String {
 /// (`--disturb`), when lists are compiled in pieces (`--apart`), or when the sequence is repeated. Some results of Mesa 22.3 depend on
 /// earlier draws: the texture coordinates of pictures, the edges of a loop, the state that glPopAttrib restores, the current values after a
 /// list; others depend on uninitialised memory. Such a sequence has no right answer.
-fn is_nondeterministic(
-    bare: &Side,
-    layer: &Side,
-    (first, seed): (u64, u64),
-    without: &str,
-) -> bool {
-    let by_itself = answers(bare, layer, (seed, seed), without);
-    let in_its_batch = || answers(bare, layer, (first, seed), without);
-    match by_itself {
-        Answers::Differ => false,
-        Answers::Vary => true,
-        // Memory that an earlier sequence of the same process has left is not the same each time.
-        Answers::Agree => first < seed && in_its_batch() == Answers::Vary,
-    }
-}
-
-/// What the program answers without the layer and with it.
-#[derive(PartialEq, Eq)]
-enum Answers {
-    /// The same, each time.
-    Agree,
-    /// Other answers without the layer, too, wherever those with it differ.
-    Vary,
-    /// Other answers with the layer than without it.
-    Differ,
-}
-
-/// The answers to the sequence of one seed, with those of the seeds from `first` on before it in the same process.
-fn answers(bare: &Side, layer: &Side, (first, of): (u64, u64), without: &str) -> Answers {
-    let words = |side: &Side, more: &[&str]| -> Vec<String> {
-        let (lines, _) = side.lines(side.command(first, of + 1 - first, without, more));
-        let own = lines.iter().filter(|line| seed(line) == Some(of));
-        let words = own.flat_map(|line| line.split(' '));
-        words.map(str::to_owned).collect()
+fn is_nondeterministic(bare: &Side, layer: &Side, wrong: &Wrong, without: &str) -> bool {
+    let words = |side: &Side, more: &[&str]| {
+        let (lines, _) = side.lines(side.command(wrong.seed, 1, without, more));
+        words(&lines.join(" "))
     };
     let expected = words(bare, &[]);
     let actual = words(layer, &[]);
     let mut others: Vec<_> = (0..AGAIN).map(|_| words(bare, &[])).collect();
     let repeats = others.iter().all(|words| *words == expected);
-    // A difference in the runs that follow alone is no excuse while the bare answer repeats and equals the layer's.
+    // A difference in those other runs alone is no excuse while the bare answer repeats and equals the layer's.
     if expected == actual && repeats {
-        return Answers::Agree;
+        return varies_in_its_batch(bare, wrong, without);
     }
     others.extend([words(bare, &["--disturb"]), words(bare, &["--apart"])]);
+    explains(&others, &expected, &actual)
+}
+
+/// Whether Mesa alone gives other answers wherever the layer has, when the sequence follows on those before it in the same process: they leave
+/// memory that is not the same each time. A sequence without an answer was not reached by the layer, which nothing excuses.
+fn varies_in_its_batch(bare: &Side, wrong: &Wrong, without: &str) -> bool {
+    let Some([expected, actual]) = &wrong.answers else {
+        return false;
+    };
+    let answer = || {
+        let count = wrong.seed + 1 - wrong.first;
+        let (lines, _) = bare.lines(bare.command(wrong.first, count, without, &[]));
+        let own = lines.iter().find(|line| seed(line) == Some(wrong.seed));
+        words(own.map_or("", String::as_str))
+    };
+    let others: Vec<_> = (0..AGAIN).map(|_| answer()).collect();
+    explains(&others, &words(expected), &words(actual))
+}
+
+fn words(line: &str) -> Vec<String> {
+    line.split(' ').map(str::to_owned).collect()
+}
+
+/// Whether each word that differs is another one in some other run as well.
+fn explains(others: &[Vec<String>], expected: &[String], actual: &[String]) -> bool {
+    let mut all = others.iter().map(Vec::len).chain([actual.len()]);
     let other = |i: usize| others.iter().any(|words| words[i] != expected[i]);
-    let vary = others
-        .iter()
-        .chain([&actual])
-        .all(|w| w.len() == expected.len())
-        && (0..expected.len()).all(|i| actual[i] == expected[i] || other(i));
-    match vary {
-        true => Answers::Vary,
-        false => Answers::Differ,
-    }
+    all.all(|len| len == expected.len())
+        && (0..expected.len()).all(|i| actual[i] == expected[i] || other(i))
+}
+
+/// A sequence with other answers under the layer.
+struct Wrong {
+    /// The first seed of its process.
+    first: u64,
+    seed: u64,
+    /// Its lines without the layer and with it, if both were reached.
+    answers: Option<[String; 2]>,
 }
 
 fn compare(api: Api, atlas: &str, strategy: &str, seeds: std::ops::Range<u64>) {
@@ -208,8 +206,7 @@ fn compare_without(
     let (bare, layer) = (side(None), side(Some(atlas)));
     let run =
         |side: &Side, first: u64, count: u64| side.lines(side.command(first, count, without, &[]));
-    // The first seed of the process, and the seed that differs.
-    let mut wrong: Vec<(u64, u64)> = Vec::new();
+    let mut wrong: Vec<Wrong> = Vec::new();
     let mut compared = 0;
     let mut first = seeds.start;
     while first < seeds.end {
@@ -224,11 +221,23 @@ fn compare_without(
         let end = reached.map_or(first, |last| last + 1);
         compared += end - first;
         let differ = expected.iter().filter(|line| !actual.contains(line));
-        let differ = differ.filter_map(|line| seed(line));
-        wrong.extend(differ.map(|seed| (first, seed)));
+        wrong.extend(differ.filter_map(|line| {
+            let seed = seed(line)?;
+            let with = actual.iter().find(|with| self::seed(with) == Some(seed));
+            let answers = with.map(|with| [line.clone(), with.clone()]);
+            Some(Wrong {
+                first,
+                seed,
+                answers,
+            })
+        }));
         if !fine && actual.len() < expected.len() {
             let last = actual.last().and_then(|line| seed(line));
-            wrong.push((first, last.map_or(first, |last| last + 1)));
+            wrong.push(Wrong {
+                first,
+                seed: last.map_or(first, |last| last + 1),
+                answers: None,
+            });
         }
         first = if end < first + count { end + 1 } else { end };
     }
@@ -236,21 +245,22 @@ fn compare_without(
         compared * 100 >= (seeds.end - seeds.start) * 99,
         "only {compared} sequences went through without the layer"
     );
-    wrong.sort_unstable();
-    wrong.dedup();
-    wrong.retain(|(_, seed)| !KNOWN.iter().any(|(known, _)| known == seed));
+    wrong.sort_by_key(|wrong| wrong.seed);
+    wrong.dedup_by_key(|wrong| wrong.seed);
+    wrong.retain(|wrong| !KNOWN.iter().any(|(known, _)| *known == wrong.seed));
     let found = wrong.len() as u64;
-    wrong.retain(|&seeds| !is_nondeterministic(&bare, &layer, seeds, without));
+    wrong.retain(|wrong| !is_nondeterministic(&bare, &layer, wrong, without));
     let nondeterministic = found - wrong.len() as u64;
     let shown: Vec<String> = wrong
         .iter()
         .take(SHOWN)
-        .map(|&(_, seed)| explain(&bare, &layer, seed, without))
+        .map(|wrong| explain(&bare, &layer, wrong.seed, without))
         .collect();
     assert!(
         wrong.is_empty(),
-        "{} of {compared} sequences differ: {wrong:?}\n{}",
+        "{} of {compared} sequences differ: {:?}\n{}",
         wrong.len(),
+        wrong.iter().map(|wrong| wrong.seed).collect::<Vec<_>>(),
         shown.join("\n")
     );
     assert!(

@@ -10,6 +10,7 @@ use crate::config::Clip;
 use crate::draw::Drawing as Surfaces;
 use crate::gl::fake::{Fake, Scope};
 use crate::gl::{ProgramName, Vertices, consts as c};
+use crate::plan::Reason;
 
 const UNIT: u32 = super::super::programs::DISTORTION_UNIT;
 
@@ -34,6 +35,44 @@ fn rays(stage: &Stage) -> Rays {
     }
 }
 
+/// Repeats a draw of so many vertices in the reference image. Returns the primitive modes in which it is sent.
+fn repeated(
+    drawing: &mut Drawing,
+    rays: &Rays,
+    mode: u32,
+    vertices: u64,
+) -> (Result<(), Reason>, Vec<u32>) {
+    let Drawing {
+        stage,
+        programs,
+        fixed,
+    } = drawing;
+    let surfaces = Surfaces {
+        mode: Some(mode),
+        vertices,
+        cuts: true,
+        material: false,
+    };
+    let (gl, shear) = (stage.gl, stage.shear());
+    let mut modes = Vec::new();
+    let drawn = programs.draw_to_reference(
+        &gl,
+        &mut stage.atlas,
+        &stage.state,
+        &stage.rig,
+        shear,
+        fixed,
+        &surfaces,
+        ReplayHazard::None,
+        rays,
+        &mut |mode| {
+            modes.push(mode);
+            gl.draw_arrays(mode, Vertices::without_arrays(0, 30));
+        },
+    );
+    (drawn, modes)
+}
+
 #[test]
 fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
     let mut drawn_at_all = 0;
@@ -46,37 +85,12 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
         stage.program(|gl| gl.use_program(ProgramName::ZERO));
         let rays = rays(&stage);
         let mut drawing = Drawing::new(stage, Clip::Distances, false);
-        let Drawing {
-            stage,
-            programs,
-            fixed,
-        } = &mut drawing;
         // The random state must not draw polygons as outlines or points.
-        fixed.polygon_mode = [c::FILL; 2];
-        let surfaces = Surfaces {
-            mode: Some(c::TRIANGLES),
-            vertices: if many { 30_000 } else { 30 },
-            cuts: true,
-            material: false,
-        };
-        let (gl, shear, before) = (stage.gl, stage.shear(), stage.fake.state());
-        let mut modes = Vec::new();
-        let (state, rig) = (&stage.state, &stage.rig);
-        let drawn = programs.draw_to_reference(
-            &gl,
-            &mut stage.atlas,
-            state,
-            rig,
-            shear,
-            fixed,
-            &surfaces,
-            ReplayHazard::None,
-            &rays,
-            &mut |mode| {
-                modes.push(mode);
-                gl.draw_arrays(mode, Vertices::without_arrays(0, 30));
-            },
-        );
+        drawing.fixed.polygon_mode = [c::FILL; 2];
+        let (gl, before) = (drawing.stage.gl, drawing.stage.fake.state());
+        let vertices = if many { 30_000 } else { 30 };
+        let (drawn, modes) = repeated(&mut drawing, &rays, c::TRIANGLES, vertices);
+        let stage = &drawing.stage;
         let differences = before.differences(&stage.fake.state());
         assert_eq!(differences, [""; 0], "seed {seed}, {drawn:?}");
         if drawn.is_err() {
@@ -170,34 +184,7 @@ fn a_strip_is_cut_unless_its_triangles_have_one_colour_each() {
         }
         let rays = rays(&stage);
         let mut drawing = Drawing::new(stage, Clip::Distances, false);
-        let Drawing {
-            stage,
-            programs,
-            fixed,
-        } = &mut drawing;
-        let surfaces = Surfaces {
-            mode: Some(mode),
-            vertices: 30,
-            cuts: true,
-            material: false,
-        };
-        let (gl, shear) = (stage.gl, stage.shear());
-        let mut modes = Vec::new();
-        let drawn = programs.draw_to_reference(
-            &gl,
-            &mut stage.atlas,
-            &stage.state,
-            &stage.rig,
-            shear,
-            fixed,
-            &surfaces,
-            ReplayHazard::None,
-            &rays,
-            &mut |mode| {
-                modes.push(mode);
-                gl.draw_arrays(mode, Vertices::without_arrays(0, 30));
-            },
-        );
+        let (drawn, modes) = repeated(&mut drawing, &rays, mode, 30);
         assert_eq!((drawn.is_ok(), modes), (true, vec![sent]), "flat: {flat}");
     }
 }

@@ -14,16 +14,19 @@ use std::sync::Arc;
 const VERTEX: &str = "#version 150\nuniform mat4 camera;\nuniform vec4 lamps[2];\nin vec4 at;\nvoid main() { gl_Position = camera * at + lamps[1]; }\n";
 const FRAGMENT: &str = "#version 150\nuniform sampler2D map;\nout vec4 colour;\nvoid main() { colour = texture(map, vec2(0.5)); }\n";
 
-fn sources() -> [ShaderSource; 2] {
-    [
-        (c::VERTEX_SHADER, Shader::Vertex, VERTEX),
-        (c::FRAGMENT_SHADER, Shader::Fragment, FRAGMENT),
-    ]
-    .map(|(kind, stage, source)| ShaderSource {
+fn shaders<const K: usize>(all: [(u32, Shader, &str); K]) -> [ShaderSource; K] {
+    all.map(|(kind, stage, source)| ShaderSource {
         kind,
         stage,
         source: source.into(),
     })
+}
+
+fn sources() -> [ShaderSource; 2] {
+    shaders([
+        (c::VERTEX_SHADER, Shader::Vertex, VERTEX),
+        (c::FRAGMENT_SHADER, Shader::Fragment, FRAGMENT),
+    ])
 }
 
 /// The program's own program object, in use, with values for its uniforms.
@@ -299,16 +302,11 @@ fn a_projection_of_fixed_function_counts_in_every_stage() {
     let mut stage = Stage::new(SideBySide, Grid::FULL);
     let program = program(&mut stage);
     for (vertex, by_matrix) in [(FIRST, true), (PLAIN, false)] {
-        let sources = [
+        let sources = shaders([
             (c::VERTEX_SHADER, Shader::Vertex, vertex),
             (c::GEOMETRY_SHADER, Shader::Geometry, GEOMETRY),
             (c::FRAGMENT_SHADER, Shader::Fragment, FRAGMENT),
-        ]
-        .map(|(kind, stage, source)| ShaderSource {
-            kind,
-            stage,
-            source: source.into(),
-        });
+        ]);
         let made = drawn(&stage.gl, program, &sources, VariantKind::Alone);
         assert_eq!(matches!(made, Ok(Drawn::ByMatrix)), by_matrix, "{made:?}");
     }

@@ -112,25 +112,14 @@ fn draws_say_where_they_go() {
     let window = bench.facts(TRIANGLES);
     assert_eq!(window.traits.target, Target::Window);
     assert!(window.destination.picture && window.destination.is_window());
-    let gl = bench.gl;
     let own = bench.fake.program(|gl| gl.gen_framebuffer());
-    bench
-        .layer
-        .bind_framebuffer(c::FRAMEBUFFER, own, &mut |target, name| {
-            gl.bind_framebuffer(target, name);
-        });
+    bench.bind(own);
     let aside = bench.facts(TRIANGLES);
     // It has no images, so it cannot hold a part of the window's picture.
     assert!(matches!(aside.traits.target, Target::Framebuffer(_)));
     assert_eq!(aside.destination.framebuffer, own);
     assert!(!aside.destination.is_window());
-    bench.layer.bind_framebuffer(
-        c::FRAMEBUFFER,
-        FramebufferName::ZERO,
-        &mut |target, name| {
-            gl.bind_framebuffer(target, name);
-        },
-    );
+    bench.bind(FramebufferName::ZERO);
     assert_eq!(bench.facts(TRIANGLES).traits.target, Target::Window);
 }
 
@@ -202,13 +191,8 @@ fn each_draw_is_counted_once_by_the_method_that_made_it() {
 fn a_scene_in_a_framebuffer_of_the_program_is_drawn_in_each_view() {
     let mut bench = bench(&[("STRATEGY", "replay")]);
     bench.frame();
-    let (gl, (own, ..)) = (bench.gl, bench.fake.framebuffer(64, 48));
-    bench
-        .layer
-        .bind_framebuffer(c::FRAMEBUFFER, own, &mut |target, name| {
-            gl.bind_framebuffer(target, name);
-        });
-    bench.layer.touch(Touch::ALL);
+    let (own, ..) = bench.fake.framebuffer(64, 48);
+    bench.bind(own);
     bench.clear();
     let before = bench.fake.state();
     bench.fake.forget();
@@ -286,13 +270,8 @@ fn the_modelview_is_read_only_where_a_rule_needs_it() {
 fn selection_asks_nothing_of_the_programs_framebuffer() {
     let mut bench = bench(&[("STRATEGY", "replay")]);
     bench.frame();
-    let (gl, (own, ..)) = (bench.gl, bench.fake.framebuffer(64, 48));
-    bench
-        .layer
-        .bind_framebuffer(c::FRAMEBUFFER, own, &mut |target, name| {
-            gl.bind_framebuffer(target, name);
-        });
-    bench.layer.touch(Touch::ALL);
+    let (own, ..) = bench.fake.framebuffer(64, 48);
+    bench.bind(own);
     bench.clear();
     bench.draw();
     let split = bench.facts(TRIANGLES).destination;
@@ -312,9 +291,9 @@ fn depths_are_shown_by_one_output_alone() {
     }
 }
 
-/// A pass over the surface that was drawn last is known by the positions of its vertices.
+/// A pass over the surface that was drawn last is known by the positions of its vertices, where those are in the program's memory.
 #[test]
-fn the_last_surface_of_a_scene_is_known_by_its_vertices() {
+fn a_surface_is_asked_where_its_vertices_are() {
     let mut bench = bench(&[("STRATEGY", "depth-image"), ("OUTPUT", "panel")]);
     for _ in 0..2 {
         bench.frame();
@@ -334,13 +313,10 @@ fn what_was_drawn_for_each_view_is_sampled_for_each_view() {
         bench.look();
         bench.frame();
         let (gl, (own, texture, _)) = (bench.gl, bench.fake.framebuffer(64, 48));
-        let bind = &mut |target, name| gl.bind_framebuffer(target, name);
-        bench.layer.bind_framebuffer(c::FRAMEBUFFER, own, bind);
-        bench.layer.touch(Touch::ALL);
+        bench.bind(own);
         bench.clear();
         bench.draw();
-        let zero = FramebufferName::ZERO;
-        bench.layer.bind_framebuffer(c::FRAMEBUFFER, zero, bind);
+        bench.bind(FramebufferName::ZERO);
         bench.set(Touch::ALL, |gl| {
             gl.enable(c::TEXTURE_2D);
             gl.bind_texture(c::TEXTURE_2D, texture);

@@ -4,7 +4,7 @@ use super::super::{Layer, Primitives};
 use crate::config::Config;
 use crate::gl::consts as c;
 use crate::gl::fake::{Drawn, Fake};
-use crate::gl::{Gl, Vertices};
+use crate::gl::{FramebufferName, Gl, Vertices};
 use crate::state::Touch;
 use std::sync::Arc;
 
@@ -55,6 +55,14 @@ impl Bench {
     pub(in crate::layer) fn set(&mut self, groups: Touch, command: impl FnOnce(&Gl)) {
         self.fake.program(command);
         self.layer.touch(groups);
+    }
+
+    /// The program binds a framebuffer for drawing and reading.
+    pub(in crate::layer) fn bind(&mut self, name: FramebufferName) {
+        let gl = self.gl;
+        let bind = &mut |target, name| gl.bind_framebuffer(target, name);
+        self.layer.bind_framebuffer(c::FRAMEBUFFER, name, bind);
+        self.layer.touch(Touch::OBJECTS);
     }
 
     /// The program sets a projection in perspective and the depth test.
