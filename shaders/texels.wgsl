@@ -2,7 +2,8 @@
 // tile addresses instead of views: the layer of a tile above the lowest `u.column_bits` bits, its column in those.
 
 fn inside(place: vec3<u32>) -> vec3<u32> {
-    return select(place, vec3<u32>(0u), place >= vec3<u32>(u.black));
+    // Not `select`: before GLSL 4.50 there is none for vectors of integers.
+    return place * vec3<u32>(place < vec3<u32>(u.black));
 }
 
 fn lit(colour: vec3<f32>, place: vec3<u32>) -> vec4<f32> {

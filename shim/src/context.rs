@@ -1,17 +1,21 @@
 //! The context that is current on each thread, and the guard that every hook passes.
 
+use crate::caller::{Caller, Calls, Passing, caller};
 use crate::control;
 use crate::deep;
 use crate::drawable::{self, Drawable};
+use crate::fault;
 use crate::keys;
 use crate::live;
+use crate::messages::{self, Receiver};
 use crate::provider::Provider;
 use crate::record::{Context, Key, Work};
 use crate::registry;
 use crate::shares;
-use crate::switch::{self, Mode, say, turn_off};
+use crate::signals::Quiet;
+use crate::switch::{self, Mode, say, say_once, turn_off};
+use crate::uncancelled::Uncancelled;
 use core::cell::Cell;
-use core::panic::AssertUnwindSafe;
 use manyview_core::gl::{Gl, Ptr, Real};
 use manyview_core::layer::{Frames, Layer};
 
@@ -19,8 +23,9 @@ use manyview_core::layer::{Frames, Layer};
 struct Thread {
     context: Cell<*mut Context>,
     provider: Cell<Option<Provider>>,
-    depth: Cell<u32>,
     inside: Cell<Inside>,
+    /// See [`take_owed`].
+    owed: Cell<bool>,
 }
 
 /// Whether a thread is between glBegin and glEnd. There the driver is between them as well, so that it refuses commands that are
@@ -37,7 +42,7 @@ pub(crate) enum Inside {
 
 thread_local! {
     static THREAD: Thread = const {
-        Thread { context: Cell::new(core::ptr::null_mut()), provider: Cell::new(None), depth: Cell::new(0), inside: Cell::new(Inside::Outside) }
+        Thread { context: Cell::new(core::ptr::null_mut()), provider: Cell::new(None), inside: Cell::new(Inside::Outside), owed: Cell::new(false) }
     };
 }
 
@@ -70,12 +75,49 @@ pub(crate) fn set_inside(inside: Inside) {
     THREAD.with(|t| t.inside.set(inside));
 }
 
-/// Runs `f` with all hooks passing calls on: around functions of the driver that may call exported names, and around our own work.
-pub(crate) fn guarded<R>(f: impl FnOnce() -> R) -> R {
-    THREAD.with(|t| t.depth.set(t.depth.get() + 1));
-    let r = f();
-    THREAD.with(|t| t.depth.set(t.depth.get().saturating_sub(1)));
-    r
+/// Makes the program's own call, from inside a hook's work. It may be made once for each view, the last time for the program's own.
+pub(crate) fn own_call<R>(call: impl FnOnce() -> R) -> R {
+    let _calls = Calls::of_program(true);
+    messages::forget();
+    call()
+}
+
+/// Makes a call of the program's with all hooks passing calls on: the driver may call exported names in it.
+pub(crate) fn guarded<R>(call: impl FnOnce() -> R) -> R {
+    let passing = Passing::new();
+    let made = own_call(call);
+    drop(passing);
+    tell_messages();
+    made
+}
+
+/// Gives the program the messages of its call, once no hook is at work.
+fn tell_messages() {
+    if caller() == Caller::Program {
+        messages::deliver();
+    }
+}
+
+/// Runs work of ours with all hooks passing calls on. A panic turns the layer off for good and gives None. The thread is not cancelled
+/// meanwhile: Rust code that catches panics cannot be cancelled.
+pub(crate) fn sheltered<R>(work: impl FnOnce() -> R) -> Option<R> {
+    let _passing = Passing::new();
+    let _calls = Calls::of_program(false);
+    let _whole = Uncancelled::new();
+    let work = || {
+        #[cfg(all(test, feature = "fake-driver"))]
+        crate::tests::strike(crate::tests::Stage::Before);
+        let done = work();
+        #[cfg(all(test, feature = "fake-driver"))]
+        crate::tests::strike(crate::tests::Stage::After);
+        done
+    };
+    let done = fault::catch(work);
+    if let Err(fault) = &done {
+        set_inside(Inside::Outside);
+        give_up(fault);
+    }
+    done.ok()
 }
 
 /// Runs `f` on the layer of the current context without the guard, for work that can neither panic nor call GL. None between glBegin
@@ -92,7 +134,7 @@ pub(crate) fn peek<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
 /// As [`peek`], but also between glBegin and glEnd.
 #[inline]
 pub(crate) fn peek_inside<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
-    if THREAD.with(|t| t.depth.get()) > 0 {
+    if caller() != Caller::Program {
         return None;
     }
     current(|context| {
@@ -120,37 +162,87 @@ pub(crate) fn enter<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
     with_context(|gl, _, work| work.layer.as_mut().map(|l| f(gl, l))).flatten()
 }
 
+/// Runs `f` in place of the program's own call, which it gets. Where there is no layer to run it on, and where a fault ends it before the
+/// program's own view has got the call, the call is made as it is.
+pub(crate) fn instead(call: &mut dyn FnMut(), f: impl FnOnce(&Gl, &mut Layer, &mut dyn FnMut())) {
+    instead_at((), &mut |()| call(), |gl, l, call| {
+        f(gl, l, &mut || call(()))
+    });
+}
+
+/// As [`instead`], for a call that is made at the place of each view; `as_it_is` is that of the program.
+pub(crate) fn instead_at<P>(
+    as_it_is: P,
+    call: &mut dyn FnMut(P),
+    f: impl FnOnce(&Gl, &mut Layer, &mut dyn FnMut(P)),
+) {
+    let mut made = false;
+    let done = enter(|gl, l| {
+        f(gl, l, &mut |place| {
+            own_call(|| call(place));
+            made = true;
+        });
+    });
+    if done.is_none() && (take_owed() || !made) {
+        call(as_it_is);
+    }
+}
+
+/// Whether the last fault of this thread came after a call was made for other views than the program's own. The next answer is no.
+fn take_owed() -> bool {
+    THREAD.with(|t| t.owed.replace(false))
+}
+
 fn with_context<R>(f: impl FnOnce(&Gl, &Context, &mut Work) -> R) -> Option<R> {
-    let depth = THREAD.with(|t| t.depth.get());
-    if depth > 0 || inside() != Inside::Outside || switch::off() {
+    if caller() != Caller::Program || inside() != Inside::Outside || switch::ending() {
         return None;
     }
-    current(|context| {
-        let gl = guarded(|| {
-            // SAFETY: the context is current on this thread while the hook runs, and only then is the value used.
-            let gl = || unsafe { Gl::new(context.key.0.real()) };
-            context.gl.get_or_init(gl)
-        });
-        let work = AssertUnwindSafe(|| {
+    let done = current(|context| {
+        if switch::off() {
+            give_back(context, false);
+            return None;
+        }
+        sheltered(|| {
             let mut work = context.work.try_borrow_mut().ok()?;
-            Some(f(gl, context, &mut work))
-        });
-        let done = guarded(|| std::panic::catch_unwind(work));
-        done.unwrap_or_else(|_| {
-            set_inside(Inside::Outside);
-            give_up("internal fault");
-            let abandon = AssertUnwindSafe(|| {
-                if let Ok(mut work) = context.work.try_borrow_mut()
-                    && let Some(l) = &mut work.layer
-                {
-                    guarded(|| l.abandon(gl));
-                }
-            });
-            let _ = std::panic::catch_unwind(abandon);
+            let r = f(driver(context), context, &mut work);
+            if !work.watched && work.layer.as_ref().is_some_and(Layer::drawn) {
+                // What the program does at its end is known to atexit by now.
+                work.watched = true;
+                switch::watch_the_end();
+            }
+            Some(r)
+        })
+        .unwrap_or_else(|| {
+            give_back(context, true);
             None
         })
-    })
-    .flatten()
+    });
+    tell_messages();
+    done.flatten()
+}
+
+/// The receiver of the current context's debug messages. None without a context.
+pub(crate) fn receiver() -> Option<&'static Receiver> {
+    current(|context| *context.receiver.get_or_init(Receiver::new))
+}
+
+/// The driver's functions for a context that is current on this thread.
+fn driver(context: &Context) -> &Gl {
+    // SAFETY: the context is current on this thread while the hook runs, and only then is the value used.
+    let gl = || unsafe { Gl::new(context.key.0.real()) };
+    context.gl.get_or_init(gl)
+}
+
+/// The layer is off: gives the program its framebuffer 0 in a context that still draws to ours. `fault`: a hook was interrupted.
+#[cold]
+fn give_back(context: &Context, fault: bool) {
+    let Ok(mut work) = context.work.try_borrow_mut() else {
+        return;
+    };
+    if let Some(layer) = work.layer.take() {
+        THREAD.with(|t| t.owed.set(fault && layer.owes_own_view()));
+        sheltered(|| layer.dissolve(driver(context), fault));
+    }
 }
 
 /// Turns the layer off for good and closes the control socket.
@@ -177,27 +269,22 @@ pub(crate) fn draws_to(drawable: Drawable) -> bool {
 /// or without a drawable, the thread has nothing to draw to.
 pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Drawable>) {
     // The call comes from the driver or the layer, inside a call that has a hook of its own.
-    if THREAD.with(|t| t.depth.get()) > 0 {
+    if caller() != Caller::Program {
         return;
     }
     set_inside(Inside::Outside);
-    release();
+    sheltered(release);
     THREAD.with(|t| t.provider.set((!handle.is_null()).then_some(provider)));
-    let (Some(drawable), false, false) = (drawable, handle.is_null(), switch::off()) else {
+    let (Some(drawable), false) = (drawable, handle.is_null()) else {
         return;
     };
-    deep::rebind_new_libraries();
-    let Some((width, height)) = guarded(|| drawable::size(drawable)) else {
+    let Some((width, height)) = sheltered(|| take((provider, handle), drawable)).flatten() else {
         return;
     };
-    let key = (provider, handle);
-    let Some(context) = registry::take(key, || Context::new(key, drawable)) else {
-        return say("a context is current on two threads; the second one shows it as it is");
-    };
-    THREAD.with(|t| t.context.set(context));
     let moved = current(|c| c.drawable.replace(drawable) != drawable) == Some(true);
     let outcome = with_context(|gl, c, work| {
         let outcome = match (&mut work.layer, &mut work.frames) {
+            (None, None) if work.refused => Ok(()),
             (None, None) => attach(gl, c.key, work, width, height),
             (Some(l), _) if moved || l.size() != (width, height) => {
                 l.resize(gl, width, height).map_err(|e| e.to_string())
@@ -209,20 +296,37 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
             _ => Ok(()),
         };
         match &mut work.layer {
-            Some(l) if outcome.is_err() => {
-                l.abandon(gl);
-                work.layer = None;
+            Some(_) if outcome.is_err() => {
+                let layer = work.layer.take();
+                layer.into_iter().for_each(|l| l.dissolve(gl, false));
             }
             // Such a context shows no frames, at which it would get the values of the process.
             Some(l) if l.is_hidden() => live::adopt(l),
             _ => {}
         }
+        work.refused |= outcome.is_err();
         outcome
     });
     if let Some(Err(e)) = outcome {
-        say(&format!("{e}; this context is shown as it is"));
-        release();
+        say_once(&format!("{e}; this context is shown as it is"));
+        sheltered(release);
     }
+}
+
+/// Makes a context that the driver has made current that of this thread. Returns the size of its drawable, in pixels; None where the context
+/// is left alone.
+fn take(key: Key, drawable: Drawable) -> Option<(u32, u32)> {
+    if switch::off() && !registry::knows(key) {
+        return None;
+    }
+    deep::rebind_new_libraries();
+    let size = drawable::first_size(drawable)?;
+    let Some(context) = registry::take(key, || Context::new(key, drawable)) else {
+        say("a context is current on two threads; the second one shows it as it is");
+        return None;
+    };
+    THREAD.with(|t| t.context.set(context));
+    Some(size)
 }
 
 fn attach(gl: &Gl, key: Key, work: &mut Work, width: u32, height: u32) -> Result<(), String> {
@@ -265,12 +369,14 @@ fn forget(context: Option<Box<Context>>) {
 /// The program destroys a context. GL destroys it only when it is current on no thread. Until then the handle stays valid, and the thread
 /// that has it current frees the record.
 pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
-    let (unused, last) = registry::destroy((provider, handle));
-    if last {
-        control::close(control::State::Unopened);
-    }
-    forget(unused);
-    shares::destroyed(provider, handle);
+    sheltered(|| {
+        let (unused, last) = registry::destroy((provider, handle));
+        if last {
+            control::close(control::State::Unopened);
+        }
+        forget(unused);
+        shares::destroyed(provider, handle);
+    });
 }
 
 /// The end of a frame on a drawable: shows the frame and makes the program's own call, `swap`.
@@ -279,6 +385,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
     let ours = drawable.is_none_or(draws_to);
     if ours {
         with_context(|gl, c, work| {
+            let _quiet = Quiet::new();
             if let Some(l) = &mut work.layer {
                 control::before(l);
                 keys::before(l);
@@ -295,6 +402,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
     let r = guarded(swap);
     if ours {
         with_context(|_, c, work| {
+            let _quiet = Quiet::new();
             if let Some(l) = &mut work.layer {
                 l.count_frame();
                 live::adopt(l);
@@ -335,6 +443,8 @@ fn check_size() {
     });
     if let Some(Some(e)) = failed {
         give_up(&e);
+        // This context gets its framebuffer 0 back now, others at their next call.
+        enter(|_, _| ());
     }
 }
 
@@ -350,10 +460,25 @@ pub(crate) fn write_back_shared() {
     }
 }
 
-/// The program leaves an OSMesa context. Anything that it has drawn since its last glFinish is a frame.
-pub(crate) fn finish_memory_frame() {
+/// Whether something was drawn that no picture has shown.
+pub(crate) fn is_drawn() -> bool {
+    enter(|_, l| l.drawn()) == Some(true)
+}
+
+/// Makes a call that flushes, which shows what was drawn to the front buffer, or to the only one.
+pub(crate) fn show_flushed<R>(call: impl FnOnce() -> R) -> R {
     write_back_shared();
-    if draws_to_memory() && enter(|_, l| l.drawn()) == Some(true) {
+    match !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
+        true => frame(None, call),
+        false => guarded(call),
+    }
+}
+
+/// The program is about to leave its context, which flushes. Anything that it has drawn to its memory (OSMesa) since its last glFinish is a
+/// frame.
+pub(crate) fn leave_context() {
+    show_flushed(|| ());
+    if draws_to_memory() && is_drawn() {
         // SAFETY: the context is still current.
         frame(None, || unsafe { Provider::OsMesa.real().glFinish() });
     }

@@ -49,7 +49,17 @@ const KINDS: [usize; 2] = [1025, 1026];
 const KINDS: [usize; 0] = [];
 
 /// Beginnings of the names of GL's own libraries, which call each other and are left alone.
-const GL: [&[u8]; 4] = [b"libGL", b"libEGL", b"libOpenGL", b"libOSMesa"];
+const GL: [&[u8]; 9] = [
+    b"libGL.so",
+    b"libGLX",
+    b"libGLdispatch.so",
+    b"libGLES",
+    b"libEGL",
+    b"libOpenGL.so",
+    b"libOSMesa.so",
+    b"libnvidia-",
+    b"libglapi.so",
+];
 
 const PT_LOAD: u32 = 1;
 const PT_DYNAMIC: u32 = 2;

@@ -56,7 +56,8 @@ unsafe extern "C" fn answer(handle: *mut c_void, name: *const c_char) -> *mut c_
     let Some((slot, ours)) = export(name.to_bytes()) else {
         return real;
     };
-    if provider::own(real) {
+    let first = provider::own(real);
+    if first {
         // The name was found only because we are preloaded. A program without GL, or without EGL beside GLX, must not conclude that it
         // has it. Without us it would get the next symbol; but a plugin also asks in the scope of its own libraries, which only the linker
         // knows.
@@ -68,7 +69,12 @@ unsafe extern "C" fn answer(handle: *mut c_void, name: *const c_char) -> *mut c_
     if real.is_null() {
         return real;
     }
-    if provider::provider_of(real).is_some() && switch::hooked(slot) {
+    // Where ours is the first, the next may be a hook of another preloaded library.
+    let known = match provider::provider_of(real) {
+        None => first && !provider::is_named_as_gl(real),
+        Some(_) => true,
+    };
+    if known && switch::hooked(slot) {
         ours
     } else {
         real

@@ -32,11 +32,20 @@ pub(crate) fn window(drawable: Drawable) -> Option<(String, u32)> {
     }
 }
 
-/// Width and height in pixels.
+/// Width and height in pixels of a drawable that was just made current.
+pub(crate) fn first_size(drawable: Drawable) -> Option<(u32, u32)> {
+    size(drawable).or_else(|| match drawable {
+        // SAFETY: the program has just made this drawable current on this thread.
+        Drawable::Glx(display, drawable) => unsafe { geometry::queried_size(display, drawable) },
+        _ => None,
+    })
+}
+
+/// Width and height in pixels of a drawable that may have another size by now. None where it keeps its size, or does not exist any more.
 pub(crate) fn size(drawable: Drawable) -> Option<(u32, u32)> {
     match drawable {
-        // SAFETY: the program has just made this drawable current on this thread.
-        Drawable::Glx(display, drawable) => unsafe { geometry::glx_size(display, drawable) },
+        // SAFETY: the program uses this display on this thread.
+        Drawable::Glx(display, drawable) => unsafe { geometry::window_size(display, drawable) },
         Drawable::Egl(display, surface) => {
             let ask = |name: i32| {
                 let mut v = 0i32;

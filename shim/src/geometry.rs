@@ -1,38 +1,42 @@
 //! The size of a GLX drawable, and the place of a window on its screen.
 
 use crate::provider::Provider;
+use crate::windows;
 use crate::xcb::{Connection, Monitor, connection, monitors, translated, window};
 use core::ffi::c_ulong;
 use manyview_core::gl::Ptr;
 use manyview_core::layer::OnScreen;
 
-/// Width and height in pixels. The query uses xcb, which returns errors as values; an X error through Xlib would end the program.
+/// Width and height of the window behind a drawable, in pixels. None where there is no window, or it is destroyed: xcb returns errors as
+/// values, while an X error through Xlib would end the program.
 ///
 /// # Safety
 /// `display` is the Display that the program just used with this drawable on this thread.
-pub(crate) unsafe fn glx_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u32)> {
+pub(crate) unsafe fn window_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u32)> {
+    let behind = windows::behind(display, drawable);
     // SAFETY: forwarded.
-    unsafe { window_size(display, drawable) }.or_else(|| {
-        let ask = |name: i32| {
-            let mut v = 0u32;
-            // SAFETY: a pbuffer or pixmap of this display (not a window: those answered above); one u32.
-            unsafe {
-                Provider::Gl
-                    .real()
-                    .glXQueryDrawable(display, drawable, name, (&raw mut v).cast())
-            };
-            v
-        };
-        const GLX_WIDTH: i32 = 0x801D;
-        const GLX_HEIGHT: i32 = 0x801E;
-        let size = (ask(GLX_WIDTH), ask(GLX_HEIGHT));
-        (size.0 > 0 && size.1 > 0).then_some(size)
-    })
+    unsafe { window(connection(display)?, behind as u32) }.map(|found| found.size)
 }
 
-unsafe fn window_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u32)> {
-    // SAFETY: forwarded.
-    unsafe { window(connection(display)?, drawable as u32) }.map(|found| found.size)
+/// Width and height of a pbuffer or a pixmap, in pixels, which keeps them as long as it lives.
+///
+/// # Safety
+/// The program has just made the drawable current on this thread: of one that is destroyed, Xlib would report an error.
+pub(crate) unsafe fn queried_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u32)> {
+    let ask = |name: i32| {
+        let mut v = 0u32;
+        // SAFETY: forwarded; one u32.
+        unsafe {
+            Provider::Gl
+                .real()
+                .glXQueryDrawable(display, drawable, name, (&raw mut v).cast())
+        };
+        v
+    };
+    const GLX_WIDTH: i32 = 0x801D;
+    const GLX_HEIGHT: i32 = 0x801E;
+    let size = (ask(GLX_WIDTH), ask(GLX_HEIGHT));
+    (size.0 > 0 && size.1 > 0).then_some(size)
 }
 
 /// Frames after which monitors are queried again even if the window has not moved, because they may have changed.

@@ -1,6 +1,6 @@
 //! The functions that generated hooks call: one per class of command.
 
-use crate::context::{self, enter};
+use crate::context::{self, enter, instead};
 use manyview_core::gl::{Gl, Real};
 use manyview_core::layer::Layer;
 
@@ -121,17 +121,14 @@ pub(crate) fn mipmap(target: u32, call: &mut dyn FnMut(&'static Real)) {
 /// A call that runs a compute shader.
 pub(crate) fn compute(call: &mut dyn FnMut(&'static Real)) {
     before_uncompiled();
-    if enter(|gl, l| l.compute(gl, &mut || call(gl.real()))).is_none() {
-        call(real());
-    }
+    instead(&mut || call(real()), |gl, l, call| l.compute(gl, call));
 }
 
 /// A copy from the read framebuffer to the texture bound at `target`; `x` and `width` are its columns in pixels.
 pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
-    let copied = enter(|gl, l| l.copy_texture(gl, target, x, width, &mut || call(gl.real())));
-    if copied.is_none() {
-        call(real());
-    }
+    instead(&mut || call(real()), |gl, l, call| {
+        l.copy_texture(gl, target, x, width, call);
+    });
 }
 
 /// Before a command that no display list compiles: the commands before it have to be executed first.
@@ -203,30 +200,30 @@ pub(crate) fn draw(kind: Kind, call: &mut dyn FnMut(&'static Real)) {
         },
         Kind::ARRAYS => Plan::Other,
     };
-    if enter(|gl, l| l.draw(gl, kind, &mut || call(gl.real()))).is_none() {
-        call(real());
-    }
+    instead(&mut || call(real()), |gl, l, call| l.draw(gl, kind, call));
 }
 
 /// A call that reads from the read framebuffer; `x` and `width` are its columns in pixels.
 pub(crate) fn read(x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
-    if enter(|gl, l| l.read(gl, x, width, &mut || call(gl.real()))).is_none() {
-        call(real());
-    }
+    instead(&mut || call(real()), |gl, l, call| {
+        l.read(gl, x, width, call);
+    });
 }
 
 /// As [`read`], for a command that no display list compiles.
 pub(crate) fn read_now(x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
-    if enter(|gl, l| l.read_now(gl, x, width, &mut || call(gl.real()))).is_none() {
-        call(real());
-    }
+    instead(&mut || call(real()), |gl, l, call| {
+        l.read_now(gl, x, width, call);
+    });
 }
 
 /// A call that concerns the framebuffer bound at `target`. If that is the program's 0, the driver gets the true one.
 pub(crate) fn hide<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> R {
     before_uncompiled();
     let mut answer = None;
-    enter(|gl, l| l.with_true_zero(gl, target, &mut || answer = Some(call(gl.real()))));
+    instead(&mut || answer = Some(call(real())), |gl, l, call| {
+        l.with_true_zero(gl, target, call);
+    });
     answer.unwrap_or_else(|| call(real()))
 }
 

@@ -3,6 +3,7 @@
 
 #[macro_use]
 mod export;
+mod caller;
 mod context;
 mod control;
 mod deep;
@@ -12,19 +13,24 @@ mod drawable;
 #[allow(non_snake_case, unreachable_pub, unused_unsafe, clippy::missing_safety_doc, clippy::too_many_arguments, clippy::not_unsafe_ptr_arg_deref, reason = "generated; the names and signatures are the API's own, the contract of each is the API's")]
 mod entry;
 mod exports;
+mod fault;
 mod geometry;
 mod hooks;
 mod keys;
 mod live;
+mod messages;
 mod provider;
 mod record;
 mod registry;
 mod shares;
+mod signals;
 mod socket;
 mod special;
+mod stderr;
 mod switch;
 #[cfg(all(test, feature = "fake-driver"))]
 mod tests;
+mod uncancelled;
 mod viewports;
 mod windows;
 mod xcb;

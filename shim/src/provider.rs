@@ -1,6 +1,6 @@
 //! Finds the driver's functions: one table per provider.
 
-use core::ffi::{CStr, c_char, c_void};
+use core::ffi::{CStr, c_char, c_int, c_void};
 use core::sync::atomic::{AtomicPtr, Ordering::Relaxed};
 use manyview_core::gl::{Ptr, Real};
 
@@ -40,6 +40,14 @@ impl Provider {
                 c"libGLESv2.so.2",
             ],
             Provider::OsMesa => &[c"libOSMesa.so.8", c"libOSMesa.so.6", c"libOSMesa.so"],
+        }
+    }
+
+    /// Further libraries of its kind, in which programs look for functions.
+    fn more_libraries(self) -> &'static [&'static CStr] {
+        match self {
+            Provider::Gl => &[c"libGLESv1_CM.so.1", c"libGLdispatch.so.0"],
+            Provider::OsMesa => &[],
         }
     }
 
@@ -134,30 +142,62 @@ pub(crate) fn own(p: *const c_void) -> bool {
     }
 }
 
-/// The provider in whose library an address lies. Look-alikes of GL (such as ANGLE's libEGL) have other file names, or our lookups do
-/// not find them.
+/// The provider in whose library an address lies. A program may have libraries of its own with such names (ANGLE's libEGL.so), also in a
+/// namespace of the linker, so it is the loaded object that counts.
 pub(crate) fn provider_of(p: *const c_void) -> Option<Provider> {
-    let (_, file) = object(p)?;
-    let starts = |prefix: &str| file.starts_with(prefix.as_bytes());
-    if starts("libOSMesa.") {
-        return Some(Provider::OsMesa);
-    }
-    let gl = [
-        "libGL.",
-        "libGLX",
-        "libOpenGL.",
-        "libEGL",
-        "libGLES",
-        "libGLdispatch.",
-        "libnvidia-gl",
-        "libglapi.",
-    ];
-    gl.iter().any(|g| starts(g)).then_some(Provider::Gl)
+    let object = linked_object(p)?;
+    let holds = |provider: &Provider| {
+        let all = provider.libraries().iter().chain(provider.more_libraries());
+        all.into_iter().any(|library| handle(library) == object)
+    };
+    [Provider::Gl, Provider::OsMesa].into_iter().find(holds)
 }
 
+/// Whether a file name could be that of a library of GL.
+pub(crate) fn is_named_as_gl(p: *const c_void) -> bool {
+    let names = ["libGL", "libEGL", "libOpenGL", "libOSMesa"];
+    object(p).is_some_and(|(_, file)| names.iter().any(|n| file.starts_with(n.as_bytes())))
+}
+
+unsafe extern "C" {
+    fn dladdr1(
+        address: *const c_void,
+        info: *mut libc::Dl_info,
+        extra: *mut *mut c_void,
+        flags: c_int,
+    ) -> c_int;
+}
+
+const RTLD_DL_LINKMAP: c_int = 2;
+
+/// The linker's record of the object that holds an address. A handle of dlopen is the address of such a record (glibc).
+fn linked_object(p: *const c_void) -> Option<*mut c_void> {
+    // SAFETY: all-zero is a valid Dl_info.
+    let mut info: libc::Dl_info = unsafe { core::mem::zeroed() };
+    let mut record = core::ptr::null_mut();
+    // SAFETY: any address may be asked about; the others are ours.
+    let found = unsafe { dladdr1(p, &mut info, &mut record, RTLD_DL_LINKMAP) };
+    (found != 0 && !record.is_null()).then_some(record)
+}
+
+type Dlopen = unsafe extern "C" fn(*const c_char, c_int) -> *mut c_void;
+
+/// A library that is loaded, and null for one that is not. It is asked of the dlopen behind ours: a wrapper in front of this library may
+/// answer with itself.
 fn handle(library: &CStr) -> *mut c_void {
+    static BEHIND: AtomicPtr<c_void> = AtomicPtr::new(core::ptr::null_mut());
+    let mut p = BEHIND.load(Relaxed);
+    if p.is_null() {
+        p = symbol(libc::RTLD_NEXT, c"dlopen");
+        BEHIND.store(p, Relaxed);
+    }
+    if p.is_null() {
+        return p;
+    }
+    // SAFETY: the symbol is dlopen.
+    let dlopen = unsafe { core::mem::transmute::<*mut c_void, Dlopen>(p) };
     // SAFETY: a string; NOLOAD only finds what is there.
-    unsafe { libc::dlopen(library.as_ptr(), libc::RTLD_NOLOAD | libc::RTLD_LAZY) }
+    unsafe { dlopen(library.as_ptr(), libc::RTLD_NOLOAD | libc::RTLD_LAZY) }
 }
 
 /// The symbol that the program would get without us.
@@ -167,9 +207,9 @@ pub(crate) fn default_symbol(name: &CStr) -> Option<Ptr> {
         return Some(p);
     }
     let found = if Provider::Gl.loaded() {
-        load_gl(name)
+        find_gl(name)
     } else {
-        load_osmesa(name)
+        find_osmesa(name)
     };
     (!found.is_null()).then_some(found)
 }
@@ -177,7 +217,11 @@ pub(crate) fn default_symbol(name: &CStr) -> Option<Ptr> {
 fn load(provider: Provider, name: &CStr) -> Ptr {
     // The next one in load order comes first, so that other preloaded hooks of the same function stay in the chain.
     let p = symbol(libc::RTLD_NEXT, name);
-    if !p.is_null() && !own(p) && provider_of(p).is_none_or(|q| q == provider) {
+    let fits = || match provider_of(p) {
+        Some(other) => other == provider,
+        None => !is_named_as_gl(p),
+    };
+    if !p.is_null() && !own(p) && fits() {
         return p;
     }
     provider
@@ -190,7 +234,19 @@ fn load(provider: Provider, name: &CStr) -> Ptr {
         .unwrap_or(core::ptr::null_mut())
 }
 
-fn load_gl(name: &CStr) -> Ptr {
+/// See [`Real::new`].
+fn load_gl(name: &CStr) -> Option<Ptr> {
+    let found = find_gl(name);
+    (!found.is_null() || has(name.to_bytes())).then_some(found)
+}
+
+/// See [`Real::new`].
+fn load_osmesa(name: &CStr) -> Option<Ptr> {
+    let found = find_osmesa(name);
+    (!found.is_null() || Provider::OsMesa.loaded()).then_some(found)
+}
+
+fn find_gl(name: &CStr) -> Ptr {
     let p = load(Provider::Gl, name);
     if !p.is_null() {
         return p;
@@ -205,7 +261,7 @@ fn load_gl(name: &CStr) -> Ptr {
     by_address_function(Provider::Gl, functions, name)
 }
 
-fn load_osmesa(name: &CStr) -> Ptr {
+fn find_osmesa(name: &CStr) -> Ptr {
     let p = load(Provider::OsMesa, name);
     if p.is_null() {
         by_address_function(Provider::OsMesa, &[c"OSMesaGetProcAddress"], name)

@@ -2,6 +2,7 @@
 
 use crate::drawable::Drawable;
 use crate::geometry::Seen;
+use crate::messages::Receiver;
 use crate::provider::Provider;
 use crate::viewports::Viewports;
 use core::cell::{Cell, OnceCell, RefCell};
@@ -17,6 +18,8 @@ pub(crate) struct Context {
     /// The driver's functions, from the first time that the context was current.
     pub(crate) gl: OnceCell<Gl>,
     pub(crate) drawable: Cell<Drawable>,
+    /// The program's debug callback, once it has set one.
+    pub(crate) receiver: OnceCell<&'static Receiver>,
     /// Borrowed by the hook at work: a call from inside the layer or the driver finds it borrowed and passes.
     pub(crate) work: RefCell<Work>,
 }
@@ -28,8 +31,12 @@ pub(crate) struct Work {
     /// Sizes of viewports since the last change of the drawable's size.
     pub(crate) viewports: Viewports,
     pub(crate) layer: Option<Layer>,
+    /// The context cannot be shown in several views; it is not tried again.
+    pub(crate) refused: bool,
     /// In place of the layer where frames are only counted and captured.
     pub(crate) frames: Option<Frames>,
+    /// The end of the process is watched from the first draw on.
+    pub(crate) watched: bool,
 }
 
 impl Context {
@@ -38,10 +45,13 @@ impl Context {
             key,
             gl: OnceCell::new(),
             drawable: Cell::new(drawable),
+            receiver: OnceCell::new(),
             work: RefCell::new(Work {
                 seen: None,
                 viewports: Viewports::default(),
+                watched: false,
                 layer: None,
+                refused: false,
                 frames: None,
             }),
         }

@@ -60,6 +60,12 @@ pub(crate) fn take(key: Key, make: impl FnOnce() -> Context) -> Option<*mut Cont
     Some(context)
 }
 
+/// Whether a context of the program has a record.
+pub(crate) fn knows(key: Key) -> bool {
+    let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    registry.0.iter().any(|e| e.key == key && !e.destroyed)
+}
+
 /// Whether a thread has ended. A thread that ends with a context current never releases it.
 fn is_gone(thread: c_int) -> bool {
     // SAFETY: signal 0 only asks whether the thread is there.

@@ -1,11 +1,10 @@
 //! Whether the layer is on in this process, which decides where each exported function leads.
 
-use crate::{Address, provider};
+use crate::{Address, provider, stderr};
 use core::sync::atomic::{AtomicBool, AtomicPtr, Ordering::Relaxed};
 use manyview_core::config::{Config, Output};
 use manyview_core::gl::{NAMES, slot};
-use std::io::Write;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// How much of the program the layer watches.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -19,7 +18,18 @@ pub(crate) enum Mode {
 }
 
 static CONFIG: OnceLock<Option<Config>> = OnceLock::new();
+#[cfg(not(all(test, feature = "fake-driver")))]
 static OFF: AtomicBool = AtomicBool::new(false);
+// In tests each thread is a process of its own.
+#[cfg(all(test, feature = "fake-driver"))]
+thread_local! { static OFF: AtomicBool = const { AtomicBool::new(false) } }
+
+fn with_off<R>(f: impl FnOnce(&AtomicBool) -> R) -> R {
+    #[cfg(not(all(test, feature = "fake-driver")))]
+    return f(&OFF);
+    #[cfg(all(test, feature = "fake-driver"))]
+    OFF.with(f)
+}
 
 /// The configuration. None where the layer is disabled or an option is wrong, which is reported once on stderr.
 pub(crate) fn config() -> Option<&'static Config> {
@@ -56,7 +66,7 @@ pub(crate) fn configure(config: Config) {
 /// The mode of this process.
 pub(crate) fn mode() -> Mode {
     match config() {
-        _ if OFF.load(Relaxed) => Mode::Passive,
+        _ if off() => Mode::Passive,
         None => Mode::Passive,
         // Depth is read from the atlas, even with one view.
         Some(c) if c.views > 1 || c.output == Output::Rgbd => Mode::Active,
@@ -65,21 +75,25 @@ pub(crate) fn mode() -> Mode {
     }
 }
 
-/// Prints one line on stderr. Errors are ignored, since stderr may be closed. A socket is left alone: it may be the program's connection
-/// to its X server, which got the free descriptor.
+/// Prints one line on stderr, where that is possible without harm to the program.
 pub(crate) fn say(text: &str) {
-    // SAFETY: all-zero is a valid stat.
-    let mut status: libc::stat = unsafe { core::mem::zeroed() };
-    // SAFETY: status is ours.
-    let known = unsafe { libc::fstat(libc::STDERR_FILENO, &mut status) } == 0;
-    if known && status.st_mode & libc::S_IFMT != libc::S_IFSOCK {
-        let _ = writeln!(std::io::stderr(), "manyview: {text}");
+    stderr::write(&format!("manyview: {text}\n"));
+}
+
+/// As [`say`], but not if the same was said before.
+pub(crate) fn say_once(text: &str) {
+    static SAID: Mutex<Vec<String>> = Mutex::new(Vec::new());
+    let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
+    if !said.iter().any(|before| before == text) {
+        said.push(text.to_owned());
+        drop(said);
+        say(text);
     }
 }
 
 /// Turns the layer off for the rest of the process. Returns whether it was on.
 pub(crate) fn turn_off(why: &str) -> bool {
-    let was_on = !OFF.swap(true, Relaxed);
+    let was_on = !with_off(|off| off.swap(true, Relaxed));
     if was_on {
         say(&format!(
             "{why}; the layer is off, the program goes on without it"
@@ -88,9 +102,33 @@ pub(crate) fn turn_off(why: &str) -> bool {
     was_on
 }
 
+static ENDING: AtomicBool = AtomicBool::new(false);
+
+extern "C" fn ends() {
+    ENDING.store(true, Relaxed);
+}
+
+/// Asks to be told when the process ends. Functions given to atexit later run first. So whatever the driver has set up before still works
+/// until then. Parts that it sets up later have gone by then, and it must not be asked for a picture any more.
+pub(crate) fn watch_the_end() {
+    // SAFETY: a function without conditions, in a library that stays loaded.
+    unsafe { libc::atexit(ends) };
+}
+
+/// Whether the process ends, and the driver with it: the program's calls are passed on, and nothing more is done.
+pub(crate) fn ending() -> bool {
+    ENDING.load(Relaxed)
+}
+
 /// Whether the layer was turned off.
 pub(crate) fn off() -> bool {
-    OFF.load(Relaxed)
+    with_off(|off| off.load(Relaxed))
+}
+
+/// Turns the layer on again for the next program of a test.
+#[cfg(all(test, feature = "fake-driver"))]
+pub(crate) fn turn_on() {
+    with_off(|off| off.store(false, Relaxed));
 }
 
 /// The commands that [`Mode::Observe`] hooks.

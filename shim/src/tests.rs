@@ -9,8 +9,9 @@ use crate::switch;
 use core::cell::Cell;
 use core::ptr::null_mut;
 use manyview_core::config::Config;
-use manyview_core::gl::fake::{Fake, Snapshot};
-use manyview_core::gl::{Ptr, Real, consts as c};
+use manyview_core::gl::fake::{Arg, Call, Fake, Snapshot};
+use manyview_core::gl::{NAMES, Ptr, Real, consts as c};
+use std::collections::BTreeMap;
 
 thread_local! {
     static DRIVER: Cell<Option<&'static Real>> = const { Cell::new(None) };
@@ -19,6 +20,25 @@ thread_local! {
 /// The functions of the fake driver of this thread's test.
 pub(crate) fn driver() -> Option<&'static Real> {
     DRIVER.get()
+}
+
+/// The moment at which a fault interrupts a hook's own work.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Stage {
+    Before,
+    After,
+}
+
+thread_local! {
+    static FAULT: Cell<Option<Stage>> = const { Cell::new(None) };
+}
+
+/// Panics once if a test has asked for a fault at this stage.
+pub(crate) fn strike(stage: Stage) {
+    if FAULT.get() == Some(stage) {
+        FAULT.set(None);
+        panic!("a fault of the test");
+    }
 }
 
 const VIEWS: usize = 4;
@@ -78,6 +98,8 @@ impl Drop for Program {
     fn drop(&mut self) {
         context::destroyed(Provider::Gl, handle());
         context::made_current(Provider::Gl, null_mut(), None);
+        switch::turn_on();
+        FAULT.set(None);
         DRIVER.set(None);
     }
 }
@@ -297,4 +319,87 @@ fn random_calls_leave_the_state_that_they_leave_without_the_layer() {
             "seed {seed}: {drawn} draws in place of {once}"
         );
     }
+}
+
+/// Whether a command can be called with zeros: not those of window systems, which take handles, nor questions, which the fake driver answers
+/// only for values that exist.
+fn takes_zeros(name: &str) -> bool {
+    let others = ["glX", "egl", "OSMesa", "glGet", "glIs"];
+    !others.iter().any(|other| name.starts_with(other))
+}
+
+/// How often a call with nothing but zeros reaches the driver, by the name that the driver has for it: those of the program, but for what
+/// [`CALLS_OF_OURS`] names.
+fn reached(calls: &[Call]) -> BTreeMap<&'static str, usize> {
+    let zero = |arg: &Arg| match arg {
+        Arg::Int(n) => *n == 0,
+        Arg::Float(x) => *x == 0.0,
+        Arg::Ptr(p) => *p == 0,
+        _ => false,
+    };
+    let mut all = BTreeMap::new();
+    for call in calls.iter().filter(|call| call.args.iter().all(zero)) {
+        *all.entry(call.name).or_default() += 1;
+    }
+    let question = |name: &str| name.starts_with("glGet") || name.starts_with("glIs");
+    all.retain(|name, _| !question(name) && !CALLS_OF_OURS.contains(name));
+    all
+}
+
+/// Commands that the layer calls with zeros or without arguments.
+const CALLS_OF_OURS: [&str; 12] = [
+    "glBindVertexArray",
+    "glDrawBuffer",
+    "glDrawBuffers",
+    "glReadBuffer",
+    "glScissor",
+    "glViewport",
+    "glUseProgram",
+    "glEndList",
+    "glPushMatrix",
+    "glPopMatrix",
+    "glPopAttrib",
+    "glFlush",
+];
+
+/// The calls of a hook with zeros that reach the driver, and whether the fault has struck.
+fn called(call: unsafe fn(), fault: Option<Stage>) -> (BTreeMap<&'static str, usize>, bool) {
+    let program = Program::new();
+    draw();
+    program.fake.forget();
+    FAULT.set(fault);
+    // SAFETY: the fake driver reads nothing through its arguments.
+    unsafe { call() };
+    let struck = fault.is_some() && FAULT.take().is_none();
+    (reached(&program.fake.calls()), struck)
+}
+
+#[test]
+fn a_fault_in_any_hook_makes_the_programs_call_once() {
+    let mut struck = 0;
+    let mut wrong = Vec::new();
+    for (slot, call) in WITH_ZEROS.iter().enumerate() {
+        let name = NAMES[slot].to_str().expect("ASCII");
+        let Some(call) = call.filter(|_| takes_zeros(name)) else {
+            continue;
+        };
+        let (before, hit) = called(call, Some(Stage::Before));
+        if !hit {
+            continue;
+        }
+        struck += 1;
+        if before.values().any(|&times| times != 1) {
+            wrong.push(format!("{name}: {before:?} after a fault before the work"));
+        }
+        // What the layer has sent for the views is not sent once more.
+        let ((whole, _), (after, _)) = (called(call, None), called(call, Some(Stage::After)));
+        let most = |name: &str| whole.get(name).copied().unwrap_or(0).max(1);
+        if after.iter().any(|(name, &times)| times > most(name)) {
+            wrong.push(format!(
+                "{name}: {after:?} for {whole:?} after a fault behind the work"
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(struck > 100, "only {struck} hooks were interrupted");
 }

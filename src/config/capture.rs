@@ -24,7 +24,7 @@ impl Capture {
     /// The file for one frame of a picture that is no quilt: `%d` becomes the frame; without it, several frames get `-000030`
     /// before the extension.
     ///
-    /// The layer writes to [`Capture::partial`] first and renames, so a file with this name is whole.
+    /// The layer writes to a new file beside it first and renames, so a file with this name is whole.
     #[must_use]
     pub fn path_for(&self, frame: u64) -> PathBuf {
         self.path_with(frame, "")
@@ -92,14 +92,6 @@ impl Capture {
 
     fn file_name(&self) -> String {
         file_name(&self.out)
-    }
-
-    /// The name under which a file grows.
-    #[must_use]
-    pub fn partial(path: &Path) -> PathBuf {
-        let mut path = path.as_os_str().to_owned();
-        path.push(".tmp");
-        PathBuf::from(path)
     }
 }
 

@@ -16,6 +16,7 @@ mod parse;
 pub mod profile;
 #[cfg(test)]
 mod profile_tests;
+mod replace;
 mod settings;
 mod status;
 mod strategy;
@@ -32,8 +33,9 @@ pub use live::{Knob, Live};
 pub use options::{DISABLE, Former, LIBRARY, OPTIONS, OptionId, OptionSpec, PathKind, Scope};
 pub use output::{Anaglyph, Glasses, Interlace, Mixture, Output};
 pub use profile::{Profile, Rule};
+pub use replace::{replace, replace_by};
 pub use settings::{Setting, Settings};
-pub use status::{Status, replace};
+pub use status::Status;
 pub use strategy::{DisocclusionSource, Repetition, Strategy, TrueViews};
 
 use crate::display::Display;

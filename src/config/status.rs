@@ -1,7 +1,7 @@
 //! The small file in which the layer tells the launcher how far it is.
 #![forbid(unsafe_code)]
 
-use super::Capture;
+use super::replace;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -29,11 +29,4 @@ impl Status {
     pub fn write(&self, path: &Path) -> std::io::Result<()> {
         replace(path, &serde_json::to_vec(self)?)
     }
-}
-
-/// Replaces a file in one step, so that a reader never sees half of it.
-pub fn replace(path: &Path, contents: &[u8]) -> std::io::Result<()> {
-    let growing = Capture::partial(path);
-    std::fs::write(&growing, contents)?;
-    std::fs::rename(&growing, path)
 }

@@ -234,7 +234,7 @@ impl<'a> Sending<'a> {
                     call(view);
                 }
             }
-            ReplayHazard::Anything { .. } => self.anything(view, call),
+            ReplayHazard::Anything { .. } => self.anything(view, x, call),
             _ => {
                 self.current.put(gl);
                 call(view);
@@ -245,12 +245,16 @@ impl<'a> Sending<'a> {
         }
     }
 
-    /// Sends a list, which may leave matrices and attributes on the stacks.
-    fn anything(&self, view: ViewIndex, call: &mut dyn FnMut(ViewIndex)) {
+    /// Sends a list, which may leave matrices and attributes on the stacks. Pixels and bitmaps in it, before it sets a raster position, lie at
+    /// the program's, so that is moved to the tile; it is saved with the attributes.
+    fn anything(&self, view: ViewIndex, x: i32, call: &mut dyn FnMut(ViewIndex)) {
         let gl = self.gl;
         let stack = Stack::take(gl, self.state.matrices.mode);
         let attribs = gl.get_integer(c::ATTRIB_STACK_DEPTH);
         self.current.put(gl);
+        if x != 0 {
+            gl.move_raster(x as f32, 0.0);
+        }
         call(view);
         let left = gl.get_integer(c::ATTRIB_STACK_DEPTH);
         (attribs..left).for_each(|_| gl.pop_attrib());

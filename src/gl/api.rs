@@ -76,6 +76,8 @@ plain! {
     end_list = glEndList();
     begin_query = glBeginQuery(target: u32, query: QueryName);
     end_query = glEndQuery(target: u32);
+    pause_transform_feedback = glPauseTransformFeedback();
+    resume_transform_feedback = glResumeTransformFeedback();
     begin_conditional_render = glBeginConditionalRender(query: QueryName, mode: u32);
     end_conditional_render = glEndConditionalRender();
     call_list = glCallList(list: ListName);

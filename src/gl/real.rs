@@ -10,7 +10,7 @@ pub type Ptr = *mut c_void;
 /// The real functions of one provider (libGL and libEGL through glvnd, or libOSMesa), found on first use.
 pub struct Real {
     slots: [AtomicPtr<c_void>; COUNT],
-    loader: fn(&CStr) -> Ptr,
+    loader: fn(&CStr) -> Option<Ptr>,
 }
 
 impl core::fmt::Debug for Real {
@@ -23,8 +23,9 @@ impl core::fmt::Debug for Real {
 const MISSING: Ptr = usize::MAX as Ptr;
 
 impl Real {
-    /// A table whose functions `loader` finds; null means that the provider has none of that name.
-    pub const fn new(loader: fn(&CStr) -> Ptr) -> Self {
+    /// A table whose functions `loader` finds. It returns null if the provider has none of that name, and nothing if the library that would
+    /// have it is not loaded yet.
+    pub const fn new(loader: fn(&CStr) -> Option<Ptr>) -> Self {
         Real {
             slots: [const { AtomicPtr::new(core::ptr::null_mut()) }; COUNT],
             loader,
@@ -47,7 +48,7 @@ impl Real {
         if self.slots[slot].load(Relaxed) == MISSING {
             return None;
         }
-        let p = (self.loader)(NAMES[slot]);
+        let p = (self.loader)(NAMES[slot])?;
         self.slots[slot].store(if p.is_null() { MISSING } else { p }, Relaxed);
         (!p.is_null()).then_some(p)
     }
@@ -69,7 +70,7 @@ macro_rules! real_functions {
                 pub unsafe fn $name(&self, $($a: $t),*) $(-> $r)? {
                     let Some(p) = self.get(slot::$name) else { return $($zero)? };
                     // SAFETY: the provider's symbol of this name has this signature (Khronos registry).
-                    unsafe { core::mem::transmute::<Ptr, unsafe extern "C" fn($($t),*) $(-> $r)?>(p)($($a),*) }
+                    unsafe { core::mem::transmute::<Ptr, unsafe extern "C-unwind" fn($($t),*) $(-> $r)?>(p)($($a),*) }
                 }
             )*
         }

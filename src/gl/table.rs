@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1435;
+pub const COUNT: usize = 1780;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -506,943 +506,1288 @@ pub mod slot {
     pub const glMatrixLoadTransposefEXT: usize = 495;
     pub const glMatrixMultTransposedEXT: usize = 496;
     pub const glMatrixMultTransposefEXT: usize = 497;
-    pub const glViewport: usize = 498;
-    pub const glScissor: usize = 499;
-    pub const glScissorArrayv: usize = 500;
-    pub const glScissorArrayvNV: usize = 501;
-    pub const glScissorArrayvOES: usize = 502;
-    pub const glScissorIndexed: usize = 503;
-    pub const glScissorIndexedNV: usize = 504;
-    pub const glScissorIndexedOES: usize = 505;
-    pub const glScissorIndexedv: usize = 506;
-    pub const glScissorIndexedvNV: usize = 507;
-    pub const glScissorIndexedvOES: usize = 508;
-    pub const glViewportArrayv: usize = 509;
-    pub const glViewportArrayvNV: usize = 510;
-    pub const glViewportArrayvOES: usize = 511;
-    pub const glViewportIndexedf: usize = 512;
-    pub const glViewportIndexedfNV: usize = 513;
-    pub const glViewportIndexedfOES: usize = 514;
-    pub const glViewportIndexedfv: usize = 515;
-    pub const glViewportIndexedfvNV: usize = 516;
-    pub const glViewportIndexedfvOES: usize = 517;
-    pub const glEnable: usize = 518;
-    pub const glDisable: usize = 519;
-    pub const glEnablei: usize = 520;
-    pub const glEnableIndexedEXT: usize = 521;
-    pub const glEnableiEXT: usize = 522;
-    pub const glEnableiNV: usize = 523;
-    pub const glEnableiOES: usize = 524;
-    pub const glDisablei: usize = 525;
-    pub const glDisableIndexedEXT: usize = 526;
-    pub const glDisableiEXT: usize = 527;
-    pub const glDisableiNV: usize = 528;
-    pub const glDisableiOES: usize = 529;
-    pub const glDepthMask: usize = 530;
-    pub const glDepthFunc: usize = 531;
-    pub const glDepthRange: usize = 532;
-    pub const glDepthRangef: usize = 533;
-    pub const glDepthRangefOES: usize = 534;
-    pub const glDepthRangeIndexed: usize = 535;
-    pub const glDepthRangeArrayv: usize = 536;
-    pub const glActiveTexture: usize = 537;
-    pub const glActiveTextureARB: usize = 538;
-    pub const glBindTextures: usize = 539;
-    pub const glBindTextureUnit: usize = 540;
-    pub const glBindMultiTextureEXT: usize = 541;
-    pub const glLightf: usize = 542;
-    pub const glLightfv: usize = 543;
-    pub const glLighti: usize = 544;
-    pub const glLightiv: usize = 545;
-    pub const glLightModelf: usize = 546;
-    pub const glLightModelfv: usize = 547;
-    pub const glLightModeli: usize = 548;
-    pub const glLightModeliv: usize = 549;
-    pub const glColorMaterial: usize = 550;
-    pub const glTexGend: usize = 551;
-    pub const glTexGendv: usize = 552;
-    pub const glTexGenf: usize = 553;
-    pub const glTexGenfv: usize = 554;
-    pub const glTexGeni: usize = 555;
-    pub const glTexGeniv: usize = 556;
-    pub const glFogf: usize = 557;
-    pub const glFogfv: usize = 558;
-    pub const glFogi: usize = 559;
-    pub const glFogiv: usize = 560;
-    pub const glPointParameterf: usize = 561;
-    pub const glPointParameterfARB: usize = 562;
-    pub const glPointParameterfEXT: usize = 563;
-    pub const glPointParameterfSGIS: usize = 564;
-    pub const glPointParameterfv: usize = 565;
-    pub const glPointParameterfvARB: usize = 566;
-    pub const glPointParameterfvEXT: usize = 567;
-    pub const glPointParameterfvSGIS: usize = 568;
-    pub const glPointParameteri: usize = 569;
-    pub const glPointParameteriNV: usize = 570;
-    pub const glPointParameteriv: usize = 571;
-    pub const glPointParameterivNV: usize = 572;
-    pub const glPointSize: usize = 573;
-    pub const glShadeModel: usize = 574;
-    pub const glPolygonMode: usize = 575;
-    pub const glPolygonModeNV: usize = 576;
-    pub const glTexEnvf: usize = 577;
-    pub const glTexEnvfv: usize = 578;
-    pub const glTexEnvi: usize = 579;
-    pub const glTexEnviv: usize = 580;
-    pub const glHint: usize = 581;
-    pub const glLineWidth: usize = 582;
-    pub const glProvokingVertex: usize = 583;
-    pub const glProvokingVertexEXT: usize = 584;
-    pub const glClipControl: usize = 585;
-    pub const glClipControlEXT: usize = 586;
-    pub const glBindProgramARB: usize = 587;
-    pub const glBindProgramNV: usize = 588;
-    pub const glUseProgramStages: usize = 589;
-    pub const glUseProgramStagesEXT: usize = 590;
-    pub const glClampColor: usize = 591;
-    pub const glClampColorARB: usize = 592;
-    pub const glBindProgramPipeline: usize = 593;
-    pub const glBindProgramPipelineEXT: usize = 594;
-    pub const glPushAttrib: usize = 595;
-    pub const glPopAttrib: usize = 596;
-    pub const glRasterPos2d: usize = 597;
-    pub const glRasterPos2dv: usize = 598;
-    pub const glRasterPos2f: usize = 599;
-    pub const glRasterPos2fv: usize = 600;
-    pub const glRasterPos2i: usize = 601;
-    pub const glRasterPos2iv: usize = 602;
-    pub const glRasterPos2s: usize = 603;
-    pub const glRasterPos2sv: usize = 604;
-    pub const glRasterPos3d: usize = 605;
-    pub const glRasterPos3dv: usize = 606;
-    pub const glRasterPos3f: usize = 607;
-    pub const glRasterPos3fv: usize = 608;
-    pub const glRasterPos3i: usize = 609;
-    pub const glRasterPos3iv: usize = 610;
-    pub const glRasterPos3s: usize = 611;
-    pub const glRasterPos3sv: usize = 612;
-    pub const glRasterPos4d: usize = 613;
-    pub const glRasterPos4dv: usize = 614;
-    pub const glRasterPos4f: usize = 615;
-    pub const glRasterPos4fv: usize = 616;
-    pub const glRasterPos4i: usize = 617;
-    pub const glRasterPos4iv: usize = 618;
-    pub const glRasterPos4s: usize = 619;
-    pub const glRasterPos4sv: usize = 620;
-    pub const glWindowPos2d: usize = 621;
-    pub const glWindowPos2dARB: usize = 622;
-    pub const glWindowPos2dMESA: usize = 623;
-    pub const glWindowPos2dv: usize = 624;
-    pub const glWindowPos2dvARB: usize = 625;
-    pub const glWindowPos2dvMESA: usize = 626;
-    pub const glWindowPos2f: usize = 627;
-    pub const glWindowPos2fARB: usize = 628;
-    pub const glWindowPos2fMESA: usize = 629;
-    pub const glWindowPos2fv: usize = 630;
-    pub const glWindowPos2fvARB: usize = 631;
-    pub const glWindowPos2fvMESA: usize = 632;
-    pub const glWindowPos2i: usize = 633;
-    pub const glWindowPos2iARB: usize = 634;
-    pub const glWindowPos2iMESA: usize = 635;
-    pub const glWindowPos2iv: usize = 636;
-    pub const glWindowPos2ivARB: usize = 637;
-    pub const glWindowPos2ivMESA: usize = 638;
-    pub const glWindowPos2s: usize = 639;
-    pub const glWindowPos2sARB: usize = 640;
-    pub const glWindowPos2sMESA: usize = 641;
-    pub const glWindowPos2sv: usize = 642;
-    pub const glWindowPos2svARB: usize = 643;
-    pub const glWindowPos2svMESA: usize = 644;
-    pub const glWindowPos3d: usize = 645;
-    pub const glWindowPos3dARB: usize = 646;
-    pub const glWindowPos3dMESA: usize = 647;
-    pub const glWindowPos3dv: usize = 648;
-    pub const glWindowPos3dvARB: usize = 649;
-    pub const glWindowPos3dvMESA: usize = 650;
-    pub const glWindowPos3f: usize = 651;
-    pub const glWindowPos3fARB: usize = 652;
-    pub const glWindowPos3fMESA: usize = 653;
-    pub const glWindowPos3fv: usize = 654;
-    pub const glWindowPos3fvARB: usize = 655;
-    pub const glWindowPos3fvMESA: usize = 656;
-    pub const glWindowPos3i: usize = 657;
-    pub const glWindowPos3iARB: usize = 658;
-    pub const glWindowPos3iMESA: usize = 659;
-    pub const glWindowPos3iv: usize = 660;
-    pub const glWindowPos3ivARB: usize = 661;
-    pub const glWindowPos3ivMESA: usize = 662;
-    pub const glWindowPos3s: usize = 663;
-    pub const glWindowPos3sARB: usize = 664;
-    pub const glWindowPos3sMESA: usize = 665;
-    pub const glWindowPos3sv: usize = 666;
-    pub const glWindowPos3svARB: usize = 667;
-    pub const glWindowPos3svMESA: usize = 668;
-    pub const glRenderMode: usize = 669;
-    pub const glBeginTransformFeedback: usize = 670;
-    pub const glBeginTransformFeedbackEXT: usize = 671;
-    pub const glBeginTransformFeedbackNV: usize = 672;
-    pub const glEndTransformFeedback: usize = 673;
-    pub const glEndTransformFeedbackEXT: usize = 674;
-    pub const glEndTransformFeedbackNV: usize = 675;
-    pub const glAlphaFunc: usize = 676;
-    pub const glBlendFunc: usize = 677;
-    pub const glBlendFuncSeparate: usize = 678;
-    pub const glBlendFuncSeparateEXT: usize = 679;
-    pub const glBlendFuncSeparateINGR: usize = 680;
-    pub const glBlendFuncSeparatei: usize = 681;
-    pub const glBlendFuncSeparateIndexedAMD: usize = 682;
-    pub const glBlendFuncSeparateiARB: usize = 683;
-    pub const glBlendFuncSeparateiEXT: usize = 684;
-    pub const glBlendFuncSeparateiOES: usize = 685;
-    pub const glBlendFunci: usize = 686;
-    pub const glBlendFuncIndexedAMD: usize = 687;
-    pub const glBlendFunciARB: usize = 688;
-    pub const glBlendFunciEXT: usize = 689;
-    pub const glBlendFunciOES: usize = 690;
-    pub const glBlendEquation: usize = 691;
-    pub const glBlendEquationEXT: usize = 692;
-    pub const glBlendEquationSeparate: usize = 693;
-    pub const glBlendEquationSeparateEXT: usize = 694;
-    pub const glBlendEquationSeparatei: usize = 695;
-    pub const glBlendEquationSeparateIndexedAMD: usize = 696;
-    pub const glBlendEquationSeparateiARB: usize = 697;
-    pub const glBlendEquationSeparateiEXT: usize = 698;
-    pub const glBlendEquationSeparateiOES: usize = 699;
-    pub const glBlendEquationi: usize = 700;
-    pub const glBlendEquationIndexedAMD: usize = 701;
-    pub const glBlendEquationiARB: usize = 702;
-    pub const glBlendEquationiEXT: usize = 703;
-    pub const glBlendEquationiOES: usize = 704;
-    pub const glBlendColor: usize = 705;
-    pub const glBlendColorEXT: usize = 706;
-    pub const glClearAccum: usize = 707;
-    pub const glClearColor: usize = 708;
-    pub const glClearDepth: usize = 709;
-    pub const glClearDepthf: usize = 710;
-    pub const glClearDepthfOES: usize = 711;
-    pub const glClearIndex: usize = 712;
-    pub const glClearStencil: usize = 713;
-    pub const glClipPlane: usize = 714;
-    pub const glColorMask: usize = 715;
-    pub const glColorMaski: usize = 716;
-    pub const glColorMaskIndexedEXT: usize = 717;
-    pub const glColorMaskiEXT: usize = 718;
-    pub const glColorMaskiOES: usize = 719;
-    pub const glCullFace: usize = 720;
-    pub const glDepthBoundsEXT: usize = 721;
-    pub const glFrontFace: usize = 722;
-    pub const glIndexMask: usize = 723;
-    pub const glInitNames: usize = 724;
-    pub const glLoadName: usize = 725;
-    pub const glPushName: usize = 726;
-    pub const glPopName: usize = 727;
-    pub const glPassThrough: usize = 728;
-    pub const glLineStipple: usize = 729;
-    pub const glListBase: usize = 730;
-    pub const glLogicOp: usize = 731;
-    pub const glMap1d: usize = 732;
-    pub const glMap1f: usize = 733;
-    pub const glMap2d: usize = 734;
-    pub const glMap2f: usize = 735;
-    pub const glMapGrid1d: usize = 736;
-    pub const glMapGrid1f: usize = 737;
-    pub const glMapGrid2d: usize = 738;
-    pub const glMapGrid2f: usize = 739;
-    pub const glPixelMapfv: usize = 740;
-    pub const glPixelMapuiv: usize = 741;
-    pub const glPixelMapusv: usize = 742;
-    pub const glPixelTransferf: usize = 743;
-    pub const glPixelTransferi: usize = 744;
-    pub const glPixelZoom: usize = 745;
-    pub const glPolygonOffset: usize = 746;
-    pub const glPolygonOffsetClamp: usize = 747;
-    pub const glPolygonOffsetClampEXT: usize = 748;
-    pub const glPolygonStipple: usize = 749;
-    pub const glPrioritizeTextures: usize = 750;
-    pub const glPrioritizeTexturesEXT: usize = 751;
-    pub const glSampleCoverage: usize = 752;
-    pub const glSampleCoverageARB: usize = 753;
-    pub const glMinSampleShading: usize = 754;
-    pub const glMinSampleShadingARB: usize = 755;
-    pub const glMinSampleShadingOES: usize = 756;
-    pub const glStencilFunc: usize = 757;
-    pub const glStencilFuncSeparate: usize = 758;
-    pub const glStencilMask: usize = 759;
-    pub const glStencilMaskSeparate: usize = 760;
-    pub const glStencilOp: usize = 761;
-    pub const glStencilOpSeparate: usize = 762;
-    pub const glStencilOpSeparateATI: usize = 763;
-    pub const glPrimitiveRestartIndex: usize = 764;
-    pub const glTexImage1D: usize = 765;
-    pub const glTexImage2D: usize = 766;
-    pub const glTexImage3D: usize = 767;
-    pub const glTexImage3DEXT: usize = 768;
-    pub const glTexSubImage1D: usize = 769;
-    pub const glTexSubImage1DEXT: usize = 770;
-    pub const glTexSubImage2D: usize = 771;
-    pub const glTexSubImage2DEXT: usize = 772;
-    pub const glTexSubImage3D: usize = 773;
-    pub const glTexSubImage3DEXT: usize = 774;
-    pub const glCompressedTexImage1D: usize = 775;
-    pub const glCompressedTexImage1DARB: usize = 776;
-    pub const glCompressedTexImage2D: usize = 777;
-    pub const glCompressedTexImage2DARB: usize = 778;
-    pub const glCompressedTexImage3D: usize = 779;
-    pub const glCompressedTexImage3DARB: usize = 780;
-    pub const glCompressedTexSubImage1D: usize = 781;
-    pub const glCompressedTexSubImage1DARB: usize = 782;
-    pub const glCompressedTexSubImage2D: usize = 783;
-    pub const glCompressedTexSubImage2DARB: usize = 784;
-    pub const glCompressedTexSubImage3D: usize = 785;
-    pub const glCompressedTexSubImage3DARB: usize = 786;
-    pub const glTexImage2DMultisample: usize = 787;
-    pub const glTexImage3DMultisample: usize = 788;
-    pub const glTexStorage1D: usize = 789;
-    pub const glTexStorage1DEXT: usize = 790;
-    pub const glTexStorage2D: usize = 791;
-    pub const glTexStorage2DEXT: usize = 792;
-    pub const glTexStorage3D: usize = 793;
-    pub const glTexStorage3DEXT: usize = 794;
-    pub const glTexStorage2DMultisample: usize = 795;
-    pub const glTexStorage3DMultisample: usize = 796;
-    pub const glTexStorage3DMultisampleOES: usize = 797;
-    pub const glTexImage3DOES: usize = 798;
-    pub const glTexSubImage3DOES: usize = 799;
-    pub const glCompressedTexImage3DOES: usize = 800;
-    pub const glCompressedTexSubImage3DOES: usize = 801;
-    pub const glEGLImageTargetTexture2DOES: usize = 802;
-    pub const glTextureSubImage1D: usize = 803;
-    pub const glTextureSubImage2D: usize = 804;
-    pub const glTextureSubImage3D: usize = 805;
-    pub const glCompressedTextureSubImage1D: usize = 806;
-    pub const glCompressedTextureSubImage2D: usize = 807;
-    pub const glCompressedTextureSubImage3D: usize = 808;
-    pub const glTextureStorage1D: usize = 809;
-    pub const glTextureStorage2D: usize = 810;
-    pub const glTextureStorage3D: usize = 811;
-    pub const glTextureStorage2DMultisample: usize = 812;
-    pub const glTextureStorage3DMultisample: usize = 813;
-    pub const glClearTexImage: usize = 814;
-    pub const glClearTexImageEXT: usize = 815;
-    pub const glClearTexSubImage: usize = 816;
-    pub const glClearTexSubImageEXT: usize = 817;
-    pub const glNamedRenderbufferStorage: usize = 818;
-    pub const glNamedRenderbufferStorageMultisample: usize = 819;
-    pub const glTexParameterf: usize = 820;
-    pub const glTexParameterfv: usize = 821;
-    pub const glTexParameteri: usize = 822;
-    pub const glTexParameteriv: usize = 823;
-    pub const glTexParameterIiv: usize = 824;
-    pub const glTexParameterIivEXT: usize = 825;
-    pub const glTexParameterIivOES: usize = 826;
-    pub const glTexParameterIuiv: usize = 827;
-    pub const glTexParameterIuivEXT: usize = 828;
-    pub const glTexParameterIuivOES: usize = 829;
-    pub const glTextureParameterf: usize = 830;
-    pub const glTextureParameterfv: usize = 831;
-    pub const glTextureParameteri: usize = 832;
-    pub const glTextureParameteriv: usize = 833;
-    pub const glTextureParameterIiv: usize = 834;
-    pub const glTextureParameterIuiv: usize = 835;
-    pub const glGenerateMipmap: usize = 836;
-    pub const glGenerateMipmapEXT: usize = 837;
-    pub const glGenerateTextureMipmap: usize = 838;
-    pub const glCopyImageSubData: usize = 839;
-    pub const glCopyImageSubDataEXT: usize = 840;
-    pub const glCopyImageSubDataOES: usize = 841;
-    pub const glGetTextureImage: usize = 842;
-    pub const glGetTextureSubImage: usize = 843;
-    pub const glGetCompressedTextureImage: usize = 844;
-    pub const glBindImageTexture: usize = 845;
-    pub const glBindImageTextures: usize = 846;
-    pub const glDispatchCompute: usize = 847;
-    pub const glDispatchComputeIndirect: usize = 848;
-    pub const glVertexAttribDivisor: usize = 849;
-    pub const glVertexAttribDivisorANGLE: usize = 850;
-    pub const glVertexAttribDivisorARB: usize = 851;
-    pub const glVertexAttribDivisorEXT: usize = 852;
-    pub const glVertexAttribDivisorNV: usize = 853;
-    pub const glVertexBindingDivisor: usize = 854;
-    pub const glVertexArrayBindingDivisor: usize = 855;
-    pub const glProgramEnvParameter4dARB: usize = 856;
-    pub const glProgramEnvParameter4dvARB: usize = 857;
-    pub const glProgramEnvParameter4fARB: usize = 858;
-    pub const glProgramEnvParameter4fvARB: usize = 859;
-    pub const glProgramLocalParameter4dARB: usize = 860;
-    pub const glProgramLocalParameter4dvARB: usize = 861;
-    pub const glProgramLocalParameter4fARB: usize = 862;
-    pub const glProgramLocalParameter4fvARB: usize = 863;
-    pub const glUniform1d: usize = 864;
-    pub const glUniform1dv: usize = 865;
-    pub const glUniform1f: usize = 866;
-    pub const glUniform1fARB: usize = 867;
-    pub const glUniform1fv: usize = 868;
-    pub const glUniform1fvARB: usize = 869;
-    pub const glUniform1i: usize = 870;
-    pub const glUniform1iARB: usize = 871;
-    pub const glUniform1iv: usize = 872;
-    pub const glUniform1ivARB: usize = 873;
-    pub const glUniform1ui: usize = 874;
-    pub const glUniform1uiEXT: usize = 875;
-    pub const glUniform1uiv: usize = 876;
-    pub const glUniform1uivEXT: usize = 877;
-    pub const glUniform2d: usize = 878;
-    pub const glUniform2dv: usize = 879;
-    pub const glUniform2f: usize = 880;
-    pub const glUniform2fARB: usize = 881;
-    pub const glUniform2fv: usize = 882;
-    pub const glUniform2fvARB: usize = 883;
-    pub const glUniform2i: usize = 884;
-    pub const glUniform2iARB: usize = 885;
-    pub const glUniform2iv: usize = 886;
-    pub const glUniform2ivARB: usize = 887;
-    pub const glUniform2ui: usize = 888;
-    pub const glUniform2uiEXT: usize = 889;
-    pub const glUniform2uiv: usize = 890;
-    pub const glUniform2uivEXT: usize = 891;
-    pub const glUniform3d: usize = 892;
-    pub const glUniform3dv: usize = 893;
-    pub const glUniform3f: usize = 894;
-    pub const glUniform3fARB: usize = 895;
-    pub const glUniform3fv: usize = 896;
-    pub const glUniform3fvARB: usize = 897;
-    pub const glUniform3i: usize = 898;
-    pub const glUniform3iARB: usize = 899;
-    pub const glUniform3iv: usize = 900;
-    pub const glUniform3ivARB: usize = 901;
-    pub const glUniform3ui: usize = 902;
-    pub const glUniform3uiEXT: usize = 903;
-    pub const glUniform3uiv: usize = 904;
-    pub const glUniform3uivEXT: usize = 905;
-    pub const glUniform4d: usize = 906;
-    pub const glUniform4dv: usize = 907;
-    pub const glUniform4f: usize = 908;
-    pub const glUniform4fARB: usize = 909;
-    pub const glUniform4fv: usize = 910;
-    pub const glUniform4fvARB: usize = 911;
-    pub const glUniform4i: usize = 912;
-    pub const glUniform4iARB: usize = 913;
-    pub const glUniform4iv: usize = 914;
-    pub const glUniform4ivARB: usize = 915;
-    pub const glUniform4ui: usize = 916;
-    pub const glUniform4uiEXT: usize = 917;
-    pub const glUniform4uiv: usize = 918;
-    pub const glUniform4uivEXT: usize = 919;
-    pub const glUniformMatrix2dv: usize = 920;
-    pub const glUniformMatrix2fv: usize = 921;
-    pub const glUniformMatrix2fvARB: usize = 922;
-    pub const glUniformMatrix2x3dv: usize = 923;
-    pub const glUniformMatrix2x3fv: usize = 924;
-    pub const glUniformMatrix2x3fvNV: usize = 925;
-    pub const glUniformMatrix2x4dv: usize = 926;
-    pub const glUniformMatrix2x4fv: usize = 927;
-    pub const glUniformMatrix2x4fvNV: usize = 928;
-    pub const glUniformMatrix3dv: usize = 929;
-    pub const glUniformMatrix3fv: usize = 930;
-    pub const glUniformMatrix3fvARB: usize = 931;
-    pub const glUniformMatrix3x2dv: usize = 932;
-    pub const glUniformMatrix3x2fv: usize = 933;
-    pub const glUniformMatrix3x2fvNV: usize = 934;
-    pub const glUniformMatrix3x4dv: usize = 935;
-    pub const glUniformMatrix3x4fv: usize = 936;
-    pub const glUniformMatrix3x4fvNV: usize = 937;
-    pub const glUniformMatrix4dv: usize = 938;
-    pub const glUniformMatrix4fv: usize = 939;
-    pub const glUniformMatrix4fvARB: usize = 940;
-    pub const glUniformMatrix4x2dv: usize = 941;
-    pub const glUniformMatrix4x2fv: usize = 942;
-    pub const glUniformMatrix4x2fvNV: usize = 943;
-    pub const glUniformMatrix4x3dv: usize = 944;
-    pub const glUniformMatrix4x3fv: usize = 945;
-    pub const glUniformMatrix4x3fvNV: usize = 946;
-    pub const glProgramUniform1d: usize = 947;
-    pub const glProgramUniform1dv: usize = 948;
-    pub const glProgramUniform1f: usize = 949;
-    pub const glProgramUniform1fEXT: usize = 950;
-    pub const glProgramUniform1fv: usize = 951;
-    pub const glProgramUniform1fvEXT: usize = 952;
-    pub const glProgramUniform1i: usize = 953;
-    pub const glProgramUniform1iEXT: usize = 954;
-    pub const glProgramUniform1iv: usize = 955;
-    pub const glProgramUniform1ivEXT: usize = 956;
-    pub const glProgramUniform1ui: usize = 957;
-    pub const glProgramUniform1uiEXT: usize = 958;
-    pub const glProgramUniform1uiv: usize = 959;
-    pub const glProgramUniform1uivEXT: usize = 960;
-    pub const glProgramUniform2d: usize = 961;
-    pub const glProgramUniform2dv: usize = 962;
-    pub const glProgramUniform2f: usize = 963;
-    pub const glProgramUniform2fEXT: usize = 964;
-    pub const glProgramUniform2fv: usize = 965;
-    pub const glProgramUniform2fvEXT: usize = 966;
-    pub const glProgramUniform2i: usize = 967;
-    pub const glProgramUniform2iEXT: usize = 968;
-    pub const glProgramUniform2iv: usize = 969;
-    pub const glProgramUniform2ivEXT: usize = 970;
-    pub const glProgramUniform2ui: usize = 971;
-    pub const glProgramUniform2uiEXT: usize = 972;
-    pub const glProgramUniform2uiv: usize = 973;
-    pub const glProgramUniform2uivEXT: usize = 974;
-    pub const glProgramUniform3d: usize = 975;
-    pub const glProgramUniform3dv: usize = 976;
-    pub const glProgramUniform3f: usize = 977;
-    pub const glProgramUniform3fEXT: usize = 978;
-    pub const glProgramUniform3fv: usize = 979;
-    pub const glProgramUniform3fvEXT: usize = 980;
-    pub const glProgramUniform3i: usize = 981;
-    pub const glProgramUniform3iEXT: usize = 982;
-    pub const glProgramUniform3iv: usize = 983;
-    pub const glProgramUniform3ivEXT: usize = 984;
-    pub const glProgramUniform3ui: usize = 985;
-    pub const glProgramUniform3uiEXT: usize = 986;
-    pub const glProgramUniform3uiv: usize = 987;
-    pub const glProgramUniform3uivEXT: usize = 988;
-    pub const glProgramUniform4d: usize = 989;
-    pub const glProgramUniform4dv: usize = 990;
-    pub const glProgramUniform4f: usize = 991;
-    pub const glProgramUniform4fEXT: usize = 992;
-    pub const glProgramUniform4fv: usize = 993;
-    pub const glProgramUniform4fvEXT: usize = 994;
-    pub const glProgramUniform4i: usize = 995;
-    pub const glProgramUniform4iEXT: usize = 996;
-    pub const glProgramUniform4iv: usize = 997;
-    pub const glProgramUniform4ivEXT: usize = 998;
-    pub const glProgramUniform4ui: usize = 999;
-    pub const glProgramUniform4uiEXT: usize = 1000;
-    pub const glProgramUniform4uiv: usize = 1001;
-    pub const glProgramUniform4uivEXT: usize = 1002;
-    pub const glProgramUniformMatrix2dv: usize = 1003;
-    pub const glProgramUniformMatrix2fv: usize = 1004;
-    pub const glProgramUniformMatrix2fvEXT: usize = 1005;
-    pub const glProgramUniformMatrix2x3dv: usize = 1006;
-    pub const glProgramUniformMatrix2x3fv: usize = 1007;
-    pub const glProgramUniformMatrix2x3fvEXT: usize = 1008;
-    pub const glProgramUniformMatrix2x4dv: usize = 1009;
-    pub const glProgramUniformMatrix2x4fv: usize = 1010;
-    pub const glProgramUniformMatrix2x4fvEXT: usize = 1011;
-    pub const glProgramUniformMatrix3dv: usize = 1012;
-    pub const glProgramUniformMatrix3fv: usize = 1013;
-    pub const glProgramUniformMatrix3fvEXT: usize = 1014;
-    pub const glProgramUniformMatrix3x2dv: usize = 1015;
-    pub const glProgramUniformMatrix3x2fv: usize = 1016;
-    pub const glProgramUniformMatrix3x2fvEXT: usize = 1017;
-    pub const glProgramUniformMatrix3x4dv: usize = 1018;
-    pub const glProgramUniformMatrix3x4fv: usize = 1019;
-    pub const glProgramUniformMatrix3x4fvEXT: usize = 1020;
-    pub const glProgramUniformMatrix4dv: usize = 1021;
-    pub const glProgramUniformMatrix4fv: usize = 1022;
-    pub const glProgramUniformMatrix4fvEXT: usize = 1023;
-    pub const glProgramUniformMatrix4x2dv: usize = 1024;
-    pub const glProgramUniformMatrix4x2fv: usize = 1025;
-    pub const glProgramUniformMatrix4x2fvEXT: usize = 1026;
-    pub const glProgramUniformMatrix4x3dv: usize = 1027;
-    pub const glProgramUniformMatrix4x3fv: usize = 1028;
-    pub const glProgramUniformMatrix4x3fvEXT: usize = 1029;
-    pub const glUniformBlockBinding: usize = 1030;
-    pub const glLinkProgram: usize = 1031;
-    pub const glLinkProgramARB: usize = 1032;
-    pub const glProgramBinary: usize = 1033;
-    pub const glProgramBinaryOES: usize = 1034;
-    pub const glUseProgram: usize = 1035;
-    pub const glUseProgramObjectARB: usize = 1036;
-    pub const glDeleteProgram: usize = 1037;
-    pub const glGetProgramiv: usize = 1038;
-    pub const glClear: usize = 1039;
-    pub const glClearBufferfi: usize = 1040;
-    pub const glClearBufferfv: usize = 1041;
-    pub const glClearBufferiv: usize = 1042;
-    pub const glClearBufferuiv: usize = 1043;
-    pub const glDrawArrays: usize = 1044;
-    pub const glDrawArraysEXT: usize = 1045;
-    pub const glDrawElements: usize = 1046;
-    pub const glDrawRangeElements: usize = 1047;
-    pub const glDrawRangeElementsEXT: usize = 1048;
-    pub const glMultiDrawArrays: usize = 1049;
-    pub const glMultiDrawArraysEXT: usize = 1050;
-    pub const glMultiDrawElements: usize = 1051;
-    pub const glMultiDrawElementsEXT: usize = 1052;
-    pub const glDrawElementsBaseVertex: usize = 1053;
-    pub const glDrawElementsBaseVertexEXT: usize = 1054;
-    pub const glDrawElementsBaseVertexOES: usize = 1055;
-    pub const glDrawRangeElementsBaseVertex: usize = 1056;
-    pub const glDrawRangeElementsBaseVertexEXT: usize = 1057;
-    pub const glDrawRangeElementsBaseVertexOES: usize = 1058;
-    pub const glMultiDrawElementsBaseVertex: usize = 1059;
-    pub const glMultiDrawElementsBaseVertexEXT: usize = 1060;
-    pub const glDrawArraysInstanced: usize = 1061;
-    pub const glDrawArraysInstancedANGLE: usize = 1062;
-    pub const glDrawArraysInstancedARB: usize = 1063;
-    pub const glDrawArraysInstancedEXT: usize = 1064;
-    pub const glDrawArraysInstancedNV: usize = 1065;
-    pub const glDrawElementsInstanced: usize = 1066;
-    pub const glDrawElementsInstancedANGLE: usize = 1067;
-    pub const glDrawElementsInstancedARB: usize = 1068;
-    pub const glDrawElementsInstancedEXT: usize = 1069;
-    pub const glDrawElementsInstancedNV: usize = 1070;
-    pub const glDrawElementsInstancedBaseVertex: usize = 1071;
-    pub const glDrawElementsInstancedBaseVertexEXT: usize = 1072;
-    pub const glDrawElementsInstancedBaseVertexOES: usize = 1073;
-    pub const glDrawArraysInstancedBaseInstance: usize = 1074;
-    pub const glDrawArraysInstancedBaseInstanceEXT: usize = 1075;
-    pub const glDrawElementsInstancedBaseInstance: usize = 1076;
-    pub const glDrawElementsInstancedBaseInstanceEXT: usize = 1077;
-    pub const glDrawElementsInstancedBaseVertexBaseInstance: usize = 1078;
-    pub const glDrawElementsInstancedBaseVertexBaseInstanceEXT: usize = 1079;
-    pub const glDrawArraysIndirect: usize = 1080;
-    pub const glDrawElementsIndirect: usize = 1081;
-    pub const glMultiDrawArraysIndirect: usize = 1082;
-    pub const glMultiDrawArraysIndirectAMD: usize = 1083;
-    pub const glMultiDrawArraysIndirectEXT: usize = 1084;
-    pub const glMultiDrawElementsIndirect: usize = 1085;
-    pub const glMultiDrawElementsIndirectAMD: usize = 1086;
-    pub const glMultiDrawElementsIndirectEXT: usize = 1087;
-    pub const glDrawTransformFeedback: usize = 1088;
-    pub const glDrawTransformFeedbackEXT: usize = 1089;
-    pub const glDrawTransformFeedbackNV: usize = 1090;
-    pub const glDrawTransformFeedbackInstanced: usize = 1091;
-    pub const glDrawTransformFeedbackInstancedEXT: usize = 1092;
-    pub const glDrawTransformFeedbackStream: usize = 1093;
-    pub const glDrawTransformFeedbackStreamInstanced: usize = 1094;
-    pub const glRectd: usize = 1095;
-    pub const glRectdv: usize = 1096;
-    pub const glRectf: usize = 1097;
-    pub const glRectfv: usize = 1098;
-    pub const glRecti: usize = 1099;
-    pub const glRectiv: usize = 1100;
-    pub const glRects: usize = 1101;
-    pub const glRectsv: usize = 1102;
-    pub const glEvalMesh1: usize = 1103;
-    pub const glEvalMesh2: usize = 1104;
-    pub const glAccum: usize = 1105;
-    pub const glBitmap: usize = 1106;
-    pub const glDrawPixels: usize = 1107;
-    pub const glCopyPixels: usize = 1108;
-    pub const glNewList: usize = 1109;
-    pub const glEndList: usize = 1110;
-    pub const glCallList: usize = 1111;
-    pub const glCallLists: usize = 1112;
-    pub const glDeleteLists: usize = 1113;
-    pub const glGenLists: usize = 1114;
-    pub const glIsList: usize = 1115;
-    pub const glBindTexture: usize = 1116;
-    pub const glBindTextureEXT: usize = 1117;
-    pub const glDeleteTextures: usize = 1118;
-    pub const glIsTexture: usize = 1119;
-    pub const glIsFramebuffer: usize = 1120;
-    pub const glIsFramebufferEXT: usize = 1121;
-    pub const glBindFramebuffer: usize = 1122;
-    pub const glBindFramebufferEXT: usize = 1123;
-    pub const glDeleteFramebuffers: usize = 1124;
-    pub const glDeleteFramebuffersEXT: usize = 1125;
-    pub const glDrawBuffer: usize = 1126;
-    pub const glDrawBuffers: usize = 1127;
-    pub const glDrawBuffersARB: usize = 1128;
-    pub const glDrawBuffersATI: usize = 1129;
-    pub const glDrawBuffersEXT: usize = 1130;
-    pub const glReadBuffer: usize = 1131;
-    pub const glNamedFramebufferDrawBuffer: usize = 1132;
-    pub const glNamedFramebufferDrawBuffers: usize = 1133;
-    pub const glNamedFramebufferReadBuffer: usize = 1134;
-    pub const glFramebufferDrawBufferEXT: usize = 1135;
-    pub const glFramebufferDrawBuffersEXT: usize = 1136;
-    pub const glFramebufferReadBufferEXT: usize = 1137;
-    pub const glBlitFramebuffer: usize = 1138;
-    pub const glBlitFramebufferEXT: usize = 1139;
-    pub const glBlitFramebufferNV: usize = 1140;
-    pub const glBlitNamedFramebuffer: usize = 1141;
-    pub const glClearNamedFramebufferfv: usize = 1142;
-    pub const glClearNamedFramebufferiv: usize = 1143;
-    pub const glClearNamedFramebufferuiv: usize = 1144;
-    pub const glClearNamedFramebufferfi: usize = 1145;
-    pub const glGetIntegerv: usize = 1146;
-    pub const glGetBooleanv: usize = 1147;
-    pub const glGetFloatv: usize = 1148;
-    pub const glGetDoublev: usize = 1149;
-    pub const glGetInteger64v: usize = 1150;
-    pub const glGetInteger64vAPPLE: usize = 1151;
-    pub const glGetInteger64vEXT: usize = 1152;
-    pub const glFramebufferTexture3DOES: usize = 1153;
-    pub const glFramebufferTexture2DMultisampleEXT: usize = 1154;
-    pub const glFramebufferTexture: usize = 1155;
-    pub const glFramebufferTextureARB: usize = 1156;
-    pub const glFramebufferTextureEXT: usize = 1157;
-    pub const glFramebufferTextureOES: usize = 1158;
-    pub const glFramebufferTexture1D: usize = 1159;
-    pub const glFramebufferTexture1DEXT: usize = 1160;
-    pub const glFramebufferTexture2D: usize = 1161;
-    pub const glFramebufferTexture2DEXT: usize = 1162;
-    pub const glFramebufferTexture3D: usize = 1163;
-    pub const glFramebufferTexture3DEXT: usize = 1164;
-    pub const glFramebufferTextureLayer: usize = 1165;
-    pub const glFramebufferTextureLayerARB: usize = 1166;
-    pub const glFramebufferTextureLayerEXT: usize = 1167;
-    pub const glFramebufferRenderbuffer: usize = 1168;
-    pub const glFramebufferRenderbufferEXT: usize = 1169;
-    pub const glNamedFramebufferTexture: usize = 1170;
-    pub const glNamedFramebufferTextureLayer: usize = 1171;
-    pub const glNamedFramebufferRenderbuffer: usize = 1172;
-    pub const glGetFramebufferAttachmentParameteriv: usize = 1173;
-    pub const glGetFramebufferAttachmentParameterivEXT: usize = 1174;
-    pub const glCheckFramebufferStatus: usize = 1175;
-    pub const glCheckFramebufferStatusEXT: usize = 1176;
-    pub const glFramebufferParameteri: usize = 1177;
-    pub const glGetFramebufferParameteriv: usize = 1178;
-    pub const glInvalidateFramebuffer: usize = 1179;
-    pub const glInvalidateSubFramebuffer: usize = 1180;
-    pub const glDiscardFramebufferEXT: usize = 1181;
-    pub const glCopyTexImage1D: usize = 1182;
-    pub const glCopyTexImage1DEXT: usize = 1183;
-    pub const glCopyTexImage2D: usize = 1184;
-    pub const glCopyTexImage2DEXT: usize = 1185;
-    pub const glCopyTexSubImage1D: usize = 1186;
-    pub const glCopyTexSubImage1DEXT: usize = 1187;
-    pub const glCopyTexSubImage2D: usize = 1188;
-    pub const glCopyTexSubImage2DEXT: usize = 1189;
-    pub const glReadPixels: usize = 1190;
-    pub const glReadnPixels: usize = 1191;
-    pub const glReadnPixelsARB: usize = 1192;
-    pub const glReadnPixelsEXT: usize = 1193;
-    pub const glReadnPixelsKHR: usize = 1194;
-    pub const glCopyTexSubImage3D: usize = 1195;
-    pub const glCopyTexSubImage3DEXT: usize = 1196;
-    pub const glCopyTexSubImage3DOES: usize = 1197;
-    pub const glCopyTextureSubImage1D: usize = 1198;
-    pub const glCopyTextureSubImage2D: usize = 1199;
-    pub const glCopyTextureSubImage3D: usize = 1200;
-    pub const glCopyMultiTexImage1DEXT: usize = 1201;
-    pub const glCopyMultiTexImage2DEXT: usize = 1202;
-    pub const glCopyTextureImage1DEXT: usize = 1203;
-    pub const glCopyTextureImage2DEXT: usize = 1204;
-    pub const glCopyColorTable: usize = 1205;
-    pub const glCopyColorTableSGI: usize = 1206;
-    pub const glCopyConvolutionFilter1D: usize = 1207;
-    pub const glCopyConvolutionFilter1DEXT: usize = 1208;
-    pub const glCopyConvolutionFilter2D: usize = 1209;
-    pub const glCopyConvolutionFilter2DEXT: usize = 1210;
-    pub const glReadBufferNV: usize = 1211;
-    pub const glBlitFramebufferANGLE: usize = 1212;
-    pub const glBeginQueryEXT: usize = 1213;
-    pub const glEndQueryEXT: usize = 1214;
-    pub const glGetQueryivEXT: usize = 1215;
-    pub const glGetQueryObjectuivEXT: usize = 1216;
-    pub const glFinish: usize = 1217;
-    pub const glFlush: usize = 1218;
-    pub const glGetError: usize = 1219;
-    pub const glBeginConditionalRender: usize = 1220;
-    pub const glBeginConditionalRenderNV: usize = 1221;
-    pub const glEndConditionalRender: usize = 1222;
-    pub const glEndConditionalRenderNV: usize = 1223;
-    pub const glEndConditionalRenderNVX: usize = 1224;
-    pub const glBeginQuery: usize = 1225;
-    pub const glBeginQueryARB: usize = 1226;
-    pub const glEndQuery: usize = 1227;
-    pub const glEndQueryARB: usize = 1228;
-    pub const glDeleteQueries: usize = 1229;
-    pub const glDeleteQueriesARB: usize = 1230;
-    pub const glGetQueryiv: usize = 1231;
-    pub const glGetQueryivARB: usize = 1232;
-    pub const glGetQueryObjectiv: usize = 1233;
-    pub const glGetQueryObjectivARB: usize = 1234;
-    pub const glGetQueryObjectivEXT: usize = 1235;
-    pub const glGetQueryObjectuiv: usize = 1236;
-    pub const glGetQueryObjectuivARB: usize = 1237;
-    pub const glGetQueryObjecti64v: usize = 1238;
-    pub const glGetQueryObjecti64vEXT: usize = 1239;
-    pub const glGetQueryObjectui64v: usize = 1240;
-    pub const glGetQueryObjectui64vEXT: usize = 1241;
-    pub const glIsEnabled: usize = 1242;
-    pub const glIsEnabledi: usize = 1243;
-    pub const glIsEnabledIndexedEXT: usize = 1244;
-    pub const glIsEnablediEXT: usize = 1245;
-    pub const glIsEnablediNV: usize = 1246;
-    pub const glIsEnablediOES: usize = 1247;
-    pub const glGetTexGendv: usize = 1248;
-    pub const glGetTexGenfv: usize = 1249;
-    pub const glGetTexGeniv: usize = 1250;
-    pub const glGetTexEnvfv: usize = 1251;
-    pub const glGetTexEnviv: usize = 1252;
-    pub const glGetLightfv: usize = 1253;
-    pub const glGetLightiv: usize = 1254;
-    pub const glGetMaterialfv: usize = 1255;
-    pub const glGetMaterialiv: usize = 1256;
-    pub const glGetTexParameterfv: usize = 1257;
-    pub const glGetTexParameteriv: usize = 1258;
-    pub const glGetTexLevelParameterfv: usize = 1259;
-    pub const glGetTexLevelParameteriv: usize = 1260;
-    pub const glGetClipPlane: usize = 1261;
-    pub const glGetMapdv: usize = 1262;
-    pub const glGetMapfv: usize = 1263;
-    pub const glGetMapiv: usize = 1264;
-    pub const glGetPixelMapfv: usize = 1265;
-    pub const glGetPixelMapuiv: usize = 1266;
-    pub const glGetPixelMapusv: usize = 1267;
-    pub const glGetPolygonStipple: usize = 1268;
-    pub const glGetPointerv: usize = 1269;
-    pub const glGetPointervEXT: usize = 1270;
-    pub const glGetPointervKHR: usize = 1271;
-    pub const glGetIntegeri_v: usize = 1272;
-    pub const glGetIntegerIndexedvEXT: usize = 1273;
-    pub const glGetTexImage: usize = 1274;
-    pub const glGetnTexImage: usize = 1275;
-    pub const glGetCompressedTexImage: usize = 1276;
-    pub const glGetCompressedTexImageARB: usize = 1277;
-    pub const glGetnCompressedTexImage: usize = 1278;
-    pub const glGetUniformfv: usize = 1279;
-    pub const glGetUniformfvARB: usize = 1280;
-    pub const glGetUniformiv: usize = 1281;
-    pub const glGetUniformivARB: usize = 1282;
-    pub const glGetVertexAttribdv: usize = 1283;
-    pub const glGetVertexAttribdvARB: usize = 1284;
-    pub const glGetVertexAttribdvNV: usize = 1285;
-    pub const glGetVertexAttribfv: usize = 1286;
-    pub const glGetVertexAttribfvARB: usize = 1287;
-    pub const glGetVertexAttribfvNV: usize = 1288;
-    pub const glGetVertexAttribiv: usize = 1289;
-    pub const glGetVertexAttribivARB: usize = 1290;
-    pub const glGetVertexAttribivNV: usize = 1291;
-    pub const glGetVertexAttribPointerv: usize = 1292;
-    pub const glGetVertexAttribPointervARB: usize = 1293;
-    pub const glGetVertexAttribPointervNV: usize = 1294;
-    pub const glFeedbackBuffer: usize = 1295;
-    pub const glSelectBuffer: usize = 1296;
-    pub const glGenTextures: usize = 1297;
-    pub const glGenFramebuffers: usize = 1298;
-    pub const glGenFramebuffersEXT: usize = 1299;
-    pub const glGenRenderbuffers: usize = 1300;
-    pub const glGenRenderbuffersEXT: usize = 1301;
-    pub const glBindRenderbuffer: usize = 1302;
-    pub const glRenderbufferStorage: usize = 1303;
-    pub const glRenderbufferStorageEXT: usize = 1304;
-    pub const glRenderbufferStorageMultisample: usize = 1305;
-    pub const glRenderbufferStorageMultisampleEXT: usize = 1306;
-    pub const glRenderbufferStorageMultisampleNV: usize = 1307;
-    pub const glEGLImageTargetRenderbufferStorageOES: usize = 1308;
-    pub const glDeleteRenderbuffers: usize = 1309;
-    pub const glDeleteRenderbuffersEXT: usize = 1310;
-    pub const glBindBuffer: usize = 1311;
-    pub const glBindBufferARB: usize = 1312;
-    pub const glBufferData: usize = 1313;
-    pub const glBufferDataARB: usize = 1314;
-    pub const glBufferSubData: usize = 1315;
-    pub const glBufferSubDataARB: usize = 1316;
-    pub const glDeleteBuffers: usize = 1317;
-    pub const glDeleteBuffersARB: usize = 1318;
-    pub const glPixelStoref: usize = 1319;
-    pub const glPixelStorei: usize = 1320;
-    pub const glPushClientAttrib: usize = 1321;
-    pub const glPopClientAttrib: usize = 1322;
-    pub const glEnableClientState: usize = 1323;
-    pub const glDisableClientState: usize = 1324;
-    pub const glClientActiveTexture: usize = 1325;
-    pub const glClientActiveTextureARB: usize = 1326;
-    pub const glInterleavedArrays: usize = 1327;
-    pub const glColorPointer: usize = 1328;
-    pub const glSecondaryColorPointer: usize = 1329;
-    pub const glSecondaryColorPointerEXT: usize = 1330;
-    pub const glTexCoordPointer: usize = 1331;
-    pub const glVertexPointer: usize = 1332;
-    pub const glEdgeFlagPointer: usize = 1333;
-    pub const glFogCoordPointer: usize = 1334;
-    pub const glFogCoordPointerEXT: usize = 1335;
-    pub const glIndexPointer: usize = 1336;
-    pub const glNormalPointer: usize = 1337;
-    pub const glVertexAttribPointer: usize = 1338;
-    pub const glVertexAttribPointerARB: usize = 1339;
-    pub const glEnableVertexAttribArray: usize = 1340;
-    pub const glEnableVertexAttribArrayARB: usize = 1341;
-    pub const glDisableVertexAttribArray: usize = 1342;
-    pub const glDisableVertexAttribArrayARB: usize = 1343;
-    pub const glXChooseVisual: usize = 1344;
-    pub const glXChooseFBConfig: usize = 1345;
-    pub const glXChooseFBConfigSGIX: usize = 1346;
-    pub const glXSwapBuffers: usize = 1347;
-    pub const glXSwapBuffersMscOML: usize = 1348;
-    pub const glXMakeCurrent: usize = 1349;
-    pub const glXMakeContextCurrent: usize = 1350;
-    pub const glXMakeCurrentReadSGI: usize = 1351;
-    pub const glXCreateContext: usize = 1352;
-    pub const glXCreateNewContext: usize = 1353;
-    pub const glXCreateContextAttribsARB: usize = 1354;
-    pub const glXCreateContextWithConfigSGIX: usize = 1355;
-    pub const glXDestroyContext: usize = 1356;
-    pub const glXCreateWindow: usize = 1357;
-    pub const glXDestroyWindow: usize = 1358;
-    pub const glXGetProcAddress: usize = 1359;
-    pub const glXGetProcAddressARB: usize = 1360;
-    pub const glXQueryDrawable: usize = 1361;
-    pub const eglSwapBuffers: usize = 1362;
-    pub const eglSwapBuffersWithDamageKHR: usize = 1363;
-    pub const eglSwapBuffersWithDamageEXT: usize = 1364;
-    pub const eglMakeCurrent: usize = 1365;
-    pub const eglCreateContext: usize = 1366;
-    pub const eglDestroyContext: usize = 1367;
-    pub const eglReleaseThread: usize = 1368;
-    pub const eglGetDisplay: usize = 1369;
-    pub const eglGetPlatformDisplay: usize = 1370;
-    pub const eglGetPlatformDisplayEXT: usize = 1371;
-    pub const eglCreateWindowSurface: usize = 1372;
-    pub const eglCreatePlatformWindowSurface: usize = 1373;
-    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1374;
-    pub const eglDestroySurface: usize = 1375;
-    pub const eglGetProcAddress: usize = 1376;
-    pub const eglQuerySurface: usize = 1377;
-    pub const eglQueryContext: usize = 1378;
-    pub const eglGetCurrentContext: usize = 1379;
-    pub const glXGetCurrentContext: usize = 1380;
-    pub const OSMesaMakeCurrent: usize = 1381;
-    pub const OSMesaCreateContext: usize = 1382;
-    pub const OSMesaCreateContextExt: usize = 1383;
-    pub const OSMesaCreateContextAttribs: usize = 1384;
-    pub const OSMesaDestroyContext: usize = 1385;
-    pub const OSMesaGetProcAddress: usize = 1386;
-    pub const glTextureView: usize = 1387;
-    pub const glFramebufferParameteriMESA: usize = 1388;
-    pub const glMapBufferRange: usize = 1389;
-    pub const glUnmapBuffer: usize = 1390;
-    pub const glGetString: usize = 1391;
-    pub const glGetStringi: usize = 1392;
-    pub const glGenQueries: usize = 1393;
-    pub const glGetRenderbufferParameteriv: usize = 1394;
-    pub const glCreateShader: usize = 1395;
-    pub const glShaderSource: usize = 1396;
-    pub const glCompileShader: usize = 1397;
-    pub const glGetShaderiv: usize = 1398;
-    pub const glGetShaderInfoLog: usize = 1399;
-    pub const glCreateProgram: usize = 1400;
-    pub const glAttachShader: usize = 1401;
-    pub const glGetProgramInfoLog: usize = 1402;
-    pub const glDeleteShader: usize = 1403;
-    pub const glGetUniformLocation: usize = 1404;
-    pub const glIsProgram: usize = 1405;
-    pub const glGetShaderSource: usize = 1406;
-    pub const glGetAttachedShaders: usize = 1407;
-    pub const glGetActiveUniform: usize = 1408;
-    pub const glGetActiveAttrib: usize = 1409;
-    pub const glGetAttribLocation: usize = 1410;
-    pub const glGetFragDataLocation: usize = 1411;
-    pub const glBindFragDataLocation: usize = 1412;
-    pub const glGetUniformdv: usize = 1413;
-    pub const glGetUniformuiv: usize = 1414;
-    pub const glGetActiveUniformBlockiv: usize = 1415;
-    pub const glGetActiveUniformsiv: usize = 1416;
-    pub const glGetActiveUniformBlockName: usize = 1417;
-    pub const glGetProgramInterfaceiv: usize = 1418;
-    pub const glGetProgramResourceName: usize = 1419;
-    pub const glFenceSync: usize = 1420;
-    pub const glClientWaitSync: usize = 1421;
-    pub const glDeleteSync: usize = 1422;
-    pub const glGetBufferSubData: usize = 1423;
-    pub const glGetUniformBlockIndex: usize = 1424;
-    pub const glBindBufferBase: usize = 1425;
-    pub const glBindBufferRange: usize = 1426;
-    pub const glGenBuffers: usize = 1427;
-    pub const glBindAttribLocation: usize = 1428;
-    pub const glProgramParameteri: usize = 1429;
-    pub const glPatchParameteri: usize = 1430;
-    pub const glGenVertexArrays: usize = 1431;
-    pub const glBindVertexArray: usize = 1432;
-    pub const glGenSamplers: usize = 1433;
-    pub const glBindSampler: usize = 1434;
+    pub const glMatrixLoad3x2fNV: usize = 498;
+    pub const glMatrixLoad3x3fNV: usize = 499;
+    pub const glMatrixMult3x2fNV: usize = 500;
+    pub const glMatrixMult3x3fNV: usize = 501;
+    pub const glMatrixLoadTranspose3x3fNV: usize = 502;
+    pub const glMatrixMultTranspose3x3fNV: usize = 503;
+    pub const glViewport: usize = 504;
+    pub const glScissor: usize = 505;
+    pub const glScissorArrayv: usize = 506;
+    pub const glScissorArrayvNV: usize = 507;
+    pub const glScissorArrayvOES: usize = 508;
+    pub const glScissorIndexed: usize = 509;
+    pub const glScissorIndexedNV: usize = 510;
+    pub const glScissorIndexedOES: usize = 511;
+    pub const glScissorIndexedv: usize = 512;
+    pub const glScissorIndexedvNV: usize = 513;
+    pub const glScissorIndexedvOES: usize = 514;
+    pub const glViewportArrayv: usize = 515;
+    pub const glViewportArrayvNV: usize = 516;
+    pub const glViewportArrayvOES: usize = 517;
+    pub const glViewportIndexedf: usize = 518;
+    pub const glViewportIndexedfNV: usize = 519;
+    pub const glViewportIndexedfOES: usize = 520;
+    pub const glViewportIndexedfv: usize = 521;
+    pub const glViewportIndexedfvNV: usize = 522;
+    pub const glViewportIndexedfvOES: usize = 523;
+    pub const glScissorExclusiveArrayvNV: usize = 524;
+    pub const glScissorExclusiveNV: usize = 525;
+    pub const glWindowRectanglesEXT: usize = 526;
+    pub const glViewportSwizzleNV: usize = 527;
+    pub const glViewportPositionWScaleNV: usize = 528;
+    pub const glEnable: usize = 529;
+    pub const glDisable: usize = 530;
+    pub const glEnablei: usize = 531;
+    pub const glEnableIndexedEXT: usize = 532;
+    pub const glEnableiEXT: usize = 533;
+    pub const glEnableiNV: usize = 534;
+    pub const glEnableiOES: usize = 535;
+    pub const glDisablei: usize = 536;
+    pub const glDisableIndexedEXT: usize = 537;
+    pub const glDisableiEXT: usize = 538;
+    pub const glDisableiNV: usize = 539;
+    pub const glDisableiOES: usize = 540;
+    pub const glDepthMask: usize = 541;
+    pub const glDepthFunc: usize = 542;
+    pub const glDepthRange: usize = 543;
+    pub const glDepthRangef: usize = 544;
+    pub const glDepthRangefOES: usize = 545;
+    pub const glDepthRangeIndexed: usize = 546;
+    pub const glDepthRangeArrayv: usize = 547;
+    pub const glDepthRangedNV: usize = 548;
+    pub const glDepthRangeArraydvNV: usize = 549;
+    pub const glDepthRangeArrayfvNV: usize = 550;
+    pub const glDepthRangeArrayfvOES: usize = 551;
+    pub const glDepthRangeIndexeddNV: usize = 552;
+    pub const glDepthRangeIndexedfNV: usize = 553;
+    pub const glDepthRangeIndexedfOES: usize = 554;
+    pub const glActiveTexture: usize = 555;
+    pub const glActiveTextureARB: usize = 556;
+    pub const glBindTextures: usize = 557;
+    pub const glBindTextureUnit: usize = 558;
+    pub const glBindMultiTextureEXT: usize = 559;
+    pub const glLightf: usize = 560;
+    pub const glLightfv: usize = 561;
+    pub const glLighti: usize = 562;
+    pub const glLightiv: usize = 563;
+    pub const glLightModelf: usize = 564;
+    pub const glLightModelfv: usize = 565;
+    pub const glLightModeli: usize = 566;
+    pub const glLightModeliv: usize = 567;
+    pub const glColorMaterial: usize = 568;
+    pub const glTexGend: usize = 569;
+    pub const glTexGendv: usize = 570;
+    pub const glTexGenf: usize = 571;
+    pub const glTexGenfv: usize = 572;
+    pub const glTexGeni: usize = 573;
+    pub const glTexGeniv: usize = 574;
+    pub const glFogf: usize = 575;
+    pub const glFogfv: usize = 576;
+    pub const glFogi: usize = 577;
+    pub const glFogiv: usize = 578;
+    pub const glPointParameterf: usize = 579;
+    pub const glPointParameterfARB: usize = 580;
+    pub const glPointParameterfEXT: usize = 581;
+    pub const glPointParameterfSGIS: usize = 582;
+    pub const glPointParameterfv: usize = 583;
+    pub const glPointParameterfvARB: usize = 584;
+    pub const glPointParameterfvEXT: usize = 585;
+    pub const glPointParameterfvSGIS: usize = 586;
+    pub const glPointParameteri: usize = 587;
+    pub const glPointParameteriNV: usize = 588;
+    pub const glPointParameteriv: usize = 589;
+    pub const glPointParameterivNV: usize = 590;
+    pub const glPointSize: usize = 591;
+    pub const glShadeModel: usize = 592;
+    pub const glPolygonMode: usize = 593;
+    pub const glPolygonModeNV: usize = 594;
+    pub const glTexEnvf: usize = 595;
+    pub const glTexEnvfv: usize = 596;
+    pub const glTexEnvi: usize = 597;
+    pub const glTexEnviv: usize = 598;
+    pub const glHint: usize = 599;
+    pub const glLineWidth: usize = 600;
+    pub const glProvokingVertex: usize = 601;
+    pub const glProvokingVertexEXT: usize = 602;
+    pub const glClipControl: usize = 603;
+    pub const glClipControlEXT: usize = 604;
+    pub const glBindProgramARB: usize = 605;
+    pub const glBindProgramNV: usize = 606;
+    pub const glUseProgramStages: usize = 607;
+    pub const glUseProgramStagesEXT: usize = 608;
+    pub const glClampColor: usize = 609;
+    pub const glClampColorARB: usize = 610;
+    pub const glMultiTexEnvfEXT: usize = 611;
+    pub const glMultiTexEnvfvEXT: usize = 612;
+    pub const glMultiTexEnviEXT: usize = 613;
+    pub const glMultiTexEnvivEXT: usize = 614;
+    pub const glMultiTexGendEXT: usize = 615;
+    pub const glMultiTexGendvEXT: usize = 616;
+    pub const glMultiTexGenfEXT: usize = 617;
+    pub const glMultiTexGenfvEXT: usize = 618;
+    pub const glMultiTexGeniEXT: usize = 619;
+    pub const glMultiTexGenivEXT: usize = 620;
+    pub const glDisableClientStateiEXT: usize = 621;
+    pub const glEnableClientStateiEXT: usize = 622;
+    pub const glBindFragmentShaderATI: usize = 623;
+    pub const glVertexBlendARB: usize = 624;
+    pub const glBindProgramPipeline: usize = 625;
+    pub const glBindProgramPipelineEXT: usize = 626;
+    pub const glPushAttrib: usize = 627;
+    pub const glPopAttrib: usize = 628;
+    pub const glRasterPos2d: usize = 629;
+    pub const glRasterPos2dv: usize = 630;
+    pub const glRasterPos2f: usize = 631;
+    pub const glRasterPos2fv: usize = 632;
+    pub const glRasterPos2i: usize = 633;
+    pub const glRasterPos2iv: usize = 634;
+    pub const glRasterPos2s: usize = 635;
+    pub const glRasterPos2sv: usize = 636;
+    pub const glRasterPos3d: usize = 637;
+    pub const glRasterPos3dv: usize = 638;
+    pub const glRasterPos3f: usize = 639;
+    pub const glRasterPos3fv: usize = 640;
+    pub const glRasterPos3i: usize = 641;
+    pub const glRasterPos3iv: usize = 642;
+    pub const glRasterPos3s: usize = 643;
+    pub const glRasterPos3sv: usize = 644;
+    pub const glRasterPos4d: usize = 645;
+    pub const glRasterPos4dv: usize = 646;
+    pub const glRasterPos4f: usize = 647;
+    pub const glRasterPos4fv: usize = 648;
+    pub const glRasterPos4i: usize = 649;
+    pub const glRasterPos4iv: usize = 650;
+    pub const glRasterPos4s: usize = 651;
+    pub const glRasterPos4sv: usize = 652;
+    pub const glWindowPos2d: usize = 653;
+    pub const glWindowPos2dARB: usize = 654;
+    pub const glWindowPos2dMESA: usize = 655;
+    pub const glWindowPos2dv: usize = 656;
+    pub const glWindowPos2dvARB: usize = 657;
+    pub const glWindowPos2dvMESA: usize = 658;
+    pub const glWindowPos2f: usize = 659;
+    pub const glWindowPos2fARB: usize = 660;
+    pub const glWindowPos2fMESA: usize = 661;
+    pub const glWindowPos2fv: usize = 662;
+    pub const glWindowPos2fvARB: usize = 663;
+    pub const glWindowPos2fvMESA: usize = 664;
+    pub const glWindowPos2i: usize = 665;
+    pub const glWindowPos2iARB: usize = 666;
+    pub const glWindowPos2iMESA: usize = 667;
+    pub const glWindowPos2iv: usize = 668;
+    pub const glWindowPos2ivARB: usize = 669;
+    pub const glWindowPos2ivMESA: usize = 670;
+    pub const glWindowPos2s: usize = 671;
+    pub const glWindowPos2sARB: usize = 672;
+    pub const glWindowPos2sMESA: usize = 673;
+    pub const glWindowPos2sv: usize = 674;
+    pub const glWindowPos2svARB: usize = 675;
+    pub const glWindowPos2svMESA: usize = 676;
+    pub const glWindowPos3d: usize = 677;
+    pub const glWindowPos3dARB: usize = 678;
+    pub const glWindowPos3dMESA: usize = 679;
+    pub const glWindowPos3dv: usize = 680;
+    pub const glWindowPos3dvARB: usize = 681;
+    pub const glWindowPos3dvMESA: usize = 682;
+    pub const glWindowPos3f: usize = 683;
+    pub const glWindowPos3fARB: usize = 684;
+    pub const glWindowPos3fMESA: usize = 685;
+    pub const glWindowPos3fv: usize = 686;
+    pub const glWindowPos3fvARB: usize = 687;
+    pub const glWindowPos3fvMESA: usize = 688;
+    pub const glWindowPos3i: usize = 689;
+    pub const glWindowPos3iARB: usize = 690;
+    pub const glWindowPos3iMESA: usize = 691;
+    pub const glWindowPos3iv: usize = 692;
+    pub const glWindowPos3ivARB: usize = 693;
+    pub const glWindowPos3ivMESA: usize = 694;
+    pub const glWindowPos3s: usize = 695;
+    pub const glWindowPos3sARB: usize = 696;
+    pub const glWindowPos3sMESA: usize = 697;
+    pub const glWindowPos3sv: usize = 698;
+    pub const glWindowPos3svARB: usize = 699;
+    pub const glWindowPos3svMESA: usize = 700;
+    pub const glWindowPos4dMESA: usize = 701;
+    pub const glWindowPos4dvMESA: usize = 702;
+    pub const glWindowPos4fMESA: usize = 703;
+    pub const glWindowPos4fvMESA: usize = 704;
+    pub const glWindowPos4iMESA: usize = 705;
+    pub const glWindowPos4ivMESA: usize = 706;
+    pub const glWindowPos4sMESA: usize = 707;
+    pub const glWindowPos4svMESA: usize = 708;
+    pub const glRenderMode: usize = 709;
+    pub const glBeginTransformFeedback: usize = 710;
+    pub const glBeginTransformFeedbackEXT: usize = 711;
+    pub const glBeginTransformFeedbackNV: usize = 712;
+    pub const glEndTransformFeedback: usize = 713;
+    pub const glEndTransformFeedbackEXT: usize = 714;
+    pub const glEndTransformFeedbackNV: usize = 715;
+    pub const glPauseTransformFeedback: usize = 716;
+    pub const glPauseTransformFeedbackNV: usize = 717;
+    pub const glResumeTransformFeedback: usize = 718;
+    pub const glResumeTransformFeedbackNV: usize = 719;
+    pub const glBindTransformFeedback: usize = 720;
+    pub const glBindTransformFeedbackNV: usize = 721;
+    pub const glDeleteTransformFeedbacks: usize = 722;
+    pub const glDeleteTransformFeedbacksNV: usize = 723;
+    pub const glAlphaFunc: usize = 724;
+    pub const glBlendFunc: usize = 725;
+    pub const glBlendFuncSeparate: usize = 726;
+    pub const glBlendFuncSeparateEXT: usize = 727;
+    pub const glBlendFuncSeparateINGR: usize = 728;
+    pub const glBlendFuncSeparatei: usize = 729;
+    pub const glBlendFuncSeparateIndexedAMD: usize = 730;
+    pub const glBlendFuncSeparateiARB: usize = 731;
+    pub const glBlendFuncSeparateiEXT: usize = 732;
+    pub const glBlendFuncSeparateiOES: usize = 733;
+    pub const glBlendFunci: usize = 734;
+    pub const glBlendFuncIndexedAMD: usize = 735;
+    pub const glBlendFunciARB: usize = 736;
+    pub const glBlendFunciEXT: usize = 737;
+    pub const glBlendFunciOES: usize = 738;
+    pub const glBlendEquation: usize = 739;
+    pub const glBlendEquationEXT: usize = 740;
+    pub const glBlendEquationSeparate: usize = 741;
+    pub const glBlendEquationSeparateEXT: usize = 742;
+    pub const glBlendEquationSeparatei: usize = 743;
+    pub const glBlendEquationSeparateIndexedAMD: usize = 744;
+    pub const glBlendEquationSeparateiARB: usize = 745;
+    pub const glBlendEquationSeparateiEXT: usize = 746;
+    pub const glBlendEquationSeparateiOES: usize = 747;
+    pub const glBlendEquationi: usize = 748;
+    pub const glBlendEquationIndexedAMD: usize = 749;
+    pub const glBlendEquationiARB: usize = 750;
+    pub const glBlendEquationiEXT: usize = 751;
+    pub const glBlendEquationiOES: usize = 752;
+    pub const glBlendColor: usize = 753;
+    pub const glBlendColorEXT: usize = 754;
+    pub const glClearAccum: usize = 755;
+    pub const glClearColor: usize = 756;
+    pub const glClearDepth: usize = 757;
+    pub const glClearDepthf: usize = 758;
+    pub const glClearDepthfOES: usize = 759;
+    pub const glClearIndex: usize = 760;
+    pub const glClearStencil: usize = 761;
+    pub const glClipPlane: usize = 762;
+    pub const glColorMask: usize = 763;
+    pub const glColorMaski: usize = 764;
+    pub const glColorMaskIndexedEXT: usize = 765;
+    pub const glColorMaskiEXT: usize = 766;
+    pub const glColorMaskiOES: usize = 767;
+    pub const glCullFace: usize = 768;
+    pub const glDepthBoundsEXT: usize = 769;
+    pub const glFrontFace: usize = 770;
+    pub const glIndexMask: usize = 771;
+    pub const glInitNames: usize = 772;
+    pub const glLoadName: usize = 773;
+    pub const glPushName: usize = 774;
+    pub const glPopName: usize = 775;
+    pub const glPassThrough: usize = 776;
+    pub const glLineStipple: usize = 777;
+    pub const glListBase: usize = 778;
+    pub const glLogicOp: usize = 779;
+    pub const glMap1d: usize = 780;
+    pub const glMap1f: usize = 781;
+    pub const glMap2d: usize = 782;
+    pub const glMap2f: usize = 783;
+    pub const glMapGrid1d: usize = 784;
+    pub const glMapGrid1f: usize = 785;
+    pub const glMapGrid2d: usize = 786;
+    pub const glMapGrid2f: usize = 787;
+    pub const glPixelMapfv: usize = 788;
+    pub const glPixelMapuiv: usize = 789;
+    pub const glPixelMapusv: usize = 790;
+    pub const glPixelTransferf: usize = 791;
+    pub const glPixelTransferi: usize = 792;
+    pub const glPixelZoom: usize = 793;
+    pub const glPolygonOffset: usize = 794;
+    pub const glPolygonOffsetClamp: usize = 795;
+    pub const glPolygonOffsetClampEXT: usize = 796;
+    pub const glPolygonStipple: usize = 797;
+    pub const glPrioritizeTextures: usize = 798;
+    pub const glPrioritizeTexturesEXT: usize = 799;
+    pub const glSampleCoverage: usize = 800;
+    pub const glSampleCoverageARB: usize = 801;
+    pub const glMinSampleShading: usize = 802;
+    pub const glMinSampleShadingARB: usize = 803;
+    pub const glMinSampleShadingOES: usize = 804;
+    pub const glStencilFunc: usize = 805;
+    pub const glStencilFuncSeparate: usize = 806;
+    pub const glStencilMask: usize = 807;
+    pub const glStencilMaskSeparate: usize = 808;
+    pub const glStencilOp: usize = 809;
+    pub const glStencilOpSeparate: usize = 810;
+    pub const glStencilOpSeparateATI: usize = 811;
+    pub const glPrimitiveRestartIndex: usize = 812;
+    pub const glMatrixPushEXT: usize = 813;
+    pub const glClearColorIiEXT: usize = 814;
+    pub const glClearColorIuiEXT: usize = 815;
+    pub const glClearDepthdNV: usize = 816;
+    pub const glDepthBoundsdNV: usize = 817;
+    pub const glStencilFuncSeparateATI: usize = 818;
+    pub const glActiveStencilFaceEXT: usize = 819;
+    pub const glSampleMaski: usize = 820;
+    pub const glSampleMaskIndexedNV: usize = 821;
+    pub const glPrimitiveRestartIndexNV: usize = 822;
+    pub const glRasterSamplesEXT: usize = 823;
+    pub const glPrimitiveBoundingBox: usize = 824;
+    pub const glPrimitiveBoundingBoxARB: usize = 825;
+    pub const glPrimitiveBoundingBoxEXT: usize = 826;
+    pub const glPrimitiveBoundingBoxOES: usize = 827;
+    pub const glBlendParameteriNV: usize = 828;
+    pub const glAlphaFuncQCOM: usize = 829;
+    pub const glTexImage1D: usize = 830;
+    pub const glTexImage2D: usize = 831;
+    pub const glTexImage3D: usize = 832;
+    pub const glTexImage3DEXT: usize = 833;
+    pub const glTexSubImage1D: usize = 834;
+    pub const glTexSubImage1DEXT: usize = 835;
+    pub const glTexSubImage2D: usize = 836;
+    pub const glTexSubImage2DEXT: usize = 837;
+    pub const glTexSubImage3D: usize = 838;
+    pub const glTexSubImage3DEXT: usize = 839;
+    pub const glCompressedTexImage1D: usize = 840;
+    pub const glCompressedTexImage1DARB: usize = 841;
+    pub const glCompressedTexImage2D: usize = 842;
+    pub const glCompressedTexImage2DARB: usize = 843;
+    pub const glCompressedTexImage3D: usize = 844;
+    pub const glCompressedTexImage3DARB: usize = 845;
+    pub const glCompressedTexSubImage1D: usize = 846;
+    pub const glCompressedTexSubImage1DARB: usize = 847;
+    pub const glCompressedTexSubImage2D: usize = 848;
+    pub const glCompressedTexSubImage2DARB: usize = 849;
+    pub const glCompressedTexSubImage3D: usize = 850;
+    pub const glCompressedTexSubImage3DARB: usize = 851;
+    pub const glTexImage2DMultisample: usize = 852;
+    pub const glTexImage3DMultisample: usize = 853;
+    pub const glTexStorage1D: usize = 854;
+    pub const glTexStorage1DEXT: usize = 855;
+    pub const glTexStorage2D: usize = 856;
+    pub const glTexStorage2DEXT: usize = 857;
+    pub const glTexStorage3D: usize = 858;
+    pub const glTexStorage3DEXT: usize = 859;
+    pub const glTexStorage2DMultisample: usize = 860;
+    pub const glTexStorage3DMultisample: usize = 861;
+    pub const glTexStorage3DMultisampleOES: usize = 862;
+    pub const glTexImage3DOES: usize = 863;
+    pub const glTexSubImage3DOES: usize = 864;
+    pub const glCompressedTexImage3DOES: usize = 865;
+    pub const glCompressedTexSubImage3DOES: usize = 866;
+    pub const glEGLImageTargetTexture2DOES: usize = 867;
+    pub const glTextureSubImage1D: usize = 868;
+    pub const glTextureSubImage2D: usize = 869;
+    pub const glTextureSubImage3D: usize = 870;
+    pub const glCompressedTextureSubImage1D: usize = 871;
+    pub const glCompressedTextureSubImage2D: usize = 872;
+    pub const glCompressedTextureSubImage3D: usize = 873;
+    pub const glTextureStorage1D: usize = 874;
+    pub const glTextureStorage2D: usize = 875;
+    pub const glTextureStorage3D: usize = 876;
+    pub const glTextureStorage2DMultisample: usize = 877;
+    pub const glTextureStorage3DMultisample: usize = 878;
+    pub const glClearTexImage: usize = 879;
+    pub const glClearTexImageEXT: usize = 880;
+    pub const glClearTexSubImage: usize = 881;
+    pub const glClearTexSubImageEXT: usize = 882;
+    pub const glNamedRenderbufferStorage: usize = 883;
+    pub const glNamedRenderbufferStorageMultisample: usize = 884;
+    pub const glNamedRenderbufferStorageEXT: usize = 885;
+    pub const glNamedRenderbufferStorageMultisampleAdvancedAMD: usize = 886;
+    pub const glNamedRenderbufferStorageMultisampleCoverageEXT: usize = 887;
+    pub const glNamedRenderbufferStorageMultisampleEXT: usize = 888;
+    pub const glTextureImage1DEXT: usize = 889;
+    pub const glTextureImage2DEXT: usize = 890;
+    pub const glTextureImage3DEXT: usize = 891;
+    pub const glTextureSubImage1DEXT: usize = 892;
+    pub const glTextureSubImage2DEXT: usize = 893;
+    pub const glTextureSubImage3DEXT: usize = 894;
+    pub const glCompressedTextureImage1DEXT: usize = 895;
+    pub const glCompressedTextureImage2DEXT: usize = 896;
+    pub const glCompressedTextureImage3DEXT: usize = 897;
+    pub const glCompressedTextureSubImage1DEXT: usize = 898;
+    pub const glCompressedTextureSubImage2DEXT: usize = 899;
+    pub const glCompressedTextureSubImage3DEXT: usize = 900;
+    pub const glTextureStorage1DEXT: usize = 901;
+    pub const glTextureStorage2DEXT: usize = 902;
+    pub const glTextureStorage3DEXT: usize = 903;
+    pub const glTextureStorage2DMultisampleEXT: usize = 904;
+    pub const glTextureStorage3DMultisampleEXT: usize = 905;
+    pub const glTextureStorageMem1DEXT: usize = 906;
+    pub const glTextureStorageMem2DEXT: usize = 907;
+    pub const glTextureStorageMem3DEXT: usize = 908;
+    pub const glTextureStorageMem2DMultisampleEXT: usize = 909;
+    pub const glTextureStorageMem3DMultisampleEXT: usize = 910;
+    pub const glTextureImage2DMultisampleCoverageNV: usize = 911;
+    pub const glTextureImage2DMultisampleNV: usize = 912;
+    pub const glTextureImage3DMultisampleCoverageNV: usize = 913;
+    pub const glTextureImage3DMultisampleNV: usize = 914;
+    pub const glTexturePageCommitmentEXT: usize = 915;
+    pub const glTexturePageCommitmentMemNV: usize = 916;
+    pub const glInvalidateTexImage: usize = 917;
+    pub const glInvalidateTexSubImage: usize = 918;
+    pub const glTextureRenderbufferEXT: usize = 919;
+    pub const glEGLImageTargetTextureStorageEXT: usize = 920;
+    pub const glTextureStorageSparseAMD: usize = 921;
+    pub const glTexStorageMem1DEXT: usize = 922;
+    pub const glTexStorageMem2DEXT: usize = 923;
+    pub const glTexStorageMem3DEXT: usize = 924;
+    pub const glTexStorageMem2DMultisampleEXT: usize = 925;
+    pub const glTexStorageMem3DMultisampleEXT: usize = 926;
+    pub const glTexImage2DMultisampleCoverageNV: usize = 927;
+    pub const glTexImage3DMultisampleCoverageNV: usize = 928;
+    pub const glTexPageCommitmentARB: usize = 929;
+    pub const glTexPageCommitmentEXT: usize = 930;
+    pub const glTexPageCommitmentMemNV: usize = 931;
+    pub const glEGLImageTargetTexStorageEXT: usize = 932;
+    pub const glTexStorageAttribs2DEXT: usize = 933;
+    pub const glTexStorageAttribs3DEXT: usize = 934;
+    pub const glTexRenderbufferNV: usize = 935;
+    pub const glTexStorageSparseAMD: usize = 936;
+    pub const glTexParameterf: usize = 937;
+    pub const glTexParameterfv: usize = 938;
+    pub const glTexParameteri: usize = 939;
+    pub const glTexParameteriv: usize = 940;
+    pub const glTexParameterIiv: usize = 941;
+    pub const glTexParameterIivEXT: usize = 942;
+    pub const glTexParameterIivOES: usize = 943;
+    pub const glTexParameterIuiv: usize = 944;
+    pub const glTexParameterIuivEXT: usize = 945;
+    pub const glTexParameterIuivOES: usize = 946;
+    pub const glTextureParameterf: usize = 947;
+    pub const glTextureParameterfv: usize = 948;
+    pub const glTextureParameteri: usize = 949;
+    pub const glTextureParameteriv: usize = 950;
+    pub const glTextureParameterIiv: usize = 951;
+    pub const glTextureParameterIuiv: usize = 952;
+    pub const glTextureParameterfEXT: usize = 953;
+    pub const glTextureParameterfvEXT: usize = 954;
+    pub const glTextureParameteriEXT: usize = 955;
+    pub const glTextureParameterivEXT: usize = 956;
+    pub const glTextureParameterIivEXT: usize = 957;
+    pub const glTextureParameterIuivEXT: usize = 958;
+    pub const glMultiTexParameterfEXT: usize = 959;
+    pub const glMultiTexParameterfvEXT: usize = 960;
+    pub const glMultiTexParameteriEXT: usize = 961;
+    pub const glMultiTexParameterivEXT: usize = 962;
+    pub const glMultiTexParameterIivEXT: usize = 963;
+    pub const glMultiTexParameterIuivEXT: usize = 964;
+    pub const glGenerateMipmap: usize = 965;
+    pub const glGenerateMipmapEXT: usize = 966;
+    pub const glGenerateTextureMipmap: usize = 967;
+    pub const glCreateTextures: usize = 968;
+    pub const glTextureView: usize = 969;
+    pub const glTextureViewEXT: usize = 970;
+    pub const glTextureViewOES: usize = 971;
+    pub const glCopyImageSubData: usize = 972;
+    pub const glCopyImageSubDataEXT: usize = 973;
+    pub const glCopyImageSubDataOES: usize = 974;
+    pub const glGetTextureImage: usize = 975;
+    pub const glGetTextureSubImage: usize = 976;
+    pub const glGetCompressedTextureImage: usize = 977;
+    pub const glBindImageTexture: usize = 978;
+    pub const glBindImageTextures: usize = 979;
+    pub const glGetCompressedMultiTexImageEXT: usize = 980;
+    pub const glGetCompressedTextureImageEXT: usize = 981;
+    pub const glGetMultiTexImageEXT: usize = 982;
+    pub const glGetTextureImageEXT: usize = 983;
+    pub const glBindImageTextureEXT: usize = 984;
+    pub const glGetnTexImageARB: usize = 985;
+    pub const glGetnCompressedTexImageARB: usize = 986;
+    pub const glGetCompressedTextureSubImage: usize = 987;
+    pub const glDispatchCompute: usize = 988;
+    pub const glDispatchComputeIndirect: usize = 989;
+    pub const glDispatchComputeGroupSizeARB: usize = 990;
+    pub const glVertexAttribDivisor: usize = 991;
+    pub const glVertexAttribDivisorANGLE: usize = 992;
+    pub const glVertexAttribDivisorARB: usize = 993;
+    pub const glVertexAttribDivisorEXT: usize = 994;
+    pub const glVertexAttribDivisorNV: usize = 995;
+    pub const glVertexBindingDivisor: usize = 996;
+    pub const glVertexArrayBindingDivisor: usize = 997;
+    pub const glProgramEnvParameter4dARB: usize = 998;
+    pub const glProgramEnvParameter4dvARB: usize = 999;
+    pub const glProgramEnvParameter4fARB: usize = 1000;
+    pub const glProgramEnvParameter4fvARB: usize = 1001;
+    pub const glProgramLocalParameter4dARB: usize = 1002;
+    pub const glProgramLocalParameter4dvARB: usize = 1003;
+    pub const glProgramLocalParameter4fARB: usize = 1004;
+    pub const glProgramLocalParameter4fvARB: usize = 1005;
+    pub const glUniform1d: usize = 1006;
+    pub const glUniform1dv: usize = 1007;
+    pub const glUniform1f: usize = 1008;
+    pub const glUniform1fARB: usize = 1009;
+    pub const glUniform1fv: usize = 1010;
+    pub const glUniform1fvARB: usize = 1011;
+    pub const glUniform1i: usize = 1012;
+    pub const glUniform1iARB: usize = 1013;
+    pub const glUniform1iv: usize = 1014;
+    pub const glUniform1ivARB: usize = 1015;
+    pub const glUniform1ui: usize = 1016;
+    pub const glUniform1uiEXT: usize = 1017;
+    pub const glUniform1uiv: usize = 1018;
+    pub const glUniform1uivEXT: usize = 1019;
+    pub const glUniform2d: usize = 1020;
+    pub const glUniform2dv: usize = 1021;
+    pub const glUniform2f: usize = 1022;
+    pub const glUniform2fARB: usize = 1023;
+    pub const glUniform2fv: usize = 1024;
+    pub const glUniform2fvARB: usize = 1025;
+    pub const glUniform2i: usize = 1026;
+    pub const glUniform2iARB: usize = 1027;
+    pub const glUniform2iv: usize = 1028;
+    pub const glUniform2ivARB: usize = 1029;
+    pub const glUniform2ui: usize = 1030;
+    pub const glUniform2uiEXT: usize = 1031;
+    pub const glUniform2uiv: usize = 1032;
+    pub const glUniform2uivEXT: usize = 1033;
+    pub const glUniform3d: usize = 1034;
+    pub const glUniform3dv: usize = 1035;
+    pub const glUniform3f: usize = 1036;
+    pub const glUniform3fARB: usize = 1037;
+    pub const glUniform3fv: usize = 1038;
+    pub const glUniform3fvARB: usize = 1039;
+    pub const glUniform3i: usize = 1040;
+    pub const glUniform3iARB: usize = 1041;
+    pub const glUniform3iv: usize = 1042;
+    pub const glUniform3ivARB: usize = 1043;
+    pub const glUniform3ui: usize = 1044;
+    pub const glUniform3uiEXT: usize = 1045;
+    pub const glUniform3uiv: usize = 1046;
+    pub const glUniform3uivEXT: usize = 1047;
+    pub const glUniform4d: usize = 1048;
+    pub const glUniform4dv: usize = 1049;
+    pub const glUniform4f: usize = 1050;
+    pub const glUniform4fARB: usize = 1051;
+    pub const glUniform4fv: usize = 1052;
+    pub const glUniform4fvARB: usize = 1053;
+    pub const glUniform4i: usize = 1054;
+    pub const glUniform4iARB: usize = 1055;
+    pub const glUniform4iv: usize = 1056;
+    pub const glUniform4ivARB: usize = 1057;
+    pub const glUniform4ui: usize = 1058;
+    pub const glUniform4uiEXT: usize = 1059;
+    pub const glUniform4uiv: usize = 1060;
+    pub const glUniform4uivEXT: usize = 1061;
+    pub const glUniformMatrix2dv: usize = 1062;
+    pub const glUniformMatrix2fv: usize = 1063;
+    pub const glUniformMatrix2fvARB: usize = 1064;
+    pub const glUniformMatrix2x3dv: usize = 1065;
+    pub const glUniformMatrix2x3fv: usize = 1066;
+    pub const glUniformMatrix2x3fvNV: usize = 1067;
+    pub const glUniformMatrix2x4dv: usize = 1068;
+    pub const glUniformMatrix2x4fv: usize = 1069;
+    pub const glUniformMatrix2x4fvNV: usize = 1070;
+    pub const glUniformMatrix3dv: usize = 1071;
+    pub const glUniformMatrix3fv: usize = 1072;
+    pub const glUniformMatrix3fvARB: usize = 1073;
+    pub const glUniformMatrix3x2dv: usize = 1074;
+    pub const glUniformMatrix3x2fv: usize = 1075;
+    pub const glUniformMatrix3x2fvNV: usize = 1076;
+    pub const glUniformMatrix3x4dv: usize = 1077;
+    pub const glUniformMatrix3x4fv: usize = 1078;
+    pub const glUniformMatrix3x4fvNV: usize = 1079;
+    pub const glUniformMatrix4dv: usize = 1080;
+    pub const glUniformMatrix4fv: usize = 1081;
+    pub const glUniformMatrix4fvARB: usize = 1082;
+    pub const glUniformMatrix4x2dv: usize = 1083;
+    pub const glUniformMatrix4x2fv: usize = 1084;
+    pub const glUniformMatrix4x2fvNV: usize = 1085;
+    pub const glUniformMatrix4x3dv: usize = 1086;
+    pub const glUniformMatrix4x3fv: usize = 1087;
+    pub const glUniformMatrix4x3fvNV: usize = 1088;
+    pub const glProgramUniform1d: usize = 1089;
+    pub const glProgramUniform1dv: usize = 1090;
+    pub const glProgramUniform1f: usize = 1091;
+    pub const glProgramUniform1fEXT: usize = 1092;
+    pub const glProgramUniform1fv: usize = 1093;
+    pub const glProgramUniform1fvEXT: usize = 1094;
+    pub const glProgramUniform1i: usize = 1095;
+    pub const glProgramUniform1iEXT: usize = 1096;
+    pub const glProgramUniform1iv: usize = 1097;
+    pub const glProgramUniform1ivEXT: usize = 1098;
+    pub const glProgramUniform1ui: usize = 1099;
+    pub const glProgramUniform1uiEXT: usize = 1100;
+    pub const glProgramUniform1uiv: usize = 1101;
+    pub const glProgramUniform1uivEXT: usize = 1102;
+    pub const glProgramUniform2d: usize = 1103;
+    pub const glProgramUniform2dv: usize = 1104;
+    pub const glProgramUniform2f: usize = 1105;
+    pub const glProgramUniform2fEXT: usize = 1106;
+    pub const glProgramUniform2fv: usize = 1107;
+    pub const glProgramUniform2fvEXT: usize = 1108;
+    pub const glProgramUniform2i: usize = 1109;
+    pub const glProgramUniform2iEXT: usize = 1110;
+    pub const glProgramUniform2iv: usize = 1111;
+    pub const glProgramUniform2ivEXT: usize = 1112;
+    pub const glProgramUniform2ui: usize = 1113;
+    pub const glProgramUniform2uiEXT: usize = 1114;
+    pub const glProgramUniform2uiv: usize = 1115;
+    pub const glProgramUniform2uivEXT: usize = 1116;
+    pub const glProgramUniform3d: usize = 1117;
+    pub const glProgramUniform3dv: usize = 1118;
+    pub const glProgramUniform3f: usize = 1119;
+    pub const glProgramUniform3fEXT: usize = 1120;
+    pub const glProgramUniform3fv: usize = 1121;
+    pub const glProgramUniform3fvEXT: usize = 1122;
+    pub const glProgramUniform3i: usize = 1123;
+    pub const glProgramUniform3iEXT: usize = 1124;
+    pub const glProgramUniform3iv: usize = 1125;
+    pub const glProgramUniform3ivEXT: usize = 1126;
+    pub const glProgramUniform3ui: usize = 1127;
+    pub const glProgramUniform3uiEXT: usize = 1128;
+    pub const glProgramUniform3uiv: usize = 1129;
+    pub const glProgramUniform3uivEXT: usize = 1130;
+    pub const glProgramUniform4d: usize = 1131;
+    pub const glProgramUniform4dv: usize = 1132;
+    pub const glProgramUniform4f: usize = 1133;
+    pub const glProgramUniform4fEXT: usize = 1134;
+    pub const glProgramUniform4fv: usize = 1135;
+    pub const glProgramUniform4fvEXT: usize = 1136;
+    pub const glProgramUniform4i: usize = 1137;
+    pub const glProgramUniform4iEXT: usize = 1138;
+    pub const glProgramUniform4iv: usize = 1139;
+    pub const glProgramUniform4ivEXT: usize = 1140;
+    pub const glProgramUniform4ui: usize = 1141;
+    pub const glProgramUniform4uiEXT: usize = 1142;
+    pub const glProgramUniform4uiv: usize = 1143;
+    pub const glProgramUniform4uivEXT: usize = 1144;
+    pub const glProgramUniformMatrix2dv: usize = 1145;
+    pub const glProgramUniformMatrix2fv: usize = 1146;
+    pub const glProgramUniformMatrix2fvEXT: usize = 1147;
+    pub const glProgramUniformMatrix2x3dv: usize = 1148;
+    pub const glProgramUniformMatrix2x3fv: usize = 1149;
+    pub const glProgramUniformMatrix2x3fvEXT: usize = 1150;
+    pub const glProgramUniformMatrix2x4dv: usize = 1151;
+    pub const glProgramUniformMatrix2x4fv: usize = 1152;
+    pub const glProgramUniformMatrix2x4fvEXT: usize = 1153;
+    pub const glProgramUniformMatrix3dv: usize = 1154;
+    pub const glProgramUniformMatrix3fv: usize = 1155;
+    pub const glProgramUniformMatrix3fvEXT: usize = 1156;
+    pub const glProgramUniformMatrix3x2dv: usize = 1157;
+    pub const glProgramUniformMatrix3x2fv: usize = 1158;
+    pub const glProgramUniformMatrix3x2fvEXT: usize = 1159;
+    pub const glProgramUniformMatrix3x4dv: usize = 1160;
+    pub const glProgramUniformMatrix3x4fv: usize = 1161;
+    pub const glProgramUniformMatrix3x4fvEXT: usize = 1162;
+    pub const glProgramUniformMatrix4dv: usize = 1163;
+    pub const glProgramUniformMatrix4fv: usize = 1164;
+    pub const glProgramUniformMatrix4fvEXT: usize = 1165;
+    pub const glProgramUniformMatrix4x2dv: usize = 1166;
+    pub const glProgramUniformMatrix4x2fv: usize = 1167;
+    pub const glProgramUniformMatrix4x2fvEXT: usize = 1168;
+    pub const glProgramUniformMatrix4x3dv: usize = 1169;
+    pub const glProgramUniformMatrix4x3fv: usize = 1170;
+    pub const glProgramUniformMatrix4x3fvEXT: usize = 1171;
+    pub const glUniformBlockBinding: usize = 1172;
+    pub const glProgramUniform1i64ARB: usize = 1173;
+    pub const glProgramUniform1i64NV: usize = 1174;
+    pub const glProgramUniform1i64vARB: usize = 1175;
+    pub const glProgramUniform1i64vNV: usize = 1176;
+    pub const glProgramUniform1ui64ARB: usize = 1177;
+    pub const glProgramUniform1ui64NV: usize = 1178;
+    pub const glProgramUniform1ui64vARB: usize = 1179;
+    pub const glProgramUniform1ui64vNV: usize = 1180;
+    pub const glProgramUniform2i64ARB: usize = 1181;
+    pub const glProgramUniform2i64NV: usize = 1182;
+    pub const glProgramUniform2i64vARB: usize = 1183;
+    pub const glProgramUniform2i64vNV: usize = 1184;
+    pub const glProgramUniform2ui64ARB: usize = 1185;
+    pub const glProgramUniform2ui64NV: usize = 1186;
+    pub const glProgramUniform2ui64vARB: usize = 1187;
+    pub const glProgramUniform2ui64vNV: usize = 1188;
+    pub const glProgramUniform3i64ARB: usize = 1189;
+    pub const glProgramUniform3i64NV: usize = 1190;
+    pub const glProgramUniform3i64vARB: usize = 1191;
+    pub const glProgramUniform3i64vNV: usize = 1192;
+    pub const glProgramUniform3ui64ARB: usize = 1193;
+    pub const glProgramUniform3ui64NV: usize = 1194;
+    pub const glProgramUniform3ui64vARB: usize = 1195;
+    pub const glProgramUniform3ui64vNV: usize = 1196;
+    pub const glProgramUniform4i64ARB: usize = 1197;
+    pub const glProgramUniform4i64NV: usize = 1198;
+    pub const glProgramUniform4i64vARB: usize = 1199;
+    pub const glProgramUniform4i64vNV: usize = 1200;
+    pub const glProgramUniform4ui64ARB: usize = 1201;
+    pub const glProgramUniform4ui64NV: usize = 1202;
+    pub const glProgramUniform4ui64vARB: usize = 1203;
+    pub const glProgramUniform4ui64vNV: usize = 1204;
+    pub const glUniform1i64ARB: usize = 1205;
+    pub const glUniform1i64NV: usize = 1206;
+    pub const glUniform1i64vARB: usize = 1207;
+    pub const glUniform1i64vNV: usize = 1208;
+    pub const glUniform1ui64ARB: usize = 1209;
+    pub const glUniform1ui64NV: usize = 1210;
+    pub const glUniform1ui64vARB: usize = 1211;
+    pub const glUniform1ui64vNV: usize = 1212;
+    pub const glUniform2i64ARB: usize = 1213;
+    pub const glUniform2i64NV: usize = 1214;
+    pub const glUniform2i64vARB: usize = 1215;
+    pub const glUniform2i64vNV: usize = 1216;
+    pub const glUniform2ui64ARB: usize = 1217;
+    pub const glUniform2ui64NV: usize = 1218;
+    pub const glUniform2ui64vARB: usize = 1219;
+    pub const glUniform2ui64vNV: usize = 1220;
+    pub const glUniform3i64ARB: usize = 1221;
+    pub const glUniform3i64NV: usize = 1222;
+    pub const glUniform3i64vARB: usize = 1223;
+    pub const glUniform3i64vNV: usize = 1224;
+    pub const glUniform3ui64ARB: usize = 1225;
+    pub const glUniform3ui64NV: usize = 1226;
+    pub const glUniform3ui64vARB: usize = 1227;
+    pub const glUniform3ui64vNV: usize = 1228;
+    pub const glUniform4i64ARB: usize = 1229;
+    pub const glUniform4i64NV: usize = 1230;
+    pub const glUniform4i64vARB: usize = 1231;
+    pub const glUniform4i64vNV: usize = 1232;
+    pub const glUniform4ui64ARB: usize = 1233;
+    pub const glUniform4ui64NV: usize = 1234;
+    pub const glUniform4ui64vARB: usize = 1235;
+    pub const glUniform4ui64vNV: usize = 1236;
+    pub const glProgramUniformHandleui64ARB: usize = 1237;
+    pub const glProgramUniformHandleui64IMG: usize = 1238;
+    pub const glProgramUniformHandleui64NV: usize = 1239;
+    pub const glProgramUniformHandleui64vARB: usize = 1240;
+    pub const glProgramUniformHandleui64vIMG: usize = 1241;
+    pub const glProgramUniformHandleui64vNV: usize = 1242;
+    pub const glUniformHandleui64ARB: usize = 1243;
+    pub const glUniformHandleui64IMG: usize = 1244;
+    pub const glUniformHandleui64NV: usize = 1245;
+    pub const glUniformHandleui64vARB: usize = 1246;
+    pub const glUniformHandleui64vIMG: usize = 1247;
+    pub const glUniformHandleui64vNV: usize = 1248;
+    pub const glProgramUniformui64NV: usize = 1249;
+    pub const glProgramUniformui64vNV: usize = 1250;
+    pub const glUniformui64NV: usize = 1251;
+    pub const glUniformui64vNV: usize = 1252;
+    pub const glUniformBufferEXT: usize = 1253;
+    pub const glProgramUniform1dEXT: usize = 1254;
+    pub const glProgramUniform1dvEXT: usize = 1255;
+    pub const glProgramUniform2dEXT: usize = 1256;
+    pub const glProgramUniform2dvEXT: usize = 1257;
+    pub const glProgramUniform3dEXT: usize = 1258;
+    pub const glProgramUniform3dvEXT: usize = 1259;
+    pub const glProgramUniform4dEXT: usize = 1260;
+    pub const glProgramUniform4dvEXT: usize = 1261;
+    pub const glProgramUniformMatrix2dvEXT: usize = 1262;
+    pub const glProgramUniformMatrix2x3dvEXT: usize = 1263;
+    pub const glProgramUniformMatrix2x4dvEXT: usize = 1264;
+    pub const glProgramUniformMatrix3dvEXT: usize = 1265;
+    pub const glProgramUniformMatrix3x2dvEXT: usize = 1266;
+    pub const glProgramUniformMatrix3x4dvEXT: usize = 1267;
+    pub const glProgramUniformMatrix4dvEXT: usize = 1268;
+    pub const glProgramUniformMatrix4x2dvEXT: usize = 1269;
+    pub const glProgramUniformMatrix4x3dvEXT: usize = 1270;
+    pub const glLinkProgram: usize = 1271;
+    pub const glLinkProgramARB: usize = 1272;
+    pub const glProgramBinary: usize = 1273;
+    pub const glProgramBinaryOES: usize = 1274;
+    pub const glUseProgram: usize = 1275;
+    pub const glUseProgramObjectARB: usize = 1276;
+    pub const glDeleteProgram: usize = 1277;
+    pub const glGetProgramiv: usize = 1278;
+    pub const glClear: usize = 1279;
+    pub const glClearBufferfi: usize = 1280;
+    pub const glClearBufferfv: usize = 1281;
+    pub const glClearBufferiv: usize = 1282;
+    pub const glClearBufferuiv: usize = 1283;
+    pub const glDrawArrays: usize = 1284;
+    pub const glDrawArraysEXT: usize = 1285;
+    pub const glDrawElements: usize = 1286;
+    pub const glDrawRangeElements: usize = 1287;
+    pub const glDrawRangeElementsEXT: usize = 1288;
+    pub const glMultiDrawArrays: usize = 1289;
+    pub const glMultiDrawArraysEXT: usize = 1290;
+    pub const glMultiDrawElements: usize = 1291;
+    pub const glMultiDrawElementsEXT: usize = 1292;
+    pub const glDrawElementsBaseVertex: usize = 1293;
+    pub const glDrawElementsBaseVertexEXT: usize = 1294;
+    pub const glDrawElementsBaseVertexOES: usize = 1295;
+    pub const glDrawRangeElementsBaseVertex: usize = 1296;
+    pub const glDrawRangeElementsBaseVertexEXT: usize = 1297;
+    pub const glDrawRangeElementsBaseVertexOES: usize = 1298;
+    pub const glMultiDrawElementsBaseVertex: usize = 1299;
+    pub const glMultiDrawElementsBaseVertexEXT: usize = 1300;
+    pub const glDrawArraysInstanced: usize = 1301;
+    pub const glDrawArraysInstancedANGLE: usize = 1302;
+    pub const glDrawArraysInstancedARB: usize = 1303;
+    pub const glDrawArraysInstancedEXT: usize = 1304;
+    pub const glDrawArraysInstancedNV: usize = 1305;
+    pub const glDrawElementsInstanced: usize = 1306;
+    pub const glDrawElementsInstancedANGLE: usize = 1307;
+    pub const glDrawElementsInstancedARB: usize = 1308;
+    pub const glDrawElementsInstancedEXT: usize = 1309;
+    pub const glDrawElementsInstancedNV: usize = 1310;
+    pub const glDrawElementsInstancedBaseVertex: usize = 1311;
+    pub const glDrawElementsInstancedBaseVertexEXT: usize = 1312;
+    pub const glDrawElementsInstancedBaseVertexOES: usize = 1313;
+    pub const glDrawArraysInstancedBaseInstance: usize = 1314;
+    pub const glDrawArraysInstancedBaseInstanceEXT: usize = 1315;
+    pub const glDrawElementsInstancedBaseInstance: usize = 1316;
+    pub const glDrawElementsInstancedBaseInstanceEXT: usize = 1317;
+    pub const glDrawElementsInstancedBaseVertexBaseInstance: usize = 1318;
+    pub const glDrawElementsInstancedBaseVertexBaseInstanceEXT: usize = 1319;
+    pub const glDrawArraysIndirect: usize = 1320;
+    pub const glDrawElementsIndirect: usize = 1321;
+    pub const glMultiDrawArraysIndirect: usize = 1322;
+    pub const glMultiDrawArraysIndirectAMD: usize = 1323;
+    pub const glMultiDrawArraysIndirectEXT: usize = 1324;
+    pub const glMultiDrawElementsIndirect: usize = 1325;
+    pub const glMultiDrawElementsIndirectAMD: usize = 1326;
+    pub const glMultiDrawElementsIndirectEXT: usize = 1327;
+    pub const glDrawTransformFeedback: usize = 1328;
+    pub const glDrawTransformFeedbackEXT: usize = 1329;
+    pub const glDrawTransformFeedbackNV: usize = 1330;
+    pub const glDrawTransformFeedbackInstanced: usize = 1331;
+    pub const glDrawTransformFeedbackInstancedEXT: usize = 1332;
+    pub const glDrawTransformFeedbackStream: usize = 1333;
+    pub const glDrawTransformFeedbackStreamInstanced: usize = 1334;
+    pub const glRectd: usize = 1335;
+    pub const glRectdv: usize = 1336;
+    pub const glRectf: usize = 1337;
+    pub const glRectfv: usize = 1338;
+    pub const glRecti: usize = 1339;
+    pub const glRectiv: usize = 1340;
+    pub const glRects: usize = 1341;
+    pub const glRectsv: usize = 1342;
+    pub const glEvalMesh1: usize = 1343;
+    pub const glEvalMesh2: usize = 1344;
+    pub const glMultiDrawArraysIndirectCount: usize = 1345;
+    pub const glMultiDrawArraysIndirectCountARB: usize = 1346;
+    pub const glMultiDrawElementsIndirectCount: usize = 1347;
+    pub const glMultiDrawElementsIndirectCountARB: usize = 1348;
+    pub const glMultiModeDrawArraysIBM: usize = 1349;
+    pub const glMultiModeDrawElementsIBM: usize = 1350;
+    pub const glMultiDrawArraysIndirectBindlessCountNV: usize = 1351;
+    pub const glMultiDrawArraysIndirectBindlessNV: usize = 1352;
+    pub const glMultiDrawElementsIndirectBindlessCountNV: usize = 1353;
+    pub const glMultiDrawElementsIndirectBindlessNV: usize = 1354;
+    pub const glDrawMeshTasksIndirectNV: usize = 1355;
+    pub const glDrawMeshTasksNV: usize = 1356;
+    pub const glMultiDrawMeshTasksIndirectCountNV: usize = 1357;
+    pub const glMultiDrawMeshTasksIndirectNV: usize = 1358;
+    pub const glDrawElementArrayAPPLE: usize = 1359;
+    pub const glDrawRangeElementArrayAPPLE: usize = 1360;
+    pub const glMultiDrawElementArrayAPPLE: usize = 1361;
+    pub const glMultiDrawRangeElementArrayAPPLE: usize = 1362;
+    pub const glDrawElementArrayATI: usize = 1363;
+    pub const glDrawRangeElementArrayATI: usize = 1364;
+    pub const glDrawMeshArraysSUN: usize = 1365;
+    pub const glDrawTextureNV: usize = 1366;
+    pub const glDrawVkImageNV: usize = 1367;
+    pub const glEvalMapsNV: usize = 1368;
+    pub const glCoverFillPathInstancedNV: usize = 1369;
+    pub const glCoverFillPathNV: usize = 1370;
+    pub const glCoverStrokePathInstancedNV: usize = 1371;
+    pub const glCoverStrokePathNV: usize = 1372;
+    pub const glStencilFillPathInstancedNV: usize = 1373;
+    pub const glStencilFillPathNV: usize = 1374;
+    pub const glStencilStrokePathInstancedNV: usize = 1375;
+    pub const glStencilStrokePathNV: usize = 1376;
+    pub const glStencilThenCoverFillPathInstancedNV: usize = 1377;
+    pub const glStencilThenCoverFillPathNV: usize = 1378;
+    pub const glStencilThenCoverStrokePathInstancedNV: usize = 1379;
+    pub const glStencilThenCoverStrokePathNV: usize = 1380;
+    pub const glDrawTexfOES: usize = 1381;
+    pub const glDrawTexfvOES: usize = 1382;
+    pub const glDrawTexiOES: usize = 1383;
+    pub const glDrawTexivOES: usize = 1384;
+    pub const glDrawTexsOES: usize = 1385;
+    pub const glDrawTexsvOES: usize = 1386;
+    pub const glDrawTexxOES: usize = 1387;
+    pub const glDrawTexxvOES: usize = 1388;
+    pub const glRectxOES: usize = 1389;
+    pub const glRectxvOES: usize = 1390;
+    pub const glAccum: usize = 1391;
+    pub const glBitmap: usize = 1392;
+    pub const glDrawPixels: usize = 1393;
+    pub const glCopyPixels: usize = 1394;
+    pub const glNewList: usize = 1395;
+    pub const glEndList: usize = 1396;
+    pub const glCallList: usize = 1397;
+    pub const glCallLists: usize = 1398;
+    pub const glDeleteLists: usize = 1399;
+    pub const glGenLists: usize = 1400;
+    pub const glIsList: usize = 1401;
+    pub const glBindTexture: usize = 1402;
+    pub const glBindTextureEXT: usize = 1403;
+    pub const glDeleteTextures: usize = 1404;
+    pub const glIsTexture: usize = 1405;
+    pub const glIsFramebuffer: usize = 1406;
+    pub const glIsFramebufferEXT: usize = 1407;
+    pub const glBindFramebuffer: usize = 1408;
+    pub const glBindFramebufferEXT: usize = 1409;
+    pub const glDeleteFramebuffers: usize = 1410;
+    pub const glDeleteFramebuffersEXT: usize = 1411;
+    pub const glDrawBuffer: usize = 1412;
+    pub const glDrawBuffers: usize = 1413;
+    pub const glDrawBuffersARB: usize = 1414;
+    pub const glDrawBuffersATI: usize = 1415;
+    pub const glDrawBuffersEXT: usize = 1416;
+    pub const glReadBuffer: usize = 1417;
+    pub const glNamedFramebufferDrawBuffer: usize = 1418;
+    pub const glNamedFramebufferDrawBuffers: usize = 1419;
+    pub const glNamedFramebufferReadBuffer: usize = 1420;
+    pub const glFramebufferDrawBufferEXT: usize = 1421;
+    pub const glFramebufferDrawBuffersEXT: usize = 1422;
+    pub const glFramebufferReadBufferEXT: usize = 1423;
+    pub const glBlitFramebuffer: usize = 1424;
+    pub const glBlitFramebufferEXT: usize = 1425;
+    pub const glBlitFramebufferNV: usize = 1426;
+    pub const glBlitNamedFramebuffer: usize = 1427;
+    pub const glClearNamedFramebufferfv: usize = 1428;
+    pub const glClearNamedFramebufferiv: usize = 1429;
+    pub const glClearNamedFramebufferuiv: usize = 1430;
+    pub const glClearNamedFramebufferfi: usize = 1431;
+    pub const glGetIntegerv: usize = 1432;
+    pub const glGetBooleanv: usize = 1433;
+    pub const glGetFloatv: usize = 1434;
+    pub const glGetDoublev: usize = 1435;
+    pub const glGetInteger64v: usize = 1436;
+    pub const glGetInteger64vAPPLE: usize = 1437;
+    pub const glGetInteger64vEXT: usize = 1438;
+    pub const glFramebufferTexture3DOES: usize = 1439;
+    pub const glFramebufferTexture2DMultisampleEXT: usize = 1440;
+    pub const glFramebufferTexture: usize = 1441;
+    pub const glFramebufferTextureARB: usize = 1442;
+    pub const glFramebufferTextureEXT: usize = 1443;
+    pub const glFramebufferTextureOES: usize = 1444;
+    pub const glFramebufferTexture1D: usize = 1445;
+    pub const glFramebufferTexture1DEXT: usize = 1446;
+    pub const glFramebufferTexture2D: usize = 1447;
+    pub const glFramebufferTexture2DEXT: usize = 1448;
+    pub const glFramebufferTexture3D: usize = 1449;
+    pub const glFramebufferTexture3DEXT: usize = 1450;
+    pub const glFramebufferTextureLayer: usize = 1451;
+    pub const glFramebufferTextureLayerARB: usize = 1452;
+    pub const glFramebufferTextureLayerEXT: usize = 1453;
+    pub const glFramebufferRenderbuffer: usize = 1454;
+    pub const glFramebufferRenderbufferEXT: usize = 1455;
+    pub const glNamedFramebufferTexture: usize = 1456;
+    pub const glNamedFramebufferTextureLayer: usize = 1457;
+    pub const glNamedFramebufferRenderbuffer: usize = 1458;
+    pub const glNamedFramebufferTexture1DEXT: usize = 1459;
+    pub const glNamedFramebufferTexture2DEXT: usize = 1460;
+    pub const glNamedFramebufferTexture3DEXT: usize = 1461;
+    pub const glNamedFramebufferTextureEXT: usize = 1462;
+    pub const glNamedFramebufferTextureFaceEXT: usize = 1463;
+    pub const glNamedFramebufferTextureLayerEXT: usize = 1464;
+    pub const glNamedFramebufferRenderbufferEXT: usize = 1465;
+    pub const glNamedFramebufferParameteri: usize = 1466;
+    pub const glNamedFramebufferParameteriEXT: usize = 1467;
+    pub const glNamedFramebufferSampleLocationsfvARB: usize = 1468;
+    pub const glNamedFramebufferSampleLocationsfvNV: usize = 1469;
+    pub const glNamedFramebufferSamplePositionsfvAMD: usize = 1470;
+    pub const glFramebufferTextureFaceARB: usize = 1471;
+    pub const glFramebufferTextureFaceEXT: usize = 1472;
+    pub const glFramebufferTextureMultisampleMultiviewOVR: usize = 1473;
+    pub const glFramebufferTextureMultiviewOVR: usize = 1474;
+    pub const glFramebufferTexture2DDownsampleIMG: usize = 1475;
+    pub const glFramebufferTexture2DMultisampleIMG: usize = 1476;
+    pub const glFramebufferTextureLayerDownsampleIMG: usize = 1477;
+    pub const glFramebufferSampleLocationsfvARB: usize = 1478;
+    pub const glFramebufferSampleLocationsfvNV: usize = 1479;
+    pub const glFramebufferSamplePositionsfvAMD: usize = 1480;
+    pub const glFramebufferParameteriMESA: usize = 1481;
+    pub const glGetFramebufferAttachmentParameteriv: usize = 1482;
+    pub const glGetFramebufferAttachmentParameterivEXT: usize = 1483;
+    pub const glCheckFramebufferStatus: usize = 1484;
+    pub const glCheckFramebufferStatusEXT: usize = 1485;
+    pub const glFramebufferParameteri: usize = 1486;
+    pub const glGetFramebufferParameteriv: usize = 1487;
+    pub const glInvalidateFramebuffer: usize = 1488;
+    pub const glInvalidateSubFramebuffer: usize = 1489;
+    pub const glDiscardFramebufferEXT: usize = 1490;
+    pub const glGetFramebufferParameterivMESA: usize = 1491;
+    pub const glGetFramebufferParameterfvAMD: usize = 1492;
+    pub const glFramebufferPixelLocalStorageSizeEXT: usize = 1493;
+    pub const glGetFramebufferPixelLocalStorageSizeEXT: usize = 1494;
+    pub const glCopyTexImage1D: usize = 1495;
+    pub const glCopyTexImage1DEXT: usize = 1496;
+    pub const glCopyTexImage2D: usize = 1497;
+    pub const glCopyTexImage2DEXT: usize = 1498;
+    pub const glCopyTexSubImage1D: usize = 1499;
+    pub const glCopyTexSubImage1DEXT: usize = 1500;
+    pub const glCopyTexSubImage2D: usize = 1501;
+    pub const glCopyTexSubImage2DEXT: usize = 1502;
+    pub const glReadPixels: usize = 1503;
+    pub const glReadnPixels: usize = 1504;
+    pub const glReadnPixelsARB: usize = 1505;
+    pub const glReadnPixelsEXT: usize = 1506;
+    pub const glReadnPixelsKHR: usize = 1507;
+    pub const glCopyTexSubImage3D: usize = 1508;
+    pub const glCopyTexSubImage3DEXT: usize = 1509;
+    pub const glCopyTexSubImage3DOES: usize = 1510;
+    pub const glCopyTextureSubImage1D: usize = 1511;
+    pub const glCopyTextureSubImage2D: usize = 1512;
+    pub const glCopyTextureSubImage3D: usize = 1513;
+    pub const glCopyMultiTexImage1DEXT: usize = 1514;
+    pub const glCopyMultiTexImage2DEXT: usize = 1515;
+    pub const glCopyTextureImage1DEXT: usize = 1516;
+    pub const glCopyTextureImage2DEXT: usize = 1517;
+    pub const glCopyColorTable: usize = 1518;
+    pub const glCopyColorTableSGI: usize = 1519;
+    pub const glCopyConvolutionFilter1D: usize = 1520;
+    pub const glCopyConvolutionFilter1DEXT: usize = 1521;
+    pub const glCopyConvolutionFilter2D: usize = 1522;
+    pub const glCopyConvolutionFilter2DEXT: usize = 1523;
+    pub const glCopyTextureSubImage1DEXT: usize = 1524;
+    pub const glCopyTextureSubImage2DEXT: usize = 1525;
+    pub const glCopyTextureSubImage3DEXT: usize = 1526;
+    pub const glCopyMultiTexSubImage1DEXT: usize = 1527;
+    pub const glCopyMultiTexSubImage2DEXT: usize = 1528;
+    pub const glCopyMultiTexSubImage3DEXT: usize = 1529;
+    pub const glCopyColorSubTable: usize = 1530;
+    pub const glCopyColorSubTableEXT: usize = 1531;
+    pub const glReadBufferNV: usize = 1532;
+    pub const glBlitFramebufferANGLE: usize = 1533;
+    pub const glBeginQueryEXT: usize = 1534;
+    pub const glEndQueryEXT: usize = 1535;
+    pub const glGetQueryivEXT: usize = 1536;
+    pub const glGetQueryObjectuivEXT: usize = 1537;
+    pub const glFinish: usize = 1538;
+    pub const glFlush: usize = 1539;
+    pub const glGetError: usize = 1540;
+    pub const glBeginConditionalRender: usize = 1541;
+    pub const glBeginConditionalRenderNV: usize = 1542;
+    pub const glEndConditionalRender: usize = 1543;
+    pub const glEndConditionalRenderNV: usize = 1544;
+    pub const glEndConditionalRenderNVX: usize = 1545;
+    pub const glBeginQueryIndexed: usize = 1546;
+    pub const glEndQueryIndexed: usize = 1547;
+    pub const glGetQueryIndexediv: usize = 1548;
+    pub const glBeginQuery: usize = 1549;
+    pub const glBeginQueryARB: usize = 1550;
+    pub const glEndQuery: usize = 1551;
+    pub const glEndQueryARB: usize = 1552;
+    pub const glDeleteQueries: usize = 1553;
+    pub const glDeleteQueriesARB: usize = 1554;
+    pub const glGetQueryiv: usize = 1555;
+    pub const glGetQueryivARB: usize = 1556;
+    pub const glGetQueryObjectiv: usize = 1557;
+    pub const glGetQueryObjectivARB: usize = 1558;
+    pub const glGetQueryObjectivEXT: usize = 1559;
+    pub const glGetQueryObjectuiv: usize = 1560;
+    pub const glGetQueryObjectuivARB: usize = 1561;
+    pub const glGetQueryObjecti64v: usize = 1562;
+    pub const glGetQueryObjecti64vEXT: usize = 1563;
+    pub const glGetQueryObjectui64v: usize = 1564;
+    pub const glGetQueryObjectui64vEXT: usize = 1565;
+    pub const glIsEnabled: usize = 1566;
+    pub const glIsEnabledi: usize = 1567;
+    pub const glIsEnabledIndexedEXT: usize = 1568;
+    pub const glIsEnablediEXT: usize = 1569;
+    pub const glIsEnablediNV: usize = 1570;
+    pub const glIsEnablediOES: usize = 1571;
+    pub const glGetTexGendv: usize = 1572;
+    pub const glGetTexGenfv: usize = 1573;
+    pub const glGetTexGeniv: usize = 1574;
+    pub const glGetTexEnvfv: usize = 1575;
+    pub const glGetTexEnviv: usize = 1576;
+    pub const glGetLightfv: usize = 1577;
+    pub const glGetLightiv: usize = 1578;
+    pub const glGetMaterialfv: usize = 1579;
+    pub const glGetMaterialiv: usize = 1580;
+    pub const glGetTexParameterfv: usize = 1581;
+    pub const glGetTexParameteriv: usize = 1582;
+    pub const glGetTexLevelParameterfv: usize = 1583;
+    pub const glGetTexLevelParameteriv: usize = 1584;
+    pub const glGetClipPlane: usize = 1585;
+    pub const glGetMapdv: usize = 1586;
+    pub const glGetMapfv: usize = 1587;
+    pub const glGetMapiv: usize = 1588;
+    pub const glGetPixelMapfv: usize = 1589;
+    pub const glGetPixelMapuiv: usize = 1590;
+    pub const glGetPixelMapusv: usize = 1591;
+    pub const glGetPolygonStipple: usize = 1592;
+    pub const glGetIntegeri_v: usize = 1593;
+    pub const glGetIntegerIndexedvEXT: usize = 1594;
+    pub const glDebugMessageCallback: usize = 1595;
+    pub const glDebugMessageCallbackARB: usize = 1596;
+    pub const glDebugMessageCallbackKHR: usize = 1597;
+    pub const glGetPointerv: usize = 1598;
+    pub const glGetPointervEXT: usize = 1599;
+    pub const glGetPointervKHR: usize = 1600;
+    pub const glGetTexImage: usize = 1601;
+    pub const glGetnTexImage: usize = 1602;
+    pub const glGetCompressedTexImage: usize = 1603;
+    pub const glGetCompressedTexImageARB: usize = 1604;
+    pub const glGetnCompressedTexImage: usize = 1605;
+    pub const glGetUniformfv: usize = 1606;
+    pub const glGetUniformfvARB: usize = 1607;
+    pub const glGetUniformiv: usize = 1608;
+    pub const glGetUniformivARB: usize = 1609;
+    pub const glGetVertexAttribdv: usize = 1610;
+    pub const glGetVertexAttribdvARB: usize = 1611;
+    pub const glGetVertexAttribdvNV: usize = 1612;
+    pub const glGetVertexAttribfv: usize = 1613;
+    pub const glGetVertexAttribfvARB: usize = 1614;
+    pub const glGetVertexAttribfvNV: usize = 1615;
+    pub const glGetVertexAttribiv: usize = 1616;
+    pub const glGetVertexAttribivARB: usize = 1617;
+    pub const glGetVertexAttribivNV: usize = 1618;
+    pub const glGetVertexAttribPointerv: usize = 1619;
+    pub const glGetVertexAttribPointervARB: usize = 1620;
+    pub const glGetVertexAttribPointervNV: usize = 1621;
+    pub const glFeedbackBuffer: usize = 1622;
+    pub const glSelectBuffer: usize = 1623;
+    pub const glGenTextures: usize = 1624;
+    pub const glGenFramebuffers: usize = 1625;
+    pub const glGenFramebuffersEXT: usize = 1626;
+    pub const glGenRenderbuffers: usize = 1627;
+    pub const glGenRenderbuffersEXT: usize = 1628;
+    pub const glBindRenderbuffer: usize = 1629;
+    pub const glRenderbufferStorage: usize = 1630;
+    pub const glRenderbufferStorageEXT: usize = 1631;
+    pub const glRenderbufferStorageMultisample: usize = 1632;
+    pub const glRenderbufferStorageMultisampleEXT: usize = 1633;
+    pub const glRenderbufferStorageMultisampleNV: usize = 1634;
+    pub const glEGLImageTargetRenderbufferStorageOES: usize = 1635;
+    pub const glRenderbufferStorageMultisampleANGLE: usize = 1636;
+    pub const glRenderbufferStorageMultisampleAPPLE: usize = 1637;
+    pub const glRenderbufferStorageMultisampleAdvancedAMD: usize = 1638;
+    pub const glRenderbufferStorageMultisampleCoverageNV: usize = 1639;
+    pub const glRenderbufferStorageMultisampleIMG: usize = 1640;
+    pub const glBindRenderbufferEXT: usize = 1641;
+    pub const glEvaluateDepthValuesARB: usize = 1642;
+    pub const glResolveDepthValuesNV: usize = 1643;
+    pub const glDeleteRenderbuffers: usize = 1644;
+    pub const glDeleteRenderbuffersEXT: usize = 1645;
+    pub const glBindBuffer: usize = 1646;
+    pub const glBindBufferARB: usize = 1647;
+    pub const glBufferData: usize = 1648;
+    pub const glBufferDataARB: usize = 1649;
+    pub const glBufferSubData: usize = 1650;
+    pub const glBufferSubDataARB: usize = 1651;
+    pub const glDeleteBuffers: usize = 1652;
+    pub const glDeleteBuffersARB: usize = 1653;
+    pub const glPixelStoref: usize = 1654;
+    pub const glPixelStorei: usize = 1655;
+    pub const glPushClientAttrib: usize = 1656;
+    pub const glPopClientAttrib: usize = 1657;
+    pub const glEnableClientState: usize = 1658;
+    pub const glDisableClientState: usize = 1659;
+    pub const glClientActiveTexture: usize = 1660;
+    pub const glClientActiveTextureARB: usize = 1661;
+    pub const glInterleavedArrays: usize = 1662;
+    pub const glColorPointer: usize = 1663;
+    pub const glSecondaryColorPointer: usize = 1664;
+    pub const glSecondaryColorPointerEXT: usize = 1665;
+    pub const glTexCoordPointer: usize = 1666;
+    pub const glVertexPointer: usize = 1667;
+    pub const glEdgeFlagPointer: usize = 1668;
+    pub const glFogCoordPointer: usize = 1669;
+    pub const glFogCoordPointerEXT: usize = 1670;
+    pub const glIndexPointer: usize = 1671;
+    pub const glNormalPointer: usize = 1672;
+    pub const glVertexAttribPointer: usize = 1673;
+    pub const glVertexAttribPointerARB: usize = 1674;
+    pub const glEnableVertexAttribArray: usize = 1675;
+    pub const glEnableVertexAttribArrayARB: usize = 1676;
+    pub const glDisableVertexAttribArray: usize = 1677;
+    pub const glDisableVertexAttribArrayARB: usize = 1678;
+    pub const glXChooseVisual: usize = 1679;
+    pub const glXChooseFBConfig: usize = 1680;
+    pub const glXChooseFBConfigSGIX: usize = 1681;
+    pub const glXSwapBuffers: usize = 1682;
+    pub const glXSwapBuffersMscOML: usize = 1683;
+    pub const glXCopySubBufferMESA: usize = 1684;
+    pub const glXWaitGL: usize = 1685;
+    pub const glXUseXFont: usize = 1686;
+    pub const glXBindTexImageEXT: usize = 1687;
+    pub const glXMakeCurrent: usize = 1688;
+    pub const glXMakeContextCurrent: usize = 1689;
+    pub const glXMakeCurrentReadSGI: usize = 1690;
+    pub const glXCreateContext: usize = 1691;
+    pub const glXCreateNewContext: usize = 1692;
+    pub const glXCreateContextAttribsARB: usize = 1693;
+    pub const glXCreateContextWithConfigSGIX: usize = 1694;
+    pub const glXDestroyContext: usize = 1695;
+    pub const glXCreateWindow: usize = 1696;
+    pub const glXDestroyWindow: usize = 1697;
+    pub const glXGetProcAddress: usize = 1698;
+    pub const glXGetProcAddressARB: usize = 1699;
+    pub const glXQueryDrawable: usize = 1700;
+    pub const eglSwapBuffers: usize = 1701;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1702;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1703;
+    pub const eglPostSubBufferNV: usize = 1704;
+    pub const eglSwapBuffersRegionNOK: usize = 1705;
+    pub const eglSwapBuffersRegion2NOK: usize = 1706;
+    pub const eglCopyBuffers: usize = 1707;
+    pub const eglWaitGL: usize = 1708;
+    pub const eglWaitClient: usize = 1709;
+    pub const eglBindTexImage: usize = 1710;
+    pub const eglMakeCurrent: usize = 1711;
+    pub const eglCreateContext: usize = 1712;
+    pub const eglDestroyContext: usize = 1713;
+    pub const eglReleaseThread: usize = 1714;
+    pub const eglGetDisplay: usize = 1715;
+    pub const eglGetPlatformDisplay: usize = 1716;
+    pub const eglGetPlatformDisplayEXT: usize = 1717;
+    pub const eglCreateWindowSurface: usize = 1718;
+    pub const eglCreatePlatformWindowSurface: usize = 1719;
+    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1720;
+    pub const eglDestroySurface: usize = 1721;
+    pub const eglGetProcAddress: usize = 1722;
+    pub const eglQuerySurface: usize = 1723;
+    pub const eglQueryContext: usize = 1724;
+    pub const eglGetCurrentContext: usize = 1725;
+    pub const glXGetCurrentContext: usize = 1726;
+    pub const OSMesaMakeCurrent: usize = 1727;
+    pub const OSMesaCreateContext: usize = 1728;
+    pub const OSMesaCreateContextExt: usize = 1729;
+    pub const OSMesaCreateContextAttribs: usize = 1730;
+    pub const OSMesaDestroyContext: usize = 1731;
+    pub const OSMesaGetProcAddress: usize = 1732;
+    pub const glGetTextureParameteriv: usize = 1733;
+    pub const glMapBufferRange: usize = 1734;
+    pub const glUnmapBuffer: usize = 1735;
+    pub const glGetString: usize = 1736;
+    pub const glGetStringi: usize = 1737;
+    pub const glGenQueries: usize = 1738;
+    pub const glGetRenderbufferParameteriv: usize = 1739;
+    pub const glCreateShader: usize = 1740;
+    pub const glShaderSource: usize = 1741;
+    pub const glCompileShader: usize = 1742;
+    pub const glGetShaderiv: usize = 1743;
+    pub const glGetShaderInfoLog: usize = 1744;
+    pub const glCreateProgram: usize = 1745;
+    pub const glAttachShader: usize = 1746;
+    pub const glGetProgramInfoLog: usize = 1747;
+    pub const glDeleteShader: usize = 1748;
+    pub const glGetUniformLocation: usize = 1749;
+    pub const glIsProgram: usize = 1750;
+    pub const glGetShaderSource: usize = 1751;
+    pub const glGetAttachedShaders: usize = 1752;
+    pub const glGetActiveUniform: usize = 1753;
+    pub const glGetActiveAttrib: usize = 1754;
+    pub const glGetAttribLocation: usize = 1755;
+    pub const glGetFragDataLocation: usize = 1756;
+    pub const glBindFragDataLocation: usize = 1757;
+    pub const glGetUniformdv: usize = 1758;
+    pub const glGetUniformuiv: usize = 1759;
+    pub const glGetActiveUniformBlockiv: usize = 1760;
+    pub const glGetActiveUniformsiv: usize = 1761;
+    pub const glGetActiveUniformBlockName: usize = 1762;
+    pub const glGetProgramInterfaceiv: usize = 1763;
+    pub const glGetProgramResourceName: usize = 1764;
+    pub const glFenceSync: usize = 1765;
+    pub const glClientWaitSync: usize = 1766;
+    pub const glDeleteSync: usize = 1767;
+    pub const glGetBufferSubData: usize = 1768;
+    pub const glGetUniformBlockIndex: usize = 1769;
+    pub const glBindBufferBase: usize = 1770;
+    pub const glBindBufferRange: usize = 1771;
+    pub const glGenBuffers: usize = 1772;
+    pub const glBindAttribLocation: usize = 1773;
+    pub const glProgramParameteri: usize = 1774;
+    pub const glPatchParameteri: usize = 1775;
+    pub const glGenVertexArrays: usize = 1776;
+    pub const glBindVertexArray: usize = 1777;
+    pub const glGenSamplers: usize = 1778;
+    pub const glBindSampler: usize = 1779;
 }
 
 /// Name of each command.
@@ -1945,6 +2290,12 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glMatrixLoadTransposefEXT",
     c"glMatrixMultTransposedEXT",
     c"glMatrixMultTransposefEXT",
+    c"glMatrixLoad3x2fNV",
+    c"glMatrixLoad3x3fNV",
+    c"glMatrixMult3x2fNV",
+    c"glMatrixMult3x3fNV",
+    c"glMatrixLoadTranspose3x3fNV",
+    c"glMatrixMultTranspose3x3fNV",
     c"glViewport",
     c"glScissor",
     c"glScissorArrayv",
@@ -1965,6 +2316,11 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glViewportIndexedfv",
     c"glViewportIndexedfvNV",
     c"glViewportIndexedfvOES",
+    c"glScissorExclusiveArrayvNV",
+    c"glScissorExclusiveNV",
+    c"glWindowRectanglesEXT",
+    c"glViewportSwizzleNV",
+    c"glViewportPositionWScaleNV",
     c"glEnable",
     c"glDisable",
     c"glEnablei",
@@ -1984,6 +2340,13 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glDepthRangefOES",
     c"glDepthRangeIndexed",
     c"glDepthRangeArrayv",
+    c"glDepthRangedNV",
+    c"glDepthRangeArraydvNV",
+    c"glDepthRangeArrayfvNV",
+    c"glDepthRangeArrayfvOES",
+    c"glDepthRangeIndexeddNV",
+    c"glDepthRangeIndexedfNV",
+    c"glDepthRangeIndexedfOES",
     c"glActiveTexture",
     c"glActiveTextureARB",
     c"glBindTextures",
@@ -2040,6 +2403,20 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glUseProgramStagesEXT",
     c"glClampColor",
     c"glClampColorARB",
+    c"glMultiTexEnvfEXT",
+    c"glMultiTexEnvfvEXT",
+    c"glMultiTexEnviEXT",
+    c"glMultiTexEnvivEXT",
+    c"glMultiTexGendEXT",
+    c"glMultiTexGendvEXT",
+    c"glMultiTexGenfEXT",
+    c"glMultiTexGenfvEXT",
+    c"glMultiTexGeniEXT",
+    c"glMultiTexGenivEXT",
+    c"glDisableClientStateiEXT",
+    c"glEnableClientStateiEXT",
+    c"glBindFragmentShaderATI",
+    c"glVertexBlendARB",
     c"glBindProgramPipeline",
     c"glBindProgramPipelineEXT",
     c"glPushAttrib",
@@ -2116,6 +2493,14 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glWindowPos3sv",
     c"glWindowPos3svARB",
     c"glWindowPos3svMESA",
+    c"glWindowPos4dMESA",
+    c"glWindowPos4dvMESA",
+    c"glWindowPos4fMESA",
+    c"glWindowPos4fvMESA",
+    c"glWindowPos4iMESA",
+    c"glWindowPos4ivMESA",
+    c"glWindowPos4sMESA",
+    c"glWindowPos4svMESA",
     c"glRenderMode",
     c"glBeginTransformFeedback",
     c"glBeginTransformFeedbackEXT",
@@ -2123,6 +2508,14 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glEndTransformFeedback",
     c"glEndTransformFeedbackEXT",
     c"glEndTransformFeedbackNV",
+    c"glPauseTransformFeedback",
+    c"glPauseTransformFeedbackNV",
+    c"glResumeTransformFeedback",
+    c"glResumeTransformFeedbackNV",
+    c"glBindTransformFeedback",
+    c"glBindTransformFeedbackNV",
+    c"glDeleteTransformFeedbacks",
+    c"glDeleteTransformFeedbacksNV",
     c"glAlphaFunc",
     c"glBlendFunc",
     c"glBlendFuncSeparate",
@@ -2212,6 +2605,23 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glStencilOpSeparate",
     c"glStencilOpSeparateATI",
     c"glPrimitiveRestartIndex",
+    c"glMatrixPushEXT",
+    c"glClearColorIiEXT",
+    c"glClearColorIuiEXT",
+    c"glClearDepthdNV",
+    c"glDepthBoundsdNV",
+    c"glStencilFuncSeparateATI",
+    c"glActiveStencilFaceEXT",
+    c"glSampleMaski",
+    c"glSampleMaskIndexedNV",
+    c"glPrimitiveRestartIndexNV",
+    c"glRasterSamplesEXT",
+    c"glPrimitiveBoundingBox",
+    c"glPrimitiveBoundingBoxARB",
+    c"glPrimitiveBoundingBoxEXT",
+    c"glPrimitiveBoundingBoxOES",
+    c"glBlendParameteriNV",
+    c"glAlphaFuncQCOM",
     c"glTexImage1D",
     c"glTexImage2D",
     c"glTexImage3D",
@@ -2267,6 +2677,58 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glClearTexSubImageEXT",
     c"glNamedRenderbufferStorage",
     c"glNamedRenderbufferStorageMultisample",
+    c"glNamedRenderbufferStorageEXT",
+    c"glNamedRenderbufferStorageMultisampleAdvancedAMD",
+    c"glNamedRenderbufferStorageMultisampleCoverageEXT",
+    c"glNamedRenderbufferStorageMultisampleEXT",
+    c"glTextureImage1DEXT",
+    c"glTextureImage2DEXT",
+    c"glTextureImage3DEXT",
+    c"glTextureSubImage1DEXT",
+    c"glTextureSubImage2DEXT",
+    c"glTextureSubImage3DEXT",
+    c"glCompressedTextureImage1DEXT",
+    c"glCompressedTextureImage2DEXT",
+    c"glCompressedTextureImage3DEXT",
+    c"glCompressedTextureSubImage1DEXT",
+    c"glCompressedTextureSubImage2DEXT",
+    c"glCompressedTextureSubImage3DEXT",
+    c"glTextureStorage1DEXT",
+    c"glTextureStorage2DEXT",
+    c"glTextureStorage3DEXT",
+    c"glTextureStorage2DMultisampleEXT",
+    c"glTextureStorage3DMultisampleEXT",
+    c"glTextureStorageMem1DEXT",
+    c"glTextureStorageMem2DEXT",
+    c"glTextureStorageMem3DEXT",
+    c"glTextureStorageMem2DMultisampleEXT",
+    c"glTextureStorageMem3DMultisampleEXT",
+    c"glTextureImage2DMultisampleCoverageNV",
+    c"glTextureImage2DMultisampleNV",
+    c"glTextureImage3DMultisampleCoverageNV",
+    c"glTextureImage3DMultisampleNV",
+    c"glTexturePageCommitmentEXT",
+    c"glTexturePageCommitmentMemNV",
+    c"glInvalidateTexImage",
+    c"glInvalidateTexSubImage",
+    c"glTextureRenderbufferEXT",
+    c"glEGLImageTargetTextureStorageEXT",
+    c"glTextureStorageSparseAMD",
+    c"glTexStorageMem1DEXT",
+    c"glTexStorageMem2DEXT",
+    c"glTexStorageMem3DEXT",
+    c"glTexStorageMem2DMultisampleEXT",
+    c"glTexStorageMem3DMultisampleEXT",
+    c"glTexImage2DMultisampleCoverageNV",
+    c"glTexImage3DMultisampleCoverageNV",
+    c"glTexPageCommitmentARB",
+    c"glTexPageCommitmentEXT",
+    c"glTexPageCommitmentMemNV",
+    c"glEGLImageTargetTexStorageEXT",
+    c"glTexStorageAttribs2DEXT",
+    c"glTexStorageAttribs3DEXT",
+    c"glTexRenderbufferNV",
+    c"glTexStorageSparseAMD",
     c"glTexParameterf",
     c"glTexParameterfv",
     c"glTexParameteri",
@@ -2283,9 +2745,25 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glTextureParameteriv",
     c"glTextureParameterIiv",
     c"glTextureParameterIuiv",
+    c"glTextureParameterfEXT",
+    c"glTextureParameterfvEXT",
+    c"glTextureParameteriEXT",
+    c"glTextureParameterivEXT",
+    c"glTextureParameterIivEXT",
+    c"glTextureParameterIuivEXT",
+    c"glMultiTexParameterfEXT",
+    c"glMultiTexParameterfvEXT",
+    c"glMultiTexParameteriEXT",
+    c"glMultiTexParameterivEXT",
+    c"glMultiTexParameterIivEXT",
+    c"glMultiTexParameterIuivEXT",
     c"glGenerateMipmap",
     c"glGenerateMipmapEXT",
     c"glGenerateTextureMipmap",
+    c"glCreateTextures",
+    c"glTextureView",
+    c"glTextureViewEXT",
+    c"glTextureViewOES",
     c"glCopyImageSubData",
     c"glCopyImageSubDataEXT",
     c"glCopyImageSubDataOES",
@@ -2294,8 +2772,17 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGetCompressedTextureImage",
     c"glBindImageTexture",
     c"glBindImageTextures",
+    c"glGetCompressedMultiTexImageEXT",
+    c"glGetCompressedTextureImageEXT",
+    c"glGetMultiTexImageEXT",
+    c"glGetTextureImageEXT",
+    c"glBindImageTextureEXT",
+    c"glGetnTexImageARB",
+    c"glGetnCompressedTexImageARB",
+    c"glGetCompressedTextureSubImage",
     c"glDispatchCompute",
     c"glDispatchComputeIndirect",
+    c"glDispatchComputeGroupSizeARB",
     c"glVertexAttribDivisor",
     c"glVertexAttribDivisorANGLE",
     c"glVertexAttribDivisorARB",
@@ -2478,6 +2965,104 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glProgramUniformMatrix4x3fv",
     c"glProgramUniformMatrix4x3fvEXT",
     c"glUniformBlockBinding",
+    c"glProgramUniform1i64ARB",
+    c"glProgramUniform1i64NV",
+    c"glProgramUniform1i64vARB",
+    c"glProgramUniform1i64vNV",
+    c"glProgramUniform1ui64ARB",
+    c"glProgramUniform1ui64NV",
+    c"glProgramUniform1ui64vARB",
+    c"glProgramUniform1ui64vNV",
+    c"glProgramUniform2i64ARB",
+    c"glProgramUniform2i64NV",
+    c"glProgramUniform2i64vARB",
+    c"glProgramUniform2i64vNV",
+    c"glProgramUniform2ui64ARB",
+    c"glProgramUniform2ui64NV",
+    c"glProgramUniform2ui64vARB",
+    c"glProgramUniform2ui64vNV",
+    c"glProgramUniform3i64ARB",
+    c"glProgramUniform3i64NV",
+    c"glProgramUniform3i64vARB",
+    c"glProgramUniform3i64vNV",
+    c"glProgramUniform3ui64ARB",
+    c"glProgramUniform3ui64NV",
+    c"glProgramUniform3ui64vARB",
+    c"glProgramUniform3ui64vNV",
+    c"glProgramUniform4i64ARB",
+    c"glProgramUniform4i64NV",
+    c"glProgramUniform4i64vARB",
+    c"glProgramUniform4i64vNV",
+    c"glProgramUniform4ui64ARB",
+    c"glProgramUniform4ui64NV",
+    c"glProgramUniform4ui64vARB",
+    c"glProgramUniform4ui64vNV",
+    c"glUniform1i64ARB",
+    c"glUniform1i64NV",
+    c"glUniform1i64vARB",
+    c"glUniform1i64vNV",
+    c"glUniform1ui64ARB",
+    c"glUniform1ui64NV",
+    c"glUniform1ui64vARB",
+    c"glUniform1ui64vNV",
+    c"glUniform2i64ARB",
+    c"glUniform2i64NV",
+    c"glUniform2i64vARB",
+    c"glUniform2i64vNV",
+    c"glUniform2ui64ARB",
+    c"glUniform2ui64NV",
+    c"glUniform2ui64vARB",
+    c"glUniform2ui64vNV",
+    c"glUniform3i64ARB",
+    c"glUniform3i64NV",
+    c"glUniform3i64vARB",
+    c"glUniform3i64vNV",
+    c"glUniform3ui64ARB",
+    c"glUniform3ui64NV",
+    c"glUniform3ui64vARB",
+    c"glUniform3ui64vNV",
+    c"glUniform4i64ARB",
+    c"glUniform4i64NV",
+    c"glUniform4i64vARB",
+    c"glUniform4i64vNV",
+    c"glUniform4ui64ARB",
+    c"glUniform4ui64NV",
+    c"glUniform4ui64vARB",
+    c"glUniform4ui64vNV",
+    c"glProgramUniformHandleui64ARB",
+    c"glProgramUniformHandleui64IMG",
+    c"glProgramUniformHandleui64NV",
+    c"glProgramUniformHandleui64vARB",
+    c"glProgramUniformHandleui64vIMG",
+    c"glProgramUniformHandleui64vNV",
+    c"glUniformHandleui64ARB",
+    c"glUniformHandleui64IMG",
+    c"glUniformHandleui64NV",
+    c"glUniformHandleui64vARB",
+    c"glUniformHandleui64vIMG",
+    c"glUniformHandleui64vNV",
+    c"glProgramUniformui64NV",
+    c"glProgramUniformui64vNV",
+    c"glUniformui64NV",
+    c"glUniformui64vNV",
+    c"glUniformBufferEXT",
+    c"glProgramUniform1dEXT",
+    c"glProgramUniform1dvEXT",
+    c"glProgramUniform2dEXT",
+    c"glProgramUniform2dvEXT",
+    c"glProgramUniform3dEXT",
+    c"glProgramUniform3dvEXT",
+    c"glProgramUniform4dEXT",
+    c"glProgramUniform4dvEXT",
+    c"glProgramUniformMatrix2dvEXT",
+    c"glProgramUniformMatrix2x3dvEXT",
+    c"glProgramUniformMatrix2x4dvEXT",
+    c"glProgramUniformMatrix3dvEXT",
+    c"glProgramUniformMatrix3x2dvEXT",
+    c"glProgramUniformMatrix3x4dvEXT",
+    c"glProgramUniformMatrix4dvEXT",
+    c"glProgramUniformMatrix4x2dvEXT",
+    c"glProgramUniformMatrix4x3dvEXT",
     c"glLinkProgram",
     c"glLinkProgramARB",
     c"glProgramBinary",
@@ -2552,6 +3137,52 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glRectsv",
     c"glEvalMesh1",
     c"glEvalMesh2",
+    c"glMultiDrawArraysIndirectCount",
+    c"glMultiDrawArraysIndirectCountARB",
+    c"glMultiDrawElementsIndirectCount",
+    c"glMultiDrawElementsIndirectCountARB",
+    c"glMultiModeDrawArraysIBM",
+    c"glMultiModeDrawElementsIBM",
+    c"glMultiDrawArraysIndirectBindlessCountNV",
+    c"glMultiDrawArraysIndirectBindlessNV",
+    c"glMultiDrawElementsIndirectBindlessCountNV",
+    c"glMultiDrawElementsIndirectBindlessNV",
+    c"glDrawMeshTasksIndirectNV",
+    c"glDrawMeshTasksNV",
+    c"glMultiDrawMeshTasksIndirectCountNV",
+    c"glMultiDrawMeshTasksIndirectNV",
+    c"glDrawElementArrayAPPLE",
+    c"glDrawRangeElementArrayAPPLE",
+    c"glMultiDrawElementArrayAPPLE",
+    c"glMultiDrawRangeElementArrayAPPLE",
+    c"glDrawElementArrayATI",
+    c"glDrawRangeElementArrayATI",
+    c"glDrawMeshArraysSUN",
+    c"glDrawTextureNV",
+    c"glDrawVkImageNV",
+    c"glEvalMapsNV",
+    c"glCoverFillPathInstancedNV",
+    c"glCoverFillPathNV",
+    c"glCoverStrokePathInstancedNV",
+    c"glCoverStrokePathNV",
+    c"glStencilFillPathInstancedNV",
+    c"glStencilFillPathNV",
+    c"glStencilStrokePathInstancedNV",
+    c"glStencilStrokePathNV",
+    c"glStencilThenCoverFillPathInstancedNV",
+    c"glStencilThenCoverFillPathNV",
+    c"glStencilThenCoverStrokePathInstancedNV",
+    c"glStencilThenCoverStrokePathNV",
+    c"glDrawTexfOES",
+    c"glDrawTexfvOES",
+    c"glDrawTexiOES",
+    c"glDrawTexivOES",
+    c"glDrawTexsOES",
+    c"glDrawTexsvOES",
+    c"glDrawTexxOES",
+    c"glDrawTexxvOES",
+    c"glRectxOES",
+    c"glRectxvOES",
     c"glAccum",
     c"glBitmap",
     c"glDrawPixels",
@@ -2620,6 +3251,29 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glNamedFramebufferTexture",
     c"glNamedFramebufferTextureLayer",
     c"glNamedFramebufferRenderbuffer",
+    c"glNamedFramebufferTexture1DEXT",
+    c"glNamedFramebufferTexture2DEXT",
+    c"glNamedFramebufferTexture3DEXT",
+    c"glNamedFramebufferTextureEXT",
+    c"glNamedFramebufferTextureFaceEXT",
+    c"glNamedFramebufferTextureLayerEXT",
+    c"glNamedFramebufferRenderbufferEXT",
+    c"glNamedFramebufferParameteri",
+    c"glNamedFramebufferParameteriEXT",
+    c"glNamedFramebufferSampleLocationsfvARB",
+    c"glNamedFramebufferSampleLocationsfvNV",
+    c"glNamedFramebufferSamplePositionsfvAMD",
+    c"glFramebufferTextureFaceARB",
+    c"glFramebufferTextureFaceEXT",
+    c"glFramebufferTextureMultisampleMultiviewOVR",
+    c"glFramebufferTextureMultiviewOVR",
+    c"glFramebufferTexture2DDownsampleIMG",
+    c"glFramebufferTexture2DMultisampleIMG",
+    c"glFramebufferTextureLayerDownsampleIMG",
+    c"glFramebufferSampleLocationsfvARB",
+    c"glFramebufferSampleLocationsfvNV",
+    c"glFramebufferSamplePositionsfvAMD",
+    c"glFramebufferParameteriMESA",
     c"glGetFramebufferAttachmentParameteriv",
     c"glGetFramebufferAttachmentParameterivEXT",
     c"glCheckFramebufferStatus",
@@ -2629,6 +3283,10 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glInvalidateFramebuffer",
     c"glInvalidateSubFramebuffer",
     c"glDiscardFramebufferEXT",
+    c"glGetFramebufferParameterivMESA",
+    c"glGetFramebufferParameterfvAMD",
+    c"glFramebufferPixelLocalStorageSizeEXT",
+    c"glGetFramebufferPixelLocalStorageSizeEXT",
     c"glCopyTexImage1D",
     c"glCopyTexImage1DEXT",
     c"glCopyTexImage2D",
@@ -2658,6 +3316,14 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glCopyConvolutionFilter1DEXT",
     c"glCopyConvolutionFilter2D",
     c"glCopyConvolutionFilter2DEXT",
+    c"glCopyTextureSubImage1DEXT",
+    c"glCopyTextureSubImage2DEXT",
+    c"glCopyTextureSubImage3DEXT",
+    c"glCopyMultiTexSubImage1DEXT",
+    c"glCopyMultiTexSubImage2DEXT",
+    c"glCopyMultiTexSubImage3DEXT",
+    c"glCopyColorSubTable",
+    c"glCopyColorSubTableEXT",
     c"glReadBufferNV",
     c"glBlitFramebufferANGLE",
     c"glBeginQueryEXT",
@@ -2672,6 +3338,9 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glEndConditionalRender",
     c"glEndConditionalRenderNV",
     c"glEndConditionalRenderNVX",
+    c"glBeginQueryIndexed",
+    c"glEndQueryIndexed",
+    c"glGetQueryIndexediv",
     c"glBeginQuery",
     c"glBeginQueryARB",
     c"glEndQuery",
@@ -2716,11 +3385,14 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGetPixelMapuiv",
     c"glGetPixelMapusv",
     c"glGetPolygonStipple",
+    c"glGetIntegeri_v",
+    c"glGetIntegerIndexedvEXT",
+    c"glDebugMessageCallback",
+    c"glDebugMessageCallbackARB",
+    c"glDebugMessageCallbackKHR",
     c"glGetPointerv",
     c"glGetPointervEXT",
     c"glGetPointervKHR",
-    c"glGetIntegeri_v",
-    c"glGetIntegerIndexedvEXT",
     c"glGetTexImage",
     c"glGetnTexImage",
     c"glGetCompressedTexImage",
@@ -2756,6 +3428,14 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glRenderbufferStorageMultisampleEXT",
     c"glRenderbufferStorageMultisampleNV",
     c"glEGLImageTargetRenderbufferStorageOES",
+    c"glRenderbufferStorageMultisampleANGLE",
+    c"glRenderbufferStorageMultisampleAPPLE",
+    c"glRenderbufferStorageMultisampleAdvancedAMD",
+    c"glRenderbufferStorageMultisampleCoverageNV",
+    c"glRenderbufferStorageMultisampleIMG",
+    c"glBindRenderbufferEXT",
+    c"glEvaluateDepthValuesARB",
+    c"glResolveDepthValuesNV",
     c"glDeleteRenderbuffers",
     c"glDeleteRenderbuffersEXT",
     c"glBindBuffer",
@@ -2796,6 +3476,10 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glXChooseFBConfigSGIX",
     c"glXSwapBuffers",
     c"glXSwapBuffersMscOML",
+    c"glXCopySubBufferMESA",
+    c"glXWaitGL",
+    c"glXUseXFont",
+    c"glXBindTexImageEXT",
     c"glXMakeCurrent",
     c"glXMakeContextCurrent",
     c"glXMakeCurrentReadSGI",
@@ -2812,6 +3496,13 @@ pub static NAMES: [&CStr; COUNT] = [
     c"eglSwapBuffers",
     c"eglSwapBuffersWithDamageKHR",
     c"eglSwapBuffersWithDamageEXT",
+    c"eglPostSubBufferNV",
+    c"eglSwapBuffersRegionNOK",
+    c"eglSwapBuffersRegion2NOK",
+    c"eglCopyBuffers",
+    c"eglWaitGL",
+    c"eglWaitClient",
+    c"eglBindTexImage",
     c"eglMakeCurrent",
     c"eglCreateContext",
     c"eglDestroyContext",
@@ -2834,8 +3525,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"OSMesaCreateContextAttribs",
     c"OSMesaDestroyContext",
     c"OSMesaGetProcAddress",
-    c"glTextureView",
-    c"glFramebufferParameteriMESA",
+    c"glGetTextureParameteriv",
     c"glMapBufferRange",
     c"glUnmapBuffer",
     c"glGetString",
@@ -3383,6 +4073,12 @@ real_functions! {
     glMatrixLoadTransposefEXT(mode: u32, m: Ptr);
     glMatrixMultTransposedEXT(mode: u32, m: Ptr);
     glMatrixMultTransposefEXT(mode: u32, m: Ptr);
+    glMatrixLoad3x2fNV(matrixMode: u32, m: Ptr);
+    glMatrixLoad3x3fNV(matrixMode: u32, m: Ptr);
+    glMatrixMult3x2fNV(matrixMode: u32, m: Ptr);
+    glMatrixMult3x3fNV(matrixMode: u32, m: Ptr);
+    glMatrixLoadTranspose3x3fNV(matrixMode: u32, m: Ptr);
+    glMatrixMultTranspose3x3fNV(matrixMode: u32, m: Ptr);
     glViewport(x: i32, y: i32, width: i32, height: i32);
     glScissor(x: i32, y: i32, width: i32, height: i32);
     glScissorArrayv(first: u32, count: i32, v: Ptr);
@@ -3403,6 +4099,11 @@ real_functions! {
     glViewportIndexedfv(index: u32, v: Ptr);
     glViewportIndexedfvNV(index: u32, v: Ptr);
     glViewportIndexedfvOES(index: u32, v: Ptr);
+    glScissorExclusiveArrayvNV(first: u32, count: i32, v: Ptr);
+    glScissorExclusiveNV(x: i32, y: i32, width: i32, height: i32);
+    glWindowRectanglesEXT(mode: u32, count: i32, box_: Ptr);
+    glViewportSwizzleNV(index: u32, swizzlex: u32, swizzley: u32, swizzlez: u32, swizzlew: u32);
+    glViewportPositionWScaleNV(index: u32, xcoeff: f32, ycoeff: f32);
     glEnable(cap: u32);
     glDisable(cap: u32);
     glEnablei(target: u32, index: u32);
@@ -3422,6 +4123,13 @@ real_functions! {
     glDepthRangefOES(n: f32, f: f32);
     glDepthRangeIndexed(index: u32, n: f64, f: f64);
     glDepthRangeArrayv(first: u32, count: i32, v: Ptr);
+    glDepthRangedNV(zNear: f64, zFar: f64);
+    glDepthRangeArraydvNV(first: u32, count: i32, v: Ptr);
+    glDepthRangeArrayfvNV(first: u32, count: i32, v: Ptr);
+    glDepthRangeArrayfvOES(first: u32, count: i32, v: Ptr);
+    glDepthRangeIndexeddNV(index: u32, n: f64, f: f64);
+    glDepthRangeIndexedfNV(index: u32, n: f32, f: f32);
+    glDepthRangeIndexedfOES(index: u32, n: f32, f: f32);
     glActiveTexture(texture: u32);
     glActiveTextureARB(texture: u32);
     glBindTextures(first: u32, count: i32, textures: Ptr);
@@ -3478,6 +4186,20 @@ real_functions! {
     glUseProgramStagesEXT(pipeline: u32, stages: u32, program: u32);
     glClampColor(target: u32, clamp: u32);
     glClampColorARB(target: u32, clamp: u32);
+    glMultiTexEnvfEXT(texunit: u32, target: u32, pname: u32, param: f32);
+    glMultiTexEnvfvEXT(texunit: u32, target: u32, pname: u32, params: Ptr);
+    glMultiTexEnviEXT(texunit: u32, target: u32, pname: u32, param: i32);
+    glMultiTexEnvivEXT(texunit: u32, target: u32, pname: u32, params: Ptr);
+    glMultiTexGendEXT(texunit: u32, coord: u32, pname: u32, param: f64);
+    glMultiTexGendvEXT(texunit: u32, coord: u32, pname: u32, params: Ptr);
+    glMultiTexGenfEXT(texunit: u32, coord: u32, pname: u32, param: f32);
+    glMultiTexGenfvEXT(texunit: u32, coord: u32, pname: u32, params: Ptr);
+    glMultiTexGeniEXT(texunit: u32, coord: u32, pname: u32, param: i32);
+    glMultiTexGenivEXT(texunit: u32, coord: u32, pname: u32, params: Ptr);
+    glDisableClientStateiEXT(array: u32, index: u32);
+    glEnableClientStateiEXT(array: u32, index: u32);
+    glBindFragmentShaderATI(id: u32);
+    glVertexBlendARB(count: i32);
     glBindProgramPipeline(pipeline: u32);
     glBindProgramPipelineEXT(pipeline: u32);
     glPushAttrib(mask: u32);
@@ -3554,6 +4276,14 @@ real_functions! {
     glWindowPos3sv(v: Ptr);
     glWindowPos3svARB(v: Ptr);
     glWindowPos3svMESA(v: Ptr);
+    glWindowPos4dMESA(x: f64, y: f64, z: f64, w: f64);
+    glWindowPos4dvMESA(v: Ptr);
+    glWindowPos4fMESA(x: f32, y: f32, z: f32, w: f32);
+    glWindowPos4fvMESA(v: Ptr);
+    glWindowPos4iMESA(x: i32, y: i32, z: i32, w: i32);
+    glWindowPos4ivMESA(v: Ptr);
+    glWindowPos4sMESA(x: i16, y: i16, z: i16, w: i16);
+    glWindowPos4svMESA(v: Ptr);
     glRenderMode(mode: u32) -> i32 = 0;
     glBeginTransformFeedback(primitiveMode: u32);
     glBeginTransformFeedbackEXT(primitiveMode: u32);
@@ -3561,6 +4291,14 @@ real_functions! {
     glEndTransformFeedback();
     glEndTransformFeedbackEXT();
     glEndTransformFeedbackNV();
+    glPauseTransformFeedback();
+    glPauseTransformFeedbackNV();
+    glResumeTransformFeedback();
+    glResumeTransformFeedbackNV();
+    glBindTransformFeedback(target: u32, id: u32);
+    glBindTransformFeedbackNV(target: u32, id: u32);
+    glDeleteTransformFeedbacks(n: i32, ids: Ptr);
+    glDeleteTransformFeedbacksNV(n: i32, ids: Ptr);
     glAlphaFunc(func: u32, ref_: f32);
     glBlendFunc(sfactor: u32, dfactor: u32);
     glBlendFuncSeparate(sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32);
@@ -3650,6 +4388,23 @@ real_functions! {
     glStencilOpSeparate(face: u32, sfail: u32, dpfail: u32, dppass: u32);
     glStencilOpSeparateATI(face: u32, sfail: u32, dpfail: u32, dppass: u32);
     glPrimitiveRestartIndex(index: u32);
+    glMatrixPushEXT(mode: u32);
+    glClearColorIiEXT(red: i32, green: i32, blue: i32, alpha: i32);
+    glClearColorIuiEXT(red: u32, green: u32, blue: u32, alpha: u32);
+    glClearDepthdNV(depth: f64);
+    glDepthBoundsdNV(zmin: f64, zmax: f64);
+    glStencilFuncSeparateATI(frontfunc: u32, backfunc: u32, ref_: i32, mask: u32);
+    glActiveStencilFaceEXT(face: u32);
+    glSampleMaski(maskNumber: u32, mask: u32);
+    glSampleMaskIndexedNV(index: u32, mask: u32);
+    glPrimitiveRestartIndexNV(index: u32);
+    glRasterSamplesEXT(samples: u32, fixedsamplelocations: u8);
+    glPrimitiveBoundingBox(minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32);
+    glPrimitiveBoundingBoxARB(minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32);
+    glPrimitiveBoundingBoxEXT(minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32);
+    glPrimitiveBoundingBoxOES(minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32);
+    glBlendParameteriNV(pname: u32, value: i32);
+    glAlphaFuncQCOM(func: u32, ref_: f32);
     glTexImage1D(target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
     glTexImage2D(target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
     glTexImage3D(target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
@@ -3705,6 +4460,58 @@ real_functions! {
     glClearTexSubImageEXT(texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr);
     glNamedRenderbufferStorage(renderbuffer: u32, internalformat: u32, width: i32, height: i32);
     glNamedRenderbufferStorageMultisample(renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32);
+    glNamedRenderbufferStorageEXT(renderbuffer: u32, internalformat: u32, width: i32, height: i32);
+    glNamedRenderbufferStorageMultisampleAdvancedAMD(renderbuffer: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32);
+    glNamedRenderbufferStorageMultisampleCoverageEXT(renderbuffer: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32);
+    glNamedRenderbufferStorageMultisampleEXT(renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32);
+    glTextureImage1DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureImage2DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureImage3DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureSubImage1DEXT(texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureSubImage2DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureSubImage3DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr);
+    glCompressedTextureImage1DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedTextureImage2DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedTextureImage3DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedTextureSubImage1DEXT(texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr);
+    glCompressedTextureSubImage2DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr);
+    glCompressedTextureSubImage3DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr);
+    glTextureStorage1DEXT(texture: u32, target: u32, levels: i32, internalformat: u32, width: i32);
+    glTextureStorage2DEXT(texture: u32, target: u32, levels: i32, internalformat: u32, width: i32, height: i32);
+    glTextureStorage3DEXT(texture: u32, target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32);
+    glTextureStorage2DMultisampleEXT(texture: u32, target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8);
+    glTextureStorage3DMultisampleEXT(texture: u32, target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8);
+    glTextureStorageMem1DEXT(texture: u32, levels: i32, internalFormat: u32, width: i32, memory: u32, offset: u64);
+    glTextureStorageMem2DEXT(texture: u32, levels: i32, internalFormat: u32, width: i32, height: i32, memory: u32, offset: u64);
+    glTextureStorageMem3DEXT(texture: u32, levels: i32, internalFormat: u32, width: i32, height: i32, depth: i32, memory: u32, offset: u64);
+    glTextureStorageMem2DMultisampleEXT(texture: u32, samples: i32, internalFormat: u32, width: i32, height: i32, fixedSampleLocations: u8, memory: u32, offset: u64);
+    glTextureStorageMem3DMultisampleEXT(texture: u32, samples: i32, internalFormat: u32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8, memory: u32, offset: u64);
+    glTextureImage2DMultisampleCoverageNV(texture: u32, target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8);
+    glTextureImage2DMultisampleNV(texture: u32, target: u32, samples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8);
+    glTextureImage3DMultisampleCoverageNV(texture: u32, target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8);
+    glTextureImage3DMultisampleNV(texture: u32, target: u32, samples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8);
+    glTexturePageCommitmentEXT(texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8);
+    glTexturePageCommitmentMemNV(texture: u32, layer: i32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, memory: u32, offset: u64, commit: u8);
+    glInvalidateTexImage(texture: u32, level: i32);
+    glInvalidateTexSubImage(texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32);
+    glTextureRenderbufferEXT(texture: u32, target: u32, renderbuffer: u32);
+    glEGLImageTargetTextureStorageEXT(texture: u32, image: Ptr, attrib_list: Ptr);
+    glTextureStorageSparseAMD(texture: u32, target: u32, internalFormat: u32, width: i32, height: i32, depth: i32, layers: i32, flags: u32);
+    glTexStorageMem1DEXT(target: u32, levels: i32, internalFormat: u32, width: i32, memory: u32, offset: u64);
+    glTexStorageMem2DEXT(target: u32, levels: i32, internalFormat: u32, width: i32, height: i32, memory: u32, offset: u64);
+    glTexStorageMem3DEXT(target: u32, levels: i32, internalFormat: u32, width: i32, height: i32, depth: i32, memory: u32, offset: u64);
+    glTexStorageMem2DMultisampleEXT(target: u32, samples: i32, internalFormat: u32, width: i32, height: i32, fixedSampleLocations: u8, memory: u32, offset: u64);
+    glTexStorageMem3DMultisampleEXT(target: u32, samples: i32, internalFormat: u32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8, memory: u32, offset: u64);
+    glTexImage2DMultisampleCoverageNV(target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8);
+    glTexImage3DMultisampleCoverageNV(target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8);
+    glTexPageCommitmentARB(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8);
+    glTexPageCommitmentEXT(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8);
+    glTexPageCommitmentMemNV(target: u32, layer: i32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, memory: u32, offset: u64, commit: u8);
+    glEGLImageTargetTexStorageEXT(target: u32, image: Ptr, attrib_list: Ptr);
+    glTexStorageAttribs2DEXT(target: u32, levels: i32, internalformat: u32, width: i32, height: i32, attrib_list: Ptr);
+    glTexStorageAttribs3DEXT(target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32, attrib_list: Ptr);
+    glTexRenderbufferNV(target: u32, renderbuffer: u32);
+    glTexStorageSparseAMD(target: u32, internalFormat: u32, width: i32, height: i32, depth: i32, layers: i32, flags: u32);
     glTexParameterf(target: u32, pname: u32, param: f32);
     glTexParameterfv(target: u32, pname: u32, params: Ptr);
     glTexParameteri(target: u32, pname: u32, param: i32);
@@ -3721,9 +4528,25 @@ real_functions! {
     glTextureParameteriv(texture: u32, pname: u32, param: Ptr);
     glTextureParameterIiv(texture: u32, pname: u32, params: Ptr);
     glTextureParameterIuiv(texture: u32, pname: u32, params: Ptr);
+    glTextureParameterfEXT(texture: u32, target: u32, pname: u32, param: f32);
+    glTextureParameterfvEXT(texture: u32, target: u32, pname: u32, params: Ptr);
+    glTextureParameteriEXT(texture: u32, target: u32, pname: u32, param: i32);
+    glTextureParameterivEXT(texture: u32, target: u32, pname: u32, params: Ptr);
+    glTextureParameterIivEXT(texture: u32, target: u32, pname: u32, params: Ptr);
+    glTextureParameterIuivEXT(texture: u32, target: u32, pname: u32, params: Ptr);
+    glMultiTexParameterfEXT(texunit: u32, target: u32, pname: u32, param: f32);
+    glMultiTexParameterfvEXT(texunit: u32, target: u32, pname: u32, params: Ptr);
+    glMultiTexParameteriEXT(texunit: u32, target: u32, pname: u32, param: i32);
+    glMultiTexParameterivEXT(texunit: u32, target: u32, pname: u32, params: Ptr);
+    glMultiTexParameterIivEXT(texunit: u32, target: u32, pname: u32, params: Ptr);
+    glMultiTexParameterIuivEXT(texunit: u32, target: u32, pname: u32, params: Ptr);
     glGenerateMipmap(target: u32);
     glGenerateMipmapEXT(target: u32);
     glGenerateTextureMipmap(texture: u32);
+    glCreateTextures(target: u32, n: i32, textures: Ptr);
+    glTextureView(texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32);
+    glTextureViewEXT(texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32);
+    glTextureViewOES(texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32);
     glCopyImageSubData(srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32);
     glCopyImageSubDataEXT(srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32);
     glCopyImageSubDataOES(srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32);
@@ -3732,8 +4555,17 @@ real_functions! {
     glGetCompressedTextureImage(texture: u32, level: i32, bufSize: i32, pixels: Ptr);
     glBindImageTexture(unit: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: u32);
     glBindImageTextures(first: u32, count: i32, textures: Ptr);
+    glGetCompressedMultiTexImageEXT(texunit: u32, target: u32, lod: i32, img: Ptr);
+    glGetCompressedTextureImageEXT(texture: u32, target: u32, lod: i32, img: Ptr);
+    glGetMultiTexImageEXT(texunit: u32, target: u32, level: i32, format: u32, type_: u32, pixels: Ptr);
+    glGetTextureImageEXT(texture: u32, target: u32, level: i32, format: u32, type_: u32, pixels: Ptr);
+    glBindImageTextureEXT(index: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: i32);
+    glGetnTexImageARB(target: u32, level: i32, format: u32, type_: u32, bufSize: i32, img: Ptr);
+    glGetnCompressedTexImageARB(target: u32, lod: i32, bufSize: i32, img: Ptr);
+    glGetCompressedTextureSubImage(texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, bufSize: i32, pixels: Ptr);
     glDispatchCompute(num_groups_x: u32, num_groups_y: u32, num_groups_z: u32);
     glDispatchComputeIndirect(indirect: isize);
+    glDispatchComputeGroupSizeARB(num_groups_x: u32, num_groups_y: u32, num_groups_z: u32, group_size_x: u32, group_size_y: u32, group_size_z: u32);
     glVertexAttribDivisor(index: u32, divisor: u32);
     glVertexAttribDivisorANGLE(index: u32, divisor: u32);
     glVertexAttribDivisorARB(index: u32, divisor: u32);
@@ -3916,6 +4748,104 @@ real_functions! {
     glProgramUniformMatrix4x3fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
     glProgramUniformMatrix4x3fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
     glUniformBlockBinding(program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32);
+    glProgramUniform1i64ARB(program: u32, location: i32, x: i64);
+    glProgramUniform1i64NV(program: u32, location: i32, x: i64);
+    glProgramUniform1i64vARB(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1i64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1ui64ARB(program: u32, location: i32, x: u64);
+    glProgramUniform1ui64NV(program: u32, location: i32, x: u64);
+    glProgramUniform1ui64vARB(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1ui64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2i64ARB(program: u32, location: i32, x: i64, y: i64);
+    glProgramUniform2i64NV(program: u32, location: i32, x: i64, y: i64);
+    glProgramUniform2i64vARB(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2i64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2ui64ARB(program: u32, location: i32, x: u64, y: u64);
+    glProgramUniform2ui64NV(program: u32, location: i32, x: u64, y: u64);
+    glProgramUniform2ui64vARB(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2ui64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3i64ARB(program: u32, location: i32, x: i64, y: i64, z: i64);
+    glProgramUniform3i64NV(program: u32, location: i32, x: i64, y: i64, z: i64);
+    glProgramUniform3i64vARB(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3i64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3ui64ARB(program: u32, location: i32, x: u64, y: u64, z: u64);
+    glProgramUniform3ui64NV(program: u32, location: i32, x: u64, y: u64, z: u64);
+    glProgramUniform3ui64vARB(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3ui64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4i64ARB(program: u32, location: i32, x: i64, y: i64, z: i64, w: i64);
+    glProgramUniform4i64NV(program: u32, location: i32, x: i64, y: i64, z: i64, w: i64);
+    glProgramUniform4i64vARB(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4i64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4ui64ARB(program: u32, location: i32, x: u64, y: u64, z: u64, w: u64);
+    glProgramUniform4ui64NV(program: u32, location: i32, x: u64, y: u64, z: u64, w: u64);
+    glProgramUniform4ui64vARB(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4ui64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glUniform1i64ARB(location: i32, x: i64);
+    glUniform1i64NV(location: i32, x: i64);
+    glUniform1i64vARB(location: i32, count: i32, value: Ptr);
+    glUniform1i64vNV(location: i32, count: i32, value: Ptr);
+    glUniform1ui64ARB(location: i32, x: u64);
+    glUniform1ui64NV(location: i32, x: u64);
+    glUniform1ui64vARB(location: i32, count: i32, value: Ptr);
+    glUniform1ui64vNV(location: i32, count: i32, value: Ptr);
+    glUniform2i64ARB(location: i32, x: i64, y: i64);
+    glUniform2i64NV(location: i32, x: i64, y: i64);
+    glUniform2i64vARB(location: i32, count: i32, value: Ptr);
+    glUniform2i64vNV(location: i32, count: i32, value: Ptr);
+    glUniform2ui64ARB(location: i32, x: u64, y: u64);
+    glUniform2ui64NV(location: i32, x: u64, y: u64);
+    glUniform2ui64vARB(location: i32, count: i32, value: Ptr);
+    glUniform2ui64vNV(location: i32, count: i32, value: Ptr);
+    glUniform3i64ARB(location: i32, x: i64, y: i64, z: i64);
+    glUniform3i64NV(location: i32, x: i64, y: i64, z: i64);
+    glUniform3i64vARB(location: i32, count: i32, value: Ptr);
+    glUniform3i64vNV(location: i32, count: i32, value: Ptr);
+    glUniform3ui64ARB(location: i32, x: u64, y: u64, z: u64);
+    glUniform3ui64NV(location: i32, x: u64, y: u64, z: u64);
+    glUniform3ui64vARB(location: i32, count: i32, value: Ptr);
+    glUniform3ui64vNV(location: i32, count: i32, value: Ptr);
+    glUniform4i64ARB(location: i32, x: i64, y: i64, z: i64, w: i64);
+    glUniform4i64NV(location: i32, x: i64, y: i64, z: i64, w: i64);
+    glUniform4i64vARB(location: i32, count: i32, value: Ptr);
+    glUniform4i64vNV(location: i32, count: i32, value: Ptr);
+    glUniform4ui64ARB(location: i32, x: u64, y: u64, z: u64, w: u64);
+    glUniform4ui64NV(location: i32, x: u64, y: u64, z: u64, w: u64);
+    glUniform4ui64vARB(location: i32, count: i32, value: Ptr);
+    glUniform4ui64vNV(location: i32, count: i32, value: Ptr);
+    glProgramUniformHandleui64ARB(program: u32, location: i32, value: u64);
+    glProgramUniformHandleui64IMG(program: u32, location: i32, value: u64);
+    glProgramUniformHandleui64NV(program: u32, location: i32, value: u64);
+    glProgramUniformHandleui64vARB(program: u32, location: i32, count: i32, values: Ptr);
+    glProgramUniformHandleui64vIMG(program: u32, location: i32, count: i32, values: Ptr);
+    glProgramUniformHandleui64vNV(program: u32, location: i32, count: i32, values: Ptr);
+    glUniformHandleui64ARB(location: i32, value: u64);
+    glUniformHandleui64IMG(location: i32, value: u64);
+    glUniformHandleui64NV(location: i32, value: u64);
+    glUniformHandleui64vARB(location: i32, count: i32, value: Ptr);
+    glUniformHandleui64vIMG(location: i32, count: i32, value: Ptr);
+    glUniformHandleui64vNV(location: i32, count: i32, value: Ptr);
+    glProgramUniformui64NV(program: u32, location: i32, value: u64);
+    glProgramUniformui64vNV(program: u32, location: i32, count: i32, value: Ptr);
+    glUniformui64NV(location: i32, value: u64);
+    glUniformui64vNV(location: i32, count: i32, value: Ptr);
+    glUniformBufferEXT(program: u32, location: i32, buffer: u32);
+    glProgramUniform1dEXT(program: u32, location: i32, x: f64);
+    glProgramUniform1dvEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2dEXT(program: u32, location: i32, x: f64, y: f64);
+    glProgramUniform2dvEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3dEXT(program: u32, location: i32, x: f64, y: f64, z: f64);
+    glProgramUniform3dvEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4dEXT(program: u32, location: i32, x: f64, y: f64, z: f64, w: f64);
+    glProgramUniform4dvEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniformMatrix2dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2x3dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2x4dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3x2dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3x4dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4x2dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4x3dvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
     glLinkProgram(program: u32);
     glLinkProgramARB(programObj: u32);
     glProgramBinary(program: u32, binaryFormat: u32, binary: Ptr, length: i32);
@@ -3990,6 +4920,52 @@ real_functions! {
     glRectsv(v1: Ptr, v2: Ptr);
     glEvalMesh1(mode: u32, i1: i32, i2: i32);
     glEvalMesh2(mode: u32, i1: i32, i2: i32, j1: i32, j2: i32);
+    glMultiDrawArraysIndirectCount(mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32);
+    glMultiDrawArraysIndirectCountARB(mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32);
+    glMultiDrawElementsIndirectCount(mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32);
+    glMultiDrawElementsIndirectCountARB(mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32);
+    glMultiModeDrawArraysIBM(mode: Ptr, first: Ptr, count: Ptr, primcount: i32, modestride: i32);
+    glMultiModeDrawElementsIBM(mode: Ptr, count: Ptr, type_: u32, indices: Ptr, primcount: i32, modestride: i32);
+    glMultiDrawArraysIndirectBindlessCountNV(mode: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32);
+    glMultiDrawArraysIndirectBindlessNV(mode: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32);
+    glMultiDrawElementsIndirectBindlessCountNV(mode: u32, type_: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32);
+    glMultiDrawElementsIndirectBindlessNV(mode: u32, type_: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32);
+    glDrawMeshTasksIndirectNV(indirect: isize);
+    glDrawMeshTasksNV(first: u32, count: u32);
+    glMultiDrawMeshTasksIndirectCountNV(indirect: isize, drawcount: isize, maxdrawcount: i32, stride: i32);
+    glMultiDrawMeshTasksIndirectNV(indirect: isize, drawcount: i32, stride: i32);
+    glDrawElementArrayAPPLE(mode: u32, first: i32, count: i32);
+    glDrawRangeElementArrayAPPLE(mode: u32, start: u32, end: u32, first: i32, count: i32);
+    glMultiDrawElementArrayAPPLE(mode: u32, first: Ptr, count: Ptr, primcount: i32);
+    glMultiDrawRangeElementArrayAPPLE(mode: u32, start: u32, end: u32, first: Ptr, count: Ptr, primcount: i32);
+    glDrawElementArrayATI(mode: u32, count: i32);
+    glDrawRangeElementArrayATI(mode: u32, start: u32, end: u32, count: i32);
+    glDrawMeshArraysSUN(mode: u32, first: i32, count: i32, width: i32);
+    glDrawTextureNV(texture: u32, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32);
+    glDrawVkImageNV(vkImage: u64, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32);
+    glEvalMapsNV(target: u32, mode: u32);
+    glCoverFillPathInstancedNV(numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr);
+    glCoverFillPathNV(path: u32, coverMode: u32);
+    glCoverStrokePathInstancedNV(numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr);
+    glCoverStrokePathNV(path: u32, coverMode: u32);
+    glStencilFillPathInstancedNV(numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, transformType: u32, transformValues: Ptr);
+    glStencilFillPathNV(path: u32, fillMode: u32, mask: u32);
+    glStencilStrokePathInstancedNV(numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, transformType: u32, transformValues: Ptr);
+    glStencilStrokePathNV(path: u32, reference: i32, mask: u32);
+    glStencilThenCoverFillPathInstancedNV(numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr);
+    glStencilThenCoverFillPathNV(path: u32, fillMode: u32, mask: u32, coverMode: u32);
+    glStencilThenCoverStrokePathInstancedNV(numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr);
+    glStencilThenCoverStrokePathNV(path: u32, reference: i32, mask: u32, coverMode: u32);
+    glDrawTexfOES(x: f32, y: f32, z: f32, width: f32, height: f32);
+    glDrawTexfvOES(coords: Ptr);
+    glDrawTexiOES(x: i32, y: i32, z: i32, width: i32, height: i32);
+    glDrawTexivOES(coords: Ptr);
+    glDrawTexsOES(x: i16, y: i16, z: i16, width: i16, height: i16);
+    glDrawTexsvOES(coords: Ptr);
+    glDrawTexxOES(x: i32, y: i32, z: i32, width: i32, height: i32);
+    glDrawTexxvOES(coords: Ptr);
+    glRectxOES(x1: i32, y1: i32, x2: i32, y2: i32);
+    glRectxvOES(v1: Ptr, v2: Ptr);
     glAccum(op: u32, value: f32);
     glBitmap(width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr);
     glDrawPixels(width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
@@ -4058,6 +5034,29 @@ real_functions! {
     glNamedFramebufferTexture(framebuffer: u32, attachment: u32, texture: u32, level: i32);
     glNamedFramebufferTextureLayer(framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32);
     glNamedFramebufferRenderbuffer(framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32);
+    glNamedFramebufferTexture1DEXT(framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32);
+    glNamedFramebufferTexture2DEXT(framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32);
+    glNamedFramebufferTexture3DEXT(framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32);
+    glNamedFramebufferTextureEXT(framebuffer: u32, attachment: u32, texture: u32, level: i32);
+    glNamedFramebufferTextureFaceEXT(framebuffer: u32, attachment: u32, texture: u32, level: i32, face: u32);
+    glNamedFramebufferTextureLayerEXT(framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32);
+    glNamedFramebufferRenderbufferEXT(framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32);
+    glNamedFramebufferParameteri(framebuffer: u32, pname: u32, param: i32);
+    glNamedFramebufferParameteriEXT(framebuffer: u32, pname: u32, param: i32);
+    glNamedFramebufferSampleLocationsfvARB(framebuffer: u32, start: u32, count: i32, v: Ptr);
+    glNamedFramebufferSampleLocationsfvNV(framebuffer: u32, start: u32, count: i32, v: Ptr);
+    glNamedFramebufferSamplePositionsfvAMD(framebuffer: u32, numsamples: u32, pixelindex: u32, values: Ptr);
+    glFramebufferTextureFaceARB(target: u32, attachment: u32, texture: u32, level: i32, face: u32);
+    glFramebufferTextureFaceEXT(target: u32, attachment: u32, texture: u32, level: i32, face: u32);
+    glFramebufferTextureMultisampleMultiviewOVR(target: u32, attachment: u32, texture: u32, level: i32, samples: i32, baseViewIndex: i32, numViews: i32);
+    glFramebufferTextureMultiviewOVR(target: u32, attachment: u32, texture: u32, level: i32, baseViewIndex: i32, numViews: i32);
+    glFramebufferTexture2DDownsampleIMG(target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, xscale: i32, yscale: i32);
+    glFramebufferTexture2DMultisampleIMG(target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32);
+    glFramebufferTextureLayerDownsampleIMG(target: u32, attachment: u32, texture: u32, level: i32, layer: i32, xscale: i32, yscale: i32);
+    glFramebufferSampleLocationsfvARB(target: u32, start: u32, count: i32, v: Ptr);
+    glFramebufferSampleLocationsfvNV(target: u32, start: u32, count: i32, v: Ptr);
+    glFramebufferSamplePositionsfvAMD(target: u32, numsamples: u32, pixelindex: u32, values: Ptr);
+    glFramebufferParameteriMESA(target: u32, pname: u32, param: i32);
     glGetFramebufferAttachmentParameteriv(target: u32, attachment: u32, pname: u32, params: Ptr);
     glGetFramebufferAttachmentParameterivEXT(target: u32, attachment: u32, pname: u32, params: Ptr);
     glCheckFramebufferStatus(target: u32) -> u32 = 0;
@@ -4067,6 +5066,10 @@ real_functions! {
     glInvalidateFramebuffer(target: u32, numAttachments: i32, attachments: Ptr);
     glInvalidateSubFramebuffer(target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32);
     glDiscardFramebufferEXT(target: u32, numAttachments: i32, attachments: Ptr);
+    glGetFramebufferParameterivMESA(target: u32, pname: u32, params: Ptr);
+    glGetFramebufferParameterfvAMD(target: u32, pname: u32, numsamples: u32, pixelindex: u32, size: i32, values: Ptr);
+    glFramebufferPixelLocalStorageSizeEXT(target: u32, size: i32);
+    glGetFramebufferPixelLocalStorageSizeEXT(target: u32) -> i32 = 0;
     glCopyTexImage1D(target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32);
     glCopyTexImage1DEXT(target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32);
     glCopyTexImage2D(target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32);
@@ -4096,6 +5099,14 @@ real_functions! {
     glCopyConvolutionFilter1DEXT(target: u32, internalformat: u32, x: i32, y: i32, width: i32);
     glCopyConvolutionFilter2D(target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32);
     glCopyConvolutionFilter2DEXT(target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32);
+    glCopyTextureSubImage1DEXT(texture: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32);
+    glCopyTextureSubImage2DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32);
+    glCopyTextureSubImage3DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32);
+    glCopyMultiTexSubImage1DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32);
+    glCopyMultiTexSubImage2DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32);
+    glCopyMultiTexSubImage3DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32);
+    glCopyColorSubTable(target: u32, start: i32, x: i32, y: i32, width: i32);
+    glCopyColorSubTableEXT(target: u32, start: i32, x: i32, y: i32, width: i32);
     glReadBufferNV(mode: u32);
     glBlitFramebufferANGLE(srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32);
     glBeginQueryEXT(target: u32, id: u32);
@@ -4110,6 +5121,9 @@ real_functions! {
     glEndConditionalRender();
     glEndConditionalRenderNV();
     glEndConditionalRenderNVX();
+    glBeginQueryIndexed(target: u32, index: u32, id: u32);
+    glEndQueryIndexed(target: u32, index: u32);
+    glGetQueryIndexediv(target: u32, index: u32, pname: u32, params: Ptr);
     glBeginQuery(target: u32, id: u32);
     glBeginQueryARB(target: u32, id: u32);
     glEndQuery(target: u32);
@@ -4154,11 +5168,14 @@ real_functions! {
     glGetPixelMapuiv(map: u32, values: Ptr);
     glGetPixelMapusv(map: u32, values: Ptr);
     glGetPolygonStipple(mask: Ptr);
+    glGetIntegeri_v(target: u32, index: u32, data: Ptr);
+    glGetIntegerIndexedvEXT(target: u32, index: u32, data: Ptr);
+    glDebugMessageCallback(callback: Ptr, userParam: Ptr);
+    glDebugMessageCallbackARB(callback: Ptr, userParam: Ptr);
+    glDebugMessageCallbackKHR(callback: Ptr, userParam: Ptr);
     glGetPointerv(pname: u32, params: Ptr);
     glGetPointervEXT(pname: u32, params: Ptr);
     glGetPointervKHR(pname: u32, params: Ptr);
-    glGetIntegeri_v(target: u32, index: u32, data: Ptr);
-    glGetIntegerIndexedvEXT(target: u32, index: u32, data: Ptr);
     glGetTexImage(target: u32, level: i32, format: u32, type_: u32, pixels: Ptr);
     glGetnTexImage(target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr);
     glGetCompressedTexImage(target: u32, level: i32, img: Ptr);
@@ -4194,6 +5211,14 @@ real_functions! {
     glRenderbufferStorageMultisampleEXT(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
     glRenderbufferStorageMultisampleNV(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
     glEGLImageTargetRenderbufferStorageOES(target: u32, image: Ptr);
+    glRenderbufferStorageMultisampleANGLE(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
+    glRenderbufferStorageMultisampleAPPLE(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
+    glRenderbufferStorageMultisampleAdvancedAMD(target: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32);
+    glRenderbufferStorageMultisampleCoverageNV(target: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32);
+    glRenderbufferStorageMultisampleIMG(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
+    glBindRenderbufferEXT(target: u32, renderbuffer: u32);
+    glEvaluateDepthValuesARB();
+    glResolveDepthValuesNV();
     glDeleteRenderbuffers(n: i32, renderbuffers: Ptr);
     glDeleteRenderbuffersEXT(n: i32, renderbuffers: Ptr);
     glBindBuffer(target: u32, buffer: u32);
@@ -4234,6 +5259,10 @@ real_functions! {
     glXChooseFBConfigSGIX(dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr = core::ptr::null_mut();
     glXSwapBuffers(dpy: Ptr, drawable: c_ulong);
     glXSwapBuffersMscOML(dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64 = 0;
+    glXCopySubBufferMESA(dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32);
+    glXWaitGL();
+    glXUseXFont(font: c_ulong, first: i32, count: i32, base: i32);
+    glXBindTexImageEXT(dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr);
     glXMakeCurrent(dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32 = 0;
     glXMakeContextCurrent(dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32 = 0;
     glXMakeCurrentReadSGI(dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32 = 0;
@@ -4250,6 +5279,13 @@ real_functions! {
     eglSwapBuffers(dpy: Ptr, surface: Ptr) -> u32 = 0;
     eglSwapBuffersWithDamageKHR(dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32 = 0;
     eglSwapBuffersWithDamageEXT(dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32 = 0;
+    eglPostSubBufferNV(dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32 = 0;
+    eglSwapBuffersRegionNOK(dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32 = 0;
+    eglSwapBuffersRegion2NOK(dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32 = 0;
+    eglCopyBuffers(dpy: Ptr, surface: Ptr, target: Ptr) -> u32 = 0;
+    eglWaitGL() -> u32 = 0;
+    eglWaitClient() -> u32 = 0;
+    eglBindTexImage(dpy: Ptr, surface: Ptr, buffer: i32) -> u32 = 0;
     eglMakeCurrent(dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32 = 0;
     eglCreateContext(dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
     eglDestroyContext(dpy: Ptr, ctx: Ptr) -> u32 = 0;
@@ -4272,8 +5308,7 @@ real_functions! {
     OSMesaCreateContextAttribs(attribs: Ptr, share: Ptr) -> Ptr = core::ptr::null_mut();
     OSMesaDestroyContext(ctx: Ptr);
     OSMesaGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
-    glTextureView(texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32);
-    glFramebufferParameteriMESA(target: u32, pname: u32, param: i32);
+    glGetTextureParameteriv(texture: u32, pname: u32, params: Ptr);
     glMapBufferRange(target: u32, offset: isize, length: isize, access: u32) -> Ptr = core::ptr::null_mut();
     glUnmapBuffer(target: u32) -> u8 = 0;
     glGetString(name: u32) -> Ptr = core::ptr::null_mut();

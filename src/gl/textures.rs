@@ -155,6 +155,35 @@ impl Gl {
         v
     }
 
+    /// The target of a texture (glGetTextureParameteriv); OpenGL 4.5 or GL_ARB_direct_state_access is needed.
+    pub fn texture_target(&self, name: TextureName) -> u32 {
+        let mut v = 0i32;
+        // SAFETY: room for one value.
+        unsafe {
+            self.real
+                .glGetTextureParameteriv(name.0, c::TEXTURE_TARGET, (&raw mut v).cast())
+        };
+        v as u32
+    }
+
+    /// The mipmap levels of the texture bound at a target, from the first one on, as far as there are any. No level is asked for that cannot
+    /// be: that would be an error.
+    pub fn tex_levels(&self, target: u32) -> Vec<Level> {
+        let Some(first) = self.tex_level(target, 0) else {
+            return Vec::new();
+        };
+        let [w, h, d] = first.size;
+        let longest = match target {
+            c::TEXTURE_3D => w.max(h).max(d),
+            c::TEXTURE_RECTANGLE => 1,
+            _ if is_multisampled(target) => 1,
+            _ => w.max(h),
+        };
+        let last = longest.max(1).ilog2() as i32;
+        let more = (1..=last).map_while(|at| self.tex_level(target, at));
+        std::iter::once(first).chain(more).collect()
+    }
+
     /// What a level of the texture bound at a target is, if there is one; of a cube map its first face.
     pub fn tex_level(&self, target: u32, level: i32) -> Option<Level> {
         // OpenGL ES 3.0 does not say.

@@ -1,7 +1,7 @@
 //! `--strategy auto`: drives a [`Trial`] with the frames of the program, and keeps the outcome for the next start.
 
 use super::Layer;
-use crate::config::{Config, Strategy};
+use crate::config::{Config, Strategy, replace};
 use crate::gl::{Gl, consts as c};
 use crate::plan::Trial;
 use std::collections::BTreeMap;
@@ -134,12 +134,9 @@ fn keep(file: Option<&Path>, key: &str, found: Strategy) {
     let Ok(text) = serde_json::to_string_pretty(&all) else {
         return;
     };
-    let temporary = file.with_extension(format!("{}.tmp", std::process::id()));
     let folder = file.parent().map(std::fs::create_dir_all);
-    if matches!(folder, Some(Ok(())))
-        && std::fs::write(&temporary, text).is_ok()
-        && std::fs::rename(&temporary, file).is_err()
-    {
-        let _ = std::fs::remove_file(&temporary);
+    if matches!(folder, Some(Ok(()))) {
+        // Without the file, the next start tries again.
+        let _ = replace(file, text.as_bytes());
     }
 }

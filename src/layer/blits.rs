@@ -37,6 +37,8 @@ impl Layer {
             self.split(gl, read);
             self.differ(gl);
         }
+        // A blit alone is a picture, too.
+        self.frame.draws();
         self.state.refresh(gl);
         self.hold_everything(gl, Unrepresentable::Copies);
         self.diagnostics.proving.stop_search();

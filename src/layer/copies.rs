@@ -130,8 +130,7 @@ impl Layer {
 
     /// glDeleteTextures.
     pub fn deleted_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
-        let all = textures.iter().map(|&name| Object::Texture(name));
-        self.targets.offscreen.forget(gl, all);
+        self.targets.offscreen.deleted_textures(gl, textures);
     }
 
     /// glDeleteRenderbuffers.

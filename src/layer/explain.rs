@@ -4,16 +4,16 @@
 //! slow, but it is one frame, it changes no state of the program's, and it works for every kind of draw and every strategy.
 
 use super::Layer;
-use crate::config::{Capture, Class, DepthRange, Explain, Word};
+use crate::config::{Class, DepthRange, Explain, Word, replace};
 use crate::gl::{Gl, consts as c};
 use crate::plan::class::Target;
 use crate::plan::{Classed, Kind, Traits};
+use crate::present::capture;
 use crate::rewrite::{self, Amplifier, Options, Stage};
 use crate::state::Linked;
 use image::{Rgb, RgbImage};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// After this time pixels are no longer attributed to draws; the list goes on.
@@ -104,7 +104,8 @@ impl Layer {
             };
             let made = std::fs::create_dir_all(&folder);
             let written = sources(&linked).into_iter().try_for_each(|(stage, text)| {
-                std::fs::write(folder.join(format!("{hash:016x}.{stage}")), text)
+                let file = folder.join(format!("{hash:016x}.{stage}"));
+                replace(&file, text.as_ref())
             });
             if let Err(e) = made.and(written) {
                 let folder = folder.display();
@@ -127,17 +128,8 @@ impl Layer {
         };
         self.write_shaders(explain, &explained);
         let [picture, list] = explain.files();
-        let written = replace(&picture, |path| {
-            explained
-                .picture()
-                .save_with_format(path, image::ImageFormat::Png)
-                .map_err(|e| e.to_string())
-        })
-        .and_then(|()| {
-            replace(&list, |path| {
-                std::fs::write(path, explained.list(explain.frame)).map_err(|e| e.to_string())
-            })
-        });
+        let written = capture::write(&explained.picture(), &picture)
+            .and_then(|()| capture::write_bytes(explained.list(explain.frame).as_bytes(), &list));
         if let Err(e) = written {
             self.diagnostics
                 .report
@@ -171,14 +163,6 @@ fn sources(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
         all.extend([(own, shader.source.clone()), (of_view, view)]);
     }
     all
-}
-
-/// Writes to a file beside `path` and renames it, so that nobody reads half of it.
-fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<(), String>) -> Result<(), String> {
-    let growing = Capture::partial(path);
-    write(&growing)
-        .and_then(|()| std::fs::rename(&growing, path).map_err(|e| e.to_string()))
-        .map_err(|e| format!("{}: {e}", path.display()))
 }
 
 impl Explained {

@@ -20,9 +20,21 @@ pub(super) struct Frame {
     drawn: bool,
     /// A draw since the last timed frame was made by another strategy than replay.
     amplifies: bool,
+    /// A draw is being sent for other views than the program's own, which is last.
+    owes_own_view: bool,
 }
 
 impl Frame {
+    /// A draw is sent for each view from now on, or has reached the program's own view (false).
+    pub(super) fn owe_own_view(&mut self, owes: bool) {
+        self.owes_own_view = owes;
+    }
+
+    /// Whether a draw is being sent for other views than the program's own.
+    pub(super) fn owes_own_view(&self) -> bool {
+        self.owes_own_view
+    }
+
     /// The program calls a display list; none where its call has ended, or the list's name is not known.
     pub(super) fn calls(&mut self, list: Option<ListName>) {
         self.list = list;

@@ -183,6 +183,12 @@ impl Layer {
         names
     }
 
+    /// After the driver has filled lists with a bitmap each (glXUseXFont), also while the program compiles another list.
+    pub fn bitmap_lists(&mut self, gl: &Gl, first: ListName, count: u32) {
+        let unused = self.session.group.lists().bitmaps(first, count);
+        unused.into_iter().for_each(|name| gl.delete_list(name));
+    }
+
     /// After the driver's glDeleteLists.
     pub fn deleted_lists(&mut self, gl: &Gl, first: ListName, count: u32) {
         let unused = self.session.group.lists().delete(first, count);

@@ -11,9 +11,11 @@ mod compute;
 mod control;
 mod copies;
 mod diagnostics;
+mod dissolve;
 mod draw;
 mod executed;
 mod explain;
+mod feedback;
 mod frame;
 mod framebuffer;
 mod frames;
@@ -249,6 +251,11 @@ impl Layer {
                 || proving.is_some_and(|atlas| atlas.framebuffers().any(|own| own == name)))
     }
 
+    /// The program binds a texture at a target, now or in a list.
+    pub fn binds_at(&mut self, target: u32, name: TextureName) {
+        self.targets.offscreen.binds_texture(target, name);
+    }
+
     /// The program is about to bind a texture, or to compile the binding into a list.
     pub fn binds_texture(&mut self, gl: &Gl, name: TextureName) {
         if self.owns_texture(name) {
@@ -368,18 +375,6 @@ impl Layer {
     /// Size of the window in pixels.
     pub fn size(&self) -> (u32, u32) {
         (self.state.window.width, self.state.window.height)
-    }
-
-    /// The layer gives up: the program gets its own framebuffer 0 back.
-    pub fn abandon(&mut self, gl: &Gl) {
-        for (target, bound) in [
-            (c::DRAW_FRAMEBUFFER, self.state.framebuffers.draw),
-            (c::READ_FRAMEBUFFER, self.state.framebuffers.read),
-        ] {
-            if bound.is_zero() {
-                gl.bind_framebuffer(target, FramebufferName::ZERO);
-            }
-        }
     }
 
     /// Takes the errors of the layer's own calls out of the driver's queue, and counts them in the report.

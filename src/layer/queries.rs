@@ -1,9 +1,10 @@
-//! Queries that count what is drawn: only what is drawn in the program's own view is counted.
+//! Queries that count what is drawn, and transform feedback that writes it: only what is drawn in the program's own view is counted and written.
 //!
 //! A draw in N views would count N times. So the query is ended before the other views are drawn, and begun again for the own one. A query
 //! that is begun again forgets its count. After the first draw a query object of ours therefore continues it, and the program gets the sum.
 
 use super::Layer;
+use super::feedback::Feedback;
 use crate::gl::{Gl, QueryName, consts as c};
 use std::collections::HashMap;
 
@@ -16,6 +17,9 @@ pub(super) struct Queries {
     spare: Vec<QueryName>,
     /// The query and mode of conditional rendering, while it is on.
     condition: Option<(QueryName, u32)>,
+    feedback: Feedback,
+    /// How many pauses are on: passes are made within passes.
+    pauses: u32,
 }
 
 #[derive(Debug)]
@@ -37,11 +41,21 @@ pub enum Answer {
     Available(bool),
 }
 
-const TARGETS: [u32; 4] = [
+const TARGETS: [u32; 14] = [
     c::SAMPLES_PASSED,
     c::ANY_SAMPLES_PASSED,
     c::ANY_SAMPLES_PASSED_CONSERVATIVE,
     c::PRIMITIVES_GENERATED,
+    c::VERTICES_SUBMITTED,
+    c::PRIMITIVES_SUBMITTED,
+    c::VERTEX_SHADER_INVOCATIONS,
+    c::TESS_CONTROL_SHADER_PATCHES,
+    c::TESS_EVALUATION_SHADER_INVOCATIONS,
+    c::GEOMETRY_SHADER_INVOCATIONS,
+    c::GEOMETRY_SHADER_PRIMITIVES_EMITTED,
+    c::FRAGMENT_SHADER_INVOCATIONS,
+    c::CLIPPING_INPUT_PRIMITIVES,
+    c::CLIPPING_OUTPUT_PRIMITIVES,
 ];
 
 impl Queries {
@@ -55,11 +69,59 @@ impl Queries {
         self.active.iter_mut().for_each(|a| a.counted = true);
     }
 
-    pub(super) fn pause(&self, gl: &Gl) {
+    /// Ends queries and pauses transform feedback, before something is drawn that is not the program's own view.
+    pub(super) fn pause(&mut self, gl: &Gl) {
+        self.pauses += 1;
+        if self.pauses > 1 {
+            return;
+        }
+        self.stop_counting(gl);
+        if self.feedback == Feedback::On {
+            gl.pause_transform_feedback();
+        }
+    }
+
+    /// Goes on after [`Queries::pause`]. The program in use has to be the one that it was then.
+    pub(super) fn resume(&mut self, gl: &Gl) {
+        self.pauses -= 1;
+        if self.pauses > 0 {
+            return;
+        }
+        if self.feedback == Feedback::On {
+            gl.resume_transform_feedback();
+        }
+        self.count_again(gl);
+    }
+
+    /// The program has switched transform feedback.
+    pub(super) fn set_feedback(&mut self, feedback: Feedback) {
+        self.feedback = feedback;
+    }
+
+    /// Whether draws are written by transform feedback, which can be paused.
+    pub(super) fn feeds(&self) -> bool {
+        self.feedback == Feedback::On
+    }
+
+    /// Pauses transform feedback while the views of a draw are drawn, which was written before.
+    pub(super) fn hold_feedback(&mut self, gl: &Gl) {
+        gl.pause_transform_feedback();
+        self.feedback = Feedback::Held;
+    }
+
+    /// Goes on after [`Queries::hold_feedback`].
+    pub(super) fn release_feedback(&mut self, gl: &Gl) {
+        gl.resume_transform_feedback();
+        self.feedback = Feedback::On;
+    }
+
+    /// Ends the queries that count what is drawn.
+    pub(super) fn stop_counting(&self, gl: &Gl) {
         self.active.iter().for_each(|a| gl.end_query(a.target));
     }
 
-    pub(super) fn resume(&mut self, gl: &Gl) {
+    /// Goes on after [`Queries::stop_counting`].
+    pub(super) fn count_again(&mut self, gl: &Gl) {
         for a in &mut self.active {
             let name = if a.counted {
                 let name = self.spare.pop().unwrap_or_else(|| gl.gen_query());
@@ -180,10 +242,10 @@ impl Queries {
         });
         Some(match name {
             c::QUERY_RESULT | c::QUERY_RESULT_NO_WAIT => match *target {
-                c::SAMPLES_PASSED | c::PRIMITIVES_GENERATED => {
-                    Answer::Count(values.map(u64::from).sum())
+                c::ANY_SAMPLES_PASSED | c::ANY_SAMPLES_PASSED_CONSERVATIVE => {
+                    Answer::Any(values.any(|value| value != 0))
                 }
-                _ => Answer::Any(values.any(|value| value != 0)),
+                _ => Answer::Count(values.map(u64::from).sum()),
             },
             c::QUERY_RESULT_AVAILABLE => Answer::Available(values.all(|value| value != 0)),
             _ => return None,

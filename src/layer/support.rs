@@ -24,6 +24,8 @@ pub struct Support {
     pub vertex_layer: Option<VertexLayer>,
     /// Whether viewports can begin and end between pixels (GL_ARB_viewport_array).
     pub viewports: bool,
+    /// Whether transform feedback can be paused, and the driver says whether it is active.
+    pub pauses_feedback: bool,
     /// Whether a view can be copied to the others, wherever they lie.
     pub shares: bool,
     /// How large an atlas may be.
@@ -48,10 +50,10 @@ impl Support {
                 || gl.has_extension("GL_ARB_compatibility")
                 || (version >= (3, 2) && gl.get_integer(c::CONTEXT_PROFILE_MASK) & 2 != 0));
         // An older context may know newer shading languages, but not all that goes with them.
-        let glsl = if es || version >= (3, 1) {
-            crate::interleave::glsl_version(gl)
-        } else {
-            120
+        let glsl = match version {
+            _ if es || version >= (3, 1) => crate::interleave::glsl_version(gl),
+            (3, 0) => crate::interleave::glsl_version(gl).min(130),
+            _ => 120,
         };
         let clip_distances = if compatibility && glsl >= 150 {
             gl.get_integer(c::MAX_CLIP_DISTANCES).max(0).unsigned_abs()
@@ -68,6 +70,8 @@ impl Support {
             clip_distances,
             vertex_layer: crate::draw::limits(gl, glsl).vertex_layer,
             viewports: gl.since((4, 1), None) || gl.has_extension("GL_ARB_viewport_array"),
+            pauses_feedback: gl.since((4, 0), Some((3, 0)))
+                || gl.has_extension("GL_ARB_transform_feedback2"),
             shares: !es || version >= (3, 2),
             limits: Limits {
                 side: side.max(1).unsigned_abs(),
@@ -171,6 +175,7 @@ mod tests {
             vertex_layer: (clip_distances >= 2).then_some(VertexLayer::ArbShaderViewportLayerArray),
             viewports: true,
             shares: true,
+            pauses_feedback: true,
             limits: Limits {
                 side: 4096,
                 layers: 256,

@@ -63,11 +63,6 @@ impl Layer {
         }
     }
 
-    /// After glBeginTransformFeedback and glEndTransformFeedback.
-    pub fn transform_feedback(&mut self, active: bool) {
-        self.state.primitives.transform_feedback = active;
-    }
-
     /// Takes the oldest of the program's errors that the layer has taken out of the driver's queue.
     pub fn take_error(&mut self) -> Option<u32> {
         self.state.errors.pop_front()

@@ -40,6 +40,8 @@ pub(super) struct ImageSupport {
     parameters: Vec<u32>,
     /// A layer of an array can be a texture of its own (glTextureView).
     pub(super) arrays: bool,
+    /// The driver tells the target of a texture.
+    pub(super) targets: bool,
     /// Textures have border colours.
     borders: bool,
 }
@@ -97,27 +99,41 @@ pub(super) fn binding(target: u32) -> Option<u32> {
 /// Targets that OpenGL ES does not have.
 const DESKTOP: [u32; 2] = [c::TEXTURE_RECTANGLE, c::TEXTURE_1D];
 
-/// Runs `work` with a texture bound at its target, which is found by trying all targets; none where no target fits. The caller preserves
-/// errors.
-pub(super) fn with_texture<R>(
-    gl: &Gl,
-    name: TextureName,
-    work: impl FnOnce(u32) -> R,
-) -> Option<R> {
-    let es = gl.is_es();
+/// The target of a texture that the program has bound in no context of ours, found by trying all targets. The caller preserves errors.
+fn tried_target(gl: &Gl, name: TextureName) -> Option<u32> {
     let targets = TARGETS.into_iter();
-    for (target, binding) in targets.filter(|(target, _)| !(es && DESKTOP.contains(target))) {
+    let mut targets = targets.filter(|(target, _)| !(gl.is_es() && DESKTOP.contains(target)));
+    let found = targets.find(|&(target, binding)| {
         let before = TextureName(gl.get_integer(binding) as u32);
         if before != name {
             gl.bind_texture(target, name);
         }
-        if gl.get_error() == c::NO_ERROR && TextureName(gl.get_integer(binding) as u32) == name {
-            let done = work(target);
+        let bound = TextureName(gl.get_integer(binding) as u32) == name;
+        let fits = gl.get_error() == c::NO_ERROR && bound;
+        if fits && before != name {
             gl.bind_texture(target, before);
-            return Some(done);
         }
+        fits
+    });
+    found.map(|(target, _)| target)
+}
+
+/// Runs `work` with a texture bound at its target, where that is one of [`TARGETS`]; `target` is none where it is not known. The caller
+/// preserves errors.
+pub(super) fn with_texture<R>(
+    gl: &Gl,
+    name: TextureName,
+    target: Option<u32>,
+    work: impl FnOnce(u32) -> R,
+) -> Option<R> {
+    let target = target.or_else(|| tried_target(gl, name))?;
+    let before = TextureName(gl.get_integer(binding(target)?) as u32);
+    if before != name {
+        gl.bind_texture(target, name);
     }
-    None
+    let done = work(target);
+    gl.bind_texture(target, before);
+    Some(done)
 }
 
 /// Runs `work` with the minification filter of the bound texture at GL_NEAREST, so that each level is complete by itself: images can be
@@ -234,6 +250,8 @@ impl ImageSupport {
             parameters,
             // On OpenGL ES the layer draws to one layer at a time, so an array has no use.
             arrays: gl.since((4, 3), None),
+            // Mesa tells them in core profiles alone.
+            targets: gl.since((4, 5), None) && !compatibility,
             borders: gl.since((1, 0), Some((3, 2))),
         }
     }
@@ -266,11 +284,7 @@ impl ImageSupport {
         tiles: &Tiles,
     ) -> Option<Image> {
         binding(target)?;
-        let samples = is_multisampled(target);
-        let levels: Vec<_> = (0..16)
-            .map_while(|at| gl.tex_level(target, at))
-            .take(if samples { 1 } else { 16 })
-            .collect();
+        let levels = gl.tex_levels(target);
         let own = Object::Texture(texture);
         let mut like = || {
             let name = names.texture(gl);
@@ -301,16 +315,13 @@ impl ImageSupport {
         (target, texture): (u32, TextureName),
         tiles: &Tiles,
     ) -> Option<Image> {
-        let samples = is_multisampled(target);
-        let first = gl.tex_level(target, 0)?;
+        let mut levels = gl.tex_levels(target);
+        let first = *levels.first()?;
         if first.layered().0 != target {
             return None;
         }
-        let mut levels = vec![first];
-        if !samples {
+        if !is_multisampled(target) {
             let filter = gl.get_tex_parameter(target, c::TEXTURE_MIN_FILTER) as u32;
-            let all = (1..16).map_while(|at| gl.tex_level(target, at));
-            levels.extend(all);
             // Mipmap levels that the program has not made yet.
             if levels.len() == 1
                 && (c::NEAREST_MIPMAP_NEAREST..=c::LINEAR_MIPMAP_LINEAR).contains(&filter)

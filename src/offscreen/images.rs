@@ -12,6 +12,8 @@ pub struct Images {
     all: HashMap<Object, Image>,
     /// The textures of the images that belong to the layer.
     ours: HashSet<TextureName>,
+    /// The targets of the program's textures, where the driver does not tell them.
+    targets: HashMap<TextureName, u32>,
     /// Number of changes of attachments, draw buffers and images.
     pub(super) changes: u64,
     /// Number of changes of texture parameters.
@@ -43,6 +45,32 @@ impl Images {
                 .all
                 .iter()
                 .any(|(own, image)| *own != object && image.views.contains(&object)),
+        }
+    }
+
+    /// Takes note of the target at which the program binds a texture.
+    pub(super) fn bound_at(&mut self, target: u32, texture: TextureName) {
+        if !texture.is_zero() {
+            // At another target the driver refuses it.
+            self.targets.entry(texture).or_insert(target);
+        }
+    }
+
+    /// Takes note that a texture is deleted, and its name free for another one.
+    pub(super) fn deleted(&mut self, texture: TextureName) {
+        self.targets.remove(&texture);
+    }
+
+    /// The target of a texture; none where the program has bound it in no context of ours.
+    pub(super) fn target_of(
+        &self,
+        gl: &Gl,
+        support: &ImageSupport,
+        texture: TextureName,
+    ) -> Option<u32> {
+        match support.targets {
+            true => Some(gl.texture_target(texture)),
+            false => self.targets.get(&texture).copied(),
         }
     }
 

@@ -133,6 +133,22 @@ impl Offscreen {
         self.has(Object::Texture(texture)).then_some(texture)
     }
 
+    /// The program binds a texture. The targets of textures are kept only where the driver does not tell them.
+    pub fn binds_texture(&mut self, target: u32, texture: TextureName) {
+        if !self.support.targets {
+            self.images().bound_at(target, texture);
+        }
+    }
+
+    /// The program deletes textures.
+    pub fn deleted_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
+        if !self.support.targets {
+            let mut images = self.images();
+            textures.iter().for_each(|&texture| images.deleted(texture));
+        }
+        self.forget(gl, textures.iter().map(|&name| Object::Texture(name)));
+    }
+
     /// Splits the texture that is bound at a target, and copies its contents to every view. The caller preserves errors, and bindings as
     /// for [`crate::atlas::Atlas::new`]. False where it cannot be split: all views then see the same texture.
     pub fn split_texture(
@@ -148,8 +164,9 @@ impl Offscreen {
 
     /// Splits a texture by its name, whatever its target. As [`Offscreen::split_texture`].
     pub fn split_named(&mut self, gl: &Gl, names: &mut Names, texture: TextureName) -> bool {
+        let target = self.images().target_of(gl, &self.support, texture);
         let split = |target| self.split_texture(gl, names, (target, texture));
-        image::with_texture(gl, texture, split).unwrap_or(false)
+        image::with_texture(gl, texture, target, split).unwrap_or(false)
     }
 
     /// Copies the image of the own view back to every program's object that is out of date.
@@ -184,16 +201,19 @@ impl Offscreen {
                 continue;
             }
             let done = match attachment.object {
-                Object::Texture(name) => image::with_texture(gl, name, |target| {
-                    let at = (target, name);
-                    match support.texture_layers(gl, at, &tiles) {
-                        Some(image) => {
-                            images.insert(attachment.object, image);
-                            true
+                Object::Texture(name) => {
+                    let target = images.target_of(gl, &support, name);
+                    image::with_texture(gl, name, target, |target| {
+                        let at = (target, name);
+                        match support.texture_layers(gl, at, &tiles) {
+                            Some(image) => {
+                                images.insert(attachment.object, image);
+                                true
+                            }
+                            None => images.split_texture(gl, &support, names, at, &tiles),
                         }
-                        None => images.split_texture(gl, &support, names, at, &tiles),
-                    }
-                }),
+                    })
+                }
                 Object::Renderbuffer(name) => {
                     let image = support.renderbuffer_layers(gl, name, &tiles);
                     let image = image.unwrap_or_else(|| support.renderbuffer(gl, name, &tiles));

@@ -1,9 +1,11 @@
 //! Captured pictures, as PNG with row 0 on top.
 
-use crate::config::Capture;
+use crate::config::{replace, replace_by};
 use crate::gl::Gl;
 use crate::state::Neutral;
 use image::{ImageBuffer, Luma, RgbImage};
+use std::fs::File;
+use std::io::BufWriter;
 use std::path::Path;
 
 /// Reads the colours of a rectangle of the bound read framebuffer; x and y are in pixels from the lower left.
@@ -42,12 +44,10 @@ pub fn read_depth(
 /// # Errors
 /// The file and the error of the system, in one line.
 pub fn write_bytes(bytes: &[u8], path: &Path) -> Result<(), String> {
-    let partial = Capture::partial(path);
-    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
-    written.map_err(|e| format!("{}: {e}", path.display()))
+    replace(path, bytes).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// Writes a picture to a file beside `path` and renames that, so that whoever waits for the file never sees half of it.
+/// Writes a picture as PNG in one step, so that whoever waits for the file never sees half of it.
 ///
 /// # Errors
 /// The file and the error of the system, in one line.
@@ -57,9 +57,9 @@ where
     [P::Subpixel]: image::EncodableLayout,
     C: std::ops::Deref<Target = [P::Subpixel]>,
 {
-    let partial = Capture::partial(path);
-    image
-        .save_with_format(&partial, image::ImageFormat::Png)
-        .map_err(|e| format!("{}: {e}", path.display()))?;
-    std::fs::rename(&partial, path).map_err(|e| format!("{}: {e}", path.display()))
+    let png = |file: &mut BufWriter<File>| {
+        let written = image.write_to(file, image::ImageFormat::Png);
+        written.map_err(std::io::Error::other)
+    };
+    replace_by(path, png).map_err(|e| format!("{}: {e}", path.display()))
 }

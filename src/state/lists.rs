@@ -102,6 +102,8 @@ pub struct Segment {
     pub opens: Option<u32>,
     /// It begins within a primitive and ends it (glEnd without glBegin).
     pub closes: bool,
+    /// Its name is the program's own: the driver has filled the list by itself.
+    pub borrowed: bool,
 }
 
 impl Segment {
@@ -142,8 +144,10 @@ pub struct Lists {
     highest: u32,
 }
 
-/// The first name for a run; further ones follow downwards.
-const TOP: u32 = u32::MAX - 1;
+/// The first name for a run; further ones follow downwards. No program numbers its lists there, neither from 1 on nor by negative numbers.
+const TOP: u32 = 0xBFFF_FFFF;
+/// The largest name that Mesa gives.
+const LARGEST: u32 = u32::MAX - 1;
 
 impl Default for Lists {
     fn default() -> Self {
@@ -152,7 +156,6 @@ impl Default for Lists {
             shaders: Shaders::default(),
             bodies: HashMap::new(),
             spare: Vec::new(),
-            // Names are taken from the top downwards, where no program numbers its lists.
             next: TOP,
             highest: 0,
         }
@@ -192,11 +195,27 @@ impl Lists {
         (self.next + 1..=TOP).contains(&name.0) && !self.bodies.contains_key(&name)
     }
 
-    /// The first of `count` names that glGenLists would give without the layer: above the highest name that the program has used
-    /// (measured on Mesa 22.3). `None` if they would meet the names of runs.
+    /// The first of `count` names that glGenLists would give without the layer, as Mesa chooses them: above the highest name that the program
+    /// has used, or else the first gap that is large enough. None if there is none, or it would meet the names of runs.
     pub fn free(&self, count: u32) -> Option<ListName> {
-        let first = self.highest + 1;
-        (self.next - first >= count).then_some(ListName(first))
+        let fits = |first: u32| {
+            let last = first.checked_add(count - 1)?;
+            let apart = last <= self.next || first > TOP;
+            (apart && last <= LARGEST).then_some(ListName(first))
+        };
+        if LARGEST - count > self.highest {
+            return fits(self.highest + 1);
+        }
+        let mut first = 1u32;
+        let mut used: Vec<u32> = self.bodies.keys().map(|name| name.0).collect();
+        used.sort_unstable();
+        for name in used {
+            if name.checked_sub(first).is_some_and(|gap| gap >= count) {
+                break;
+            }
+            first = name.checked_add(1)?;
+        }
+        fits(first)
     }
 
     /// Notes names that the program has got from glGenLists; their lists are empty.
@@ -208,8 +227,22 @@ impl Lists {
             .extend((first.0..=last).map(|name| (ListName(name), empty.clone())));
     }
 
+    /// Notes lists that the driver has filled with a bitmap each (glXUseXFont); returns the names of the runs that they had before.
+    pub fn bitmaps(&mut self, first: ListName, count: u32) -> Vec<ListName> {
+        let names = (first.0..first.0.saturating_add(count)).map(ListName);
+        let bitmap = |name| Segment {
+            run: Run::Raster,
+            borrowed: true,
+            primitives: false,
+            ..fresh(name)
+        };
+        names
+            .flat_map(|name| self.define(name, [bitmap(name)].into()))
+            .collect()
+    }
+
     fn used(&mut self, name: ListName) {
-        self.highest = self.highest.max(name.0.min(TOP - 1));
+        self.highest = self.highest.max(name.0);
     }
 
     /// Notes a list that has been compiled; returns the names of the runs that nothing calls any more.
@@ -237,7 +270,8 @@ impl Lists {
     }
 
     fn release(&mut self, body: Option<Body>) -> Vec<ListName> {
-        let names: Vec<ListName> = body.iter().flat_map(|b| b.iter().map(|s| s.name)).collect();
+        let runs = body.iter().flat_map(|body| body.iter());
+        let names: Vec<ListName> = runs.filter(|s| !s.borrowed).map(|s| s.name).collect();
         self.spare.extend(&names);
         names
     }
@@ -326,6 +360,7 @@ fn fresh(name: ListName) -> Segment {
         pushes: Vec::new(),
         opens: None,
         closes: false,
+        borrowed: false,
     }
 }
 

@@ -117,7 +117,7 @@ pub struct Rectangles {
 pub struct Primitives {
     /// GL_RENDER, GL_SELECT or GL_FEEDBACK.
     pub render_mode: u32,
-    /// Between glBeginTransformFeedback and its end.
+    /// Between glBeginTransformFeedback and its end, in a context that cannot pause feedback.
     pub transform_feedback: bool,
 }
 

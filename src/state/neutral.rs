@@ -100,7 +100,7 @@ impl Neutral {
             gl.polygon_mode(c::FRONT_AND_BACK, c::FILL);
         }
         let objects = context
-            .since((3, 1), (3, 0))
+            .since((3, 0), (3, 0))
             .then(|| Objects::enter(gl, &context));
         Neutral {
             enabled,
@@ -219,7 +219,7 @@ impl Objects {
     fn enter(gl: &Gl, context: &Context) -> Self {
         let name = |n| gl.get_integer(n) as u32;
         let samplers = context.since((3, 3), (3, 0));
-        let sampled_arrays = context.since((3, 1), (3, 2));
+        let sampled_arrays = context.since((3, 2), (3, 2));
         let active = name(c::ACTIVE_TEXTURE);
         let mut textures = Vec::new();
         for unit in 0..UNITS {

@@ -204,6 +204,19 @@ pub fn entry(commands: &[Command]) -> String {
             writeln!(o, "    Some(crate::Address(hook_{} as *const ())),", c.name).unwrap();
         }
     }
+    o.push_str("];\n\n/// Calls the hook of each exported function with zeros, by slot.\n#[cfg(all(test, feature = \"fake-driver\"))]\n");
+    writeln!(
+        o,
+        "pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; {}] = [",
+        commands.len()
+    )
+    .unwrap();
+    for c in commands {
+        match c.class == "call" {
+            true => o.push_str("    None,\n"),
+            false => writeln!(o, "    Some(zeros_{}),", c.name).unwrap(),
+        }
+    }
     o.push_str("];\n\n/// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.\n");
     let mut sorted = hooked.clone();
     sorted.sort_by(|a, b| a.1.name.cmp(&b.1.name));
@@ -234,7 +247,7 @@ pub fn entry(commands: &[Command]) -> String {
         };
         writeln!(
             o,
-            "export! {{ {i}, {name}, first_{name}, hook_{name}, ({a}){ret}, {{"
+            "export! {{ {i}, {name}, first_{name}, hook_{name}, zeros_{name}, ({a}){ret}, {{"
         )
         .unwrap();
         match class {

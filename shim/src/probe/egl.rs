@@ -38,7 +38,7 @@ struct Source {
 }
 
 static SOURCE: OnceLock<Source> = OnceLock::new();
-static REAL: Real = Real::new(find);
+static REAL: Real = Real::new(|name| Some(find(name)));
 
 pub(crate) fn find(name: &CStr) -> Ptr {
     let Some(source) = SOURCE.get() else {

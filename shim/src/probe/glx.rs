@@ -73,7 +73,7 @@ type MakeCurrent = unsafe extern "C" fn(Ptr, c_ulong, Ptr) -> c_int;
 type GetProcAddress = unsafe extern "C" fn(*const c_char) -> Ptr;
 
 static SOURCE: OnceLock<(&'static Library, GetProcAddress)> = OnceLock::new();
-static REAL: Real = Real::new(find);
+static REAL: Real = Real::new(|name| Some(find(name)));
 
 fn find(name: &CStr) -> Ptr {
     let Some((library, get)) = SOURCE.get() else {

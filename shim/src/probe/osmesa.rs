@@ -12,7 +12,7 @@ const OSMESA_RGBA: c_uint = 0x1908;
 const UNSIGNED_BYTE: c_uint = 0x1401;
 
 static LIBRARY: OnceLock<&'static Library> = OnceLock::new();
-static REAL: Real = Real::new(find);
+static REAL: Real = Real::new(|name| Some(find(name)));
 
 fn find(name: &CStr) -> Ptr {
     LIBRARY

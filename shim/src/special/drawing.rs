@@ -1,6 +1,8 @@
 //! Immediate mode, vertex arrays, pixels and display lists.
 
-use crate::context::{Inside, enter, inside, peek, peek_inside, real, recording, set_inside};
+use crate::context::{
+    Inside, enter, inside, instead, peek, peek_inside, real, recording, set_inside,
+};
 use crate::hooks::{before_uncompiled, compile, imm};
 use core::slice::from_raw_parts;
 use manyview_core::gl::consts::LIST_BASE;
@@ -52,9 +54,7 @@ fn after_lists() {
 }
 
 fn primitives(p: Primitives, call: &mut dyn FnMut()) {
-    if enter(|gl, l| l.primitives(gl, p, call)).is_none() {
-        call();
-    }
+    instead(call, |gl, l, call| l.primitives(gl, p, call));
 }
 
 pub(crate) unsafe fn glDrawArrays(mode: u32, first: i32, count: i32) {
@@ -94,25 +94,20 @@ pub(crate) unsafe fn glDrawRangeElements(
 }
 
 fn pixels(call: &mut dyn FnMut()) {
-    if enter(|gl, l| l.draw(gl, Kind::Pixels, call)).is_none() {
-        call();
-    }
+    instead(call, |gl, l, call| l.draw(gl, Kind::Pixels, call));
 }
 
 pub(crate) unsafe fn glClear(mask: u32) {
     // SAFETY: the program's own call.
-    let mut call = || unsafe { real().glClear(mask) };
-    if enter(|gl, l| l.clear(gl, mask, &mut call)).is_none() {
-        call();
-    }
+    instead(&mut || unsafe { real().glClear(mask) }, |gl, l, call| {
+        l.clear(gl, mask, call);
+    });
 }
 
 pub(crate) unsafe fn glAccum(op: u32, value: f32) {
     // SAFETY: the program's own call.
     let mut call = || unsafe { real().glAccum(op, value) };
-    if enter(|gl, l| l.accum(gl, op, value, &mut call)).is_none() {
-        call();
-    }
+    instead(&mut call, |gl, l, call| l.accum(gl, op, value, call));
 }
 
 pub(crate) unsafe fn glBitmap(
@@ -136,9 +131,9 @@ pub(crate) unsafe fn glDrawPixels(width: i32, height: i32, format: u32, type_: u
 pub(crate) unsafe fn glCopyPixels(x: i32, y: i32, width: i32, height: i32, type_: u32) {
     // SAFETY: the program's own call.
     let mut call = || unsafe { real().glCopyPixels(x, y, width, height, type_) };
-    if enter(|gl, l| l.copy_pixels(gl, x, width, &mut call)).is_none() {
-        call();
-    }
+    instead(&mut call, |gl, l, call| {
+        l.copy_pixels(gl, x, width, call);
+    });
 }
 
 pub(crate) unsafe fn glNewList(list: u32, mode: u32) {
@@ -186,6 +181,12 @@ pub(crate) unsafe fn glDeleteLists(list: u32, range: i32) {
 
 pub(crate) unsafe fn glCallList(list: u32) {
     let name = ListName(list);
+    if name.is_zero() {
+        // No list has this name, so the driver reports an error.
+        before_uncompiled();
+        // SAFETY: the program's own call.
+        return unsafe { real().glCallList(list) };
+    }
     if recording() {
         return record_list(name);
     }
@@ -197,17 +198,10 @@ pub(crate) unsafe fn glCallList(list: u32) {
     compile(Command::Of(Run::List(name)), Touch::NONE);
     // SAFETY: the program's own call.
     let mut call = || unsafe { real().glCallList(list) };
-    if enter(|gl, l| {
-        if l.compiles() {
-            call();
-        } else {
-            l.call_lists(gl, Some(&[name]), &mut call);
-        }
-    })
-    .is_none()
-    {
-        call();
-    }
+    instead(&mut call, |gl, l, call| match l.compiles() {
+        true => call(),
+        false => l.call_lists(gl, Some(&[name]), call),
+    });
     after_lists();
 }
 
@@ -303,7 +297,7 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
     compile(Command::Of(Run::Lists), Touch::NONE);
     // SAFETY: the program's own call.
     let mut call = || unsafe { real().glCallLists(n, type_, lists) };
-    let done = enter(|gl, l| {
+    instead(&mut call, |gl, l, call| {
         if l.compiles() {
             call();
             return l.compiled_names(names.as_deref().unwrap_or_default());
@@ -311,11 +305,8 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
         let base = gl.get_integer(LIST_BASE) as u32;
         let name = |n: u32| ListName(n.wrapping_add(base));
         let names: Option<Vec<ListName>> = names.map(|l| l.into_iter().map(name).collect());
-        l.call_lists(gl, names.as_deref(), &mut call);
+        l.call_lists(gl, names.as_deref(), call);
     });
-    if done.is_none() {
-        call();
-    }
     after_lists();
 }
 

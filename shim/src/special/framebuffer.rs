@@ -1,6 +1,6 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
-use crate::context::{enter, real};
+use crate::context::{enter, instead, instead_at, real};
 use crate::hooks::{Object, before_uncompiled, compile, if_split, named, write_back};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{FramebufferName, Gl, Ptr, RenderbufferName, TextureName, consts as c};
@@ -11,21 +11,21 @@ use manyview_core::state::{Command, Run, Touch};
 pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
     before_uncompiled();
     // SAFETY: a name that the program or the layer made.
-    let mut bind = |t, n: FramebufferName| unsafe { real().glBindFramebuffer(t, n.0) };
-    let framebuffer = FramebufferName(framebuffer);
-    if enter(|_, l| l.bind_framebuffer(target, framebuffer, &mut bind)).is_none() {
-        bind(target, framebuffer);
-    }
+    let mut bind = |(t, n): (u32, FramebufferName)| unsafe { real().glBindFramebuffer(t, n.0) };
+    let place = (target, FramebufferName(framebuffer));
+    instead_at(place, &mut bind, |_, l, bind| {
+        l.bind_framebuffer(place.0, place.1, &mut |t, n| bind((t, n)));
+    });
 }
 
 pub(crate) unsafe fn glBindFramebufferEXT(target: u32, framebuffer: u32) {
     before_uncompiled();
     // SAFETY: a name that the program or the layer made.
-    let mut bind = |t, n: FramebufferName| unsafe { real().glBindFramebufferEXT(t, n.0) };
-    let framebuffer = FramebufferName(framebuffer);
-    if enter(|_, l| l.bind_framebuffer(target, framebuffer, &mut bind)).is_none() {
-        bind(target, framebuffer);
-    }
+    let mut bind = |(t, n): (u32, FramebufferName)| unsafe { real().glBindFramebufferEXT(t, n.0) };
+    let place = (target, FramebufferName(framebuffer));
+    instead_at(place, &mut bind, |_, l, bind| {
+        l.bind_framebuffer(place.0, place.1, &mut |t, n| bind((t, n)));
+    });
 }
 
 pub(crate) unsafe fn glDeleteFramebuffers(n: i32, framebuffers: Ptr) {
@@ -100,24 +100,19 @@ fn choose(
     target: u32,
     call: &mut dyn FnMut(),
 ) {
-    let done = enter(|gl, l| {
-        if zero(l) {
-            if ours(gl, l).is_none() {
-                l.with_true_zero(gl, target, call);
-            }
-        } else {
+    instead(call, |gl, l, call| {
+        if !zero(l) {
             l.attachments_changed();
             call();
+        } else if ours(gl, l).is_none() {
+            l.with_true_zero(gl, target, call);
         }
     });
-    if done.is_none() {
-        call();
-    }
 }
 
 /// As [`choose`], for the draw buffers of the bound framebuffer. `several` is true for glDrawBuffers.
 fn choose_draw(names: Option<&[u32]>, several: bool, call: &mut dyn FnMut()) {
-    let done = enter(|gl, l| {
+    instead(call, |gl, l, call| {
         if !l.draws_to_zero() {
             l.attachments_changed();
             call();
@@ -128,9 +123,6 @@ fn choose_draw(names: Option<&[u32]>, several: bool, call: &mut dyn FnMut()) {
             l.other_draw_buffers(gl, c::DRAW_FRAMEBUFFER, names.unwrap_or_default(), call);
         }
     });
-    if done.is_none() {
-        call();
-    }
 }
 
 pub(crate) unsafe fn glDrawBuffer(buf: u32) {
@@ -294,7 +286,7 @@ pub(crate) unsafe fn glBlitFramebuffer(
     filter: u32,
 ) {
     // SAFETY: the program's own call, moved by a tile's offset.
-    let mut blit = |s: i32, d: i32| unsafe {
+    let mut blit = |(s, d): (i32, i32)| unsafe {
         real().glBlitFramebuffer(
             srcX0 + s,
             srcY0,
@@ -308,19 +300,16 @@ pub(crate) unsafe fn glBlitFramebuffer(
             filter,
         )
     };
-    let done = enter(|gl, l| {
+    instead_at((0, 0), &mut blit, |gl, l, blit| {
         let (mask, filter) = (mask as i32, filter as i32);
         let arguments = [
             srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter,
         ];
-        l.blit(gl, is_scaled(&arguments), &mut blit);
+        l.blit(gl, is_scaled(&arguments), &mut |s, d| blit((s, d)));
         if l.compiles() {
             l.compiled_names(&arguments.map(|v| v as u32));
         }
     });
-    if done.is_none() {
-        blit(0, 0);
-    }
 }
 
 pub(crate) unsafe fn glBlitNamedFramebuffer(
@@ -337,8 +326,8 @@ pub(crate) unsafe fn glBlitNamedFramebuffer(
     mask: u32,
     filter: u32,
 ) {
-    // SAFETY: the program's own call, moved by a tile's offset, with its framebuffers bound.
-    let mut blit = |s: i32, d: i32| unsafe {
+    // SAFETY: the program's own call, moved by a tile's offset.
+    let blit = |(s, d): (i32, i32)| unsafe {
         real().glBlitFramebuffer(
             srcX0 + s,
             srcY0,
@@ -352,27 +341,10 @@ pub(crate) unsafe fn glBlitNamedFramebuffer(
             filter,
         )
     };
-    let done = readFramebuffer == 0 || drawFramebuffer == 0;
-    let done = done
-        .then(|| {
-            enter(|gl, l| {
-                let (draw, read) = (
-                    FramebufferName(drawFramebuffer),
-                    FramebufferName(readFramebuffer),
-                );
-                l.with_bound(gl, draw, Some(read), |l| {
-                    let (mask, filter) = (mask as i32, filter as i32);
-                    let arguments = [
-                        srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter,
-                    ];
-                    l.blit(gl, is_scaled(&arguments), &mut blit)
-                })
-            })
-        })
-        .flatten();
-    if done.is_none() {
+    let mut call = |place: Option<(i32, i32)>| match place {
+        Some(place) => blit(place),
         // SAFETY: the program's own call.
-        unsafe {
+        None => unsafe {
             real().glBlitNamedFramebuffer(
                 readFramebuffer,
                 drawFramebuffer,
@@ -387,37 +359,52 @@ pub(crate) unsafe fn glBlitNamedFramebuffer(
                 mask,
                 filter,
             )
-        };
+        },
+    };
+    if readFramebuffer != 0 && drawFramebuffer != 0 {
+        return call(None);
     }
+    instead_at(None, &mut call, |gl, l, call| {
+        let (draw, read) = (
+            FramebufferName(drawFramebuffer),
+            FramebufferName(readFramebuffer),
+        );
+        l.with_bound(gl, draw, Some(read), |l| {
+            let (mask, filter) = (mask as i32, filter as i32);
+            let arguments = [
+                srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter,
+            ];
+            l.blit(gl, is_scaled(&arguments), &mut |s, d| call(Some((s, d))));
+        });
+    });
 }
 
-/// A clear of framebuffer 0 by name, which is drawn as if it were bound. Returns whether it was done.
-fn clear_zero(framebuffer: FramebufferName, call: &mut dyn FnMut()) -> bool {
-    framebuffer.is_zero()
-        && enter(|gl, l| {
-            l.with_bound(gl, framebuffer, None, |l| {
-                l.draw(
-                    gl,
-                    Kind::Clear {
-                        depths: true,
-                        whole: 0,
-                    },
-                    call,
-                )
-            })
-        })
-        .is_some()
+/// A clear of a framebuffer by name; that of framebuffer 0 is drawn as if it were bound. `call` clears the bound one (true) or the named one.
+fn clear_named(framebuffer: u32, call: &mut dyn FnMut(bool)) {
+    if framebuffer != 0 {
+        return call(false);
+    }
+    let kind = Kind::Clear {
+        depths: true,
+        whole: 0,
+    };
+    instead_at(false, call, |gl, l, call| {
+        l.with_bound(gl, FramebufferName::ZERO, None, |l| {
+            l.draw(gl, kind, &mut || call(true));
+        });
+    });
 }
 
 /// A hook of glClearNamedFramebuffer*; `zero` is the same clear of the bound framebuffer.
 macro_rules! clear_named {
     ($name:ident, $zero:ident, $($arg:ident: $kind:ty),+) => {
         pub(crate) unsafe fn $name(framebuffer: u32, buffer: u32, drawbuffer: i32, $($arg: $kind),+) {
-            // SAFETY: the program's own arguments.
-            if !clear_zero(FramebufferName(framebuffer), &mut || unsafe { real().$zero(buffer, drawbuffer, $($arg),+) }) {
+            clear_named(framebuffer, &mut |bound| match bound {
+                // SAFETY: the program's own arguments.
+                true => unsafe { real().$zero(buffer, drawbuffer, $($arg),+) },
                 // SAFETY: the program's own call.
-                unsafe { real().$name(framebuffer, buffer, drawbuffer, $($arg),+) };
-            }
+                false => unsafe { real().$name(framebuffer, buffer, drawbuffer, $($arg),+) },
+            });
         }
     };
 }

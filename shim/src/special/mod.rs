@@ -6,16 +6,20 @@
     reason = "the API's names; the contract of each is the API's"
 )]
 
+mod debug;
 mod drawing;
 mod framebuffer;
+mod presents;
 mod programs;
 mod queries;
 mod state;
 mod visuals;
 mod window;
 
+pub(crate) use debug::*;
 pub(crate) use drawing::*;
 pub(crate) use framebuffer::*;
+pub(crate) use presents::*;
 pub(crate) use programs::*;
 pub(crate) use queries::*;
 pub(crate) use state::*;

@@ -35,6 +35,34 @@ macro_rules! counted {
 counted!(glBeginQuery, glEndQuery);
 counted!(glBeginQueryEXT, glEndQueryEXT);
 
+/// Index 0 of a target is the target itself. Others count further streams of vertices, which are the program's own affair.
+pub(crate) unsafe fn glBeginQueryIndexed(target: u32, index: u32, id: u32) {
+    before_uncompiled();
+    // SAFETY: the program's own call.
+    unsafe { real().glBeginQueryIndexed(target, index, id) };
+    if index == 0 {
+        enter(|gl, l| l.begun_query(gl, target, QueryName(id)));
+    }
+}
+
+pub(crate) unsafe fn glEndQueryIndexed(target: u32, index: u32) {
+    before_uncompiled();
+    // SAFETY: the program's own call.
+    unsafe { real().glEndQueryIndexed(target, index) };
+    if index == 0 {
+        enter(|_, l| l.ended_query(target));
+    }
+}
+
+pub(crate) unsafe fn glGetQueryIndexediv(target: u32, index: u32, pname: u32, params: Ptr) {
+    match index {
+        // SAFETY: the program's own arguments.
+        0 => unsafe { glGetQueryiv(target, pname, params) },
+        // SAFETY: the program's own call.
+        _ => unsafe { real().glGetQueryIndexediv(target, index, pname, params) },
+    }
+}
+
 pub(crate) unsafe fn glDeleteQueries(n: i32, ids: Ptr) {
     let names = match usize::try_from(n) {
         // SAFETY: n names (the program's array), copied before the driver runs.

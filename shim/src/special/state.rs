@@ -1,7 +1,9 @@
 //! State that the layer follows call by call, and queries of the program.
 
-use crate::context::{draws_to_memory, enter, frame, peek, real, viewport_set, write_back_shared};
-use crate::hooks::{before_uncompiled, compile, touch};
+use crate::context::{
+    draws_to_memory, enter, frame, instead, peek, real, show_flushed, viewport_set,
+};
+use crate::hooks::{Object, before_uncompiled, compile, named, touch};
 use manyview_core::gl::{FramebufferName, Ptr, TextureName, consts::PROGRAM_BINARY_FORMATS};
 use manyview_core::state::{Command, Touch};
 
@@ -23,12 +25,55 @@ pub(crate) unsafe fn glViewport(x: i32, y: i32, width: i32, height: i32) {
 
 pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
     let name = TextureName(texture);
-    if peek(|l| l.compiles() || l.owns_texture(name)) == Some(true) {
+    let clashes = peek(|l| {
+        l.binds_at(target, name);
+        l.compiles() || l.owns_texture(name)
+    });
+    if clashes == Some(true) {
         enter(|gl, l| l.binds_texture(gl, name));
     }
     touch(Touch::TEXTURE);
     // SAFETY: the program's own call.
     unsafe { real().glBindTexture(target, texture) };
+}
+
+pub(crate) unsafe fn glCreateTextures(target: u32, n: i32, textures: Ptr) {
+    before_uncompiled();
+    // SAFETY: the program's own call.
+    unsafe { real().glCreateTextures(target, n, textures) };
+    let count = usize::try_from(n).ok().filter(|_| !textures.is_null());
+    for i in 0..count.unwrap_or(0) {
+        // SAFETY: the driver has written n names there.
+        let name = unsafe { textures.cast::<TextureName>().add(i).read() };
+        peek(|l| l.binds_at(target, name));
+    }
+}
+
+pub(crate) unsafe fn glTextureView(
+    texture: u32,
+    target: u32,
+    origtexture: u32,
+    internalformat: u32,
+    minlevel: u32,
+    numlevels: u32,
+    minlayer: u32,
+    numlayers: u32,
+) {
+    named(Object::Texture(TextureName(origtexture)));
+    // SAFETY: the program's own call.
+    unsafe {
+        real().glTextureView(
+            texture,
+            target,
+            origtexture,
+            internalformat,
+            minlevel,
+            numlevels,
+            minlayer,
+            numlayers,
+        )
+    };
+    peek(|l| l.binds_at(target, TextureName(texture)));
 }
 
 pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
@@ -56,17 +101,13 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
 pub(crate) unsafe fn glPushAttrib(mask: u32) {
     // SAFETY: the program's own call.
     let mut push = || unsafe { real().glPushAttrib(mask) };
-    if enter(|gl, l| l.push_attrib(gl, mask, &mut push)).is_none() {
-        push();
-    }
+    instead(&mut push, |gl, l, push| l.push_attrib(gl, mask, push));
 }
 
 pub(crate) unsafe fn glPopAttrib() {
     // SAFETY: the program's own call.
     let mut pop = || unsafe { real().glPopAttrib() };
-    if enter(|gl, l| l.pop_attrib(gl, &mut pop)).is_none() {
-        pop();
-    }
+    instead(&mut pop, |gl, l, pop| l.pop_attrib(gl, pop));
 }
 
 pub(crate) unsafe fn glIsTexture(texture: u32) -> u8 {
@@ -95,14 +136,31 @@ pub(crate) unsafe fn glRenderMode(mode: u32) -> i32 {
 pub(crate) unsafe fn glBeginTransformFeedback(mode: u32) {
     // SAFETY: the program's own call.
     unsafe { real().glBeginTransformFeedback(mode) };
-    peek(|l| l.transform_feedback(true));
+    enter(|gl, l| l.feedback_changed(gl, Some(true)));
 }
 
 pub(crate) unsafe fn glEndTransformFeedback() {
     // SAFETY: the program's own call.
     unsafe { real().glEndTransformFeedback() };
-    peek(|l| l.transform_feedback(false));
+    enter(|gl, l| l.feedback_changed(gl, Some(false)));
 }
+
+/// A hook of a command that switches transform feedback in another way.
+macro_rules! feedback {
+    ($name:ident($($arg:ident: $kind:ty),*)) => {
+        pub(crate) unsafe fn $name($($arg: $kind),*) {
+            // SAFETY: the program's own call.
+            unsafe { real().$name($($arg),*) };
+            enter(|gl, l| l.feedback_changed(gl, None));
+        }
+    };
+}
+
+feedback!(glPauseTransformFeedback());
+feedback!(glResumeTransformFeedback());
+feedback!(glBindTransformFeedback(target: u32, id: u32));
+feedback!(glBindTransformFeedbackNV(target: u32, id: u32));
+feedback!(glDeleteTransformFeedbacks(n: i32, ids: Ptr));
 
 /// The answer to glGet where it differs from the driver's because the program's framebuffer 0 is the atlas.
 fn answer(name: u32) -> Option<i64> {
@@ -173,26 +231,17 @@ pub(crate) unsafe fn glGetError() -> u32 {
 
 pub(crate) unsafe fn glFlush() {
     before_uncompiled();
-    write_back_shared();
     // SAFETY: the program's own call.
-    let flush = || unsafe { real().glFlush() };
-    if !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
-        frame(None, flush)
-    } else {
-        flush()
-    }
+    show_flushed(|| unsafe { real().glFlush() });
 }
 
 pub(crate) unsafe fn glFinish() {
     before_uncompiled();
-    write_back_shared();
     // SAFETY: the program's own call.
     let finish = || unsafe { real().glFinish() };
-    let memory = draws_to_memory();
     // OSMesa has no swap: at glFinish its picture is in the program's memory, which is the end of a frame.
-    if memory || enter(|_, l| l.shows_on_flush()) == Some(true) {
-        frame(None, finish)
-    } else {
-        finish()
+    match draws_to_memory() {
+        true => frame(None, finish),
+        false => show_flushed(finish),
     }
 }

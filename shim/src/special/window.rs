@@ -1,13 +1,16 @@
 //! GLX, EGL and OSMesa: contexts, swaps and function addresses.
 
-use crate::context::{destroyed, finish_memory_frame, frame, guarded, is_current, made_current};
+use crate::context::{
+    destroyed, enter, frame, guarded, is_current, leave_context, made_current, sheltered,
+};
 use crate::dl::proc_address;
 use crate::drawable::Drawable;
+use crate::hooks::before_uncompiled;
 use crate::provider::Provider;
 use crate::shares::created;
 use crate::windows;
 use core::ffi::c_ulong;
-use manyview_core::gl::{Ptr, Real};
+use manyview_core::gl::{ListName, Ptr, Real};
 
 fn gl() -> &'static Real {
     Provider::Gl.real()
@@ -43,7 +46,7 @@ macro_rules! create {
         pub(crate) unsafe fn $name($($arg: $kind),+) -> Ptr {
             // SAFETY: the program's own call.
             let context = guarded(|| unsafe { $real().$name($($arg),+) });
-            created(Provider::$provider, context, $share);
+            sheltered(|| created(Provider::$provider, context, $share));
             context
         }
     };
@@ -61,7 +64,9 @@ create!(OSMesaCreateContextAttribs(attribs: Ptr, share: Ptr), share, OsMesa, osm
 /// The common part of the GLX MakeCurrent family.
 fn glx_current(dpy: Ptr, drawable: c_ulong, ctx: Ptr, call: impl FnOnce() -> i32) -> i32 {
     let same = is_current(Provider::Gl, ctx, Drawable::Glx(dpy, drawable));
-    finish_memory_frame();
+    if !same {
+        leave_context();
+    }
     let ok = guarded(call);
     if ok != 0 && !same {
         made_current(
@@ -104,6 +109,15 @@ pub(crate) unsafe fn glXMakeCurrentReadSGI(
     })
 }
 
+pub(crate) unsafe fn glXUseXFont(font: c_ulong, first: i32, count: i32, base: i32) {
+    before_uncompiled();
+    // SAFETY: the program's own call.
+    guarded(|| unsafe { gl().glXUseXFont(font, first, count, base) });
+    if let Ok(count) = u32::try_from(count) {
+        enter(|gl, l| l.bitmap_lists(gl, ListName(base as u32), count));
+    }
+}
+
 pub(crate) unsafe fn glXDestroyContext(dpy: Ptr, ctx: Ptr) {
     destroyed(Provider::Gl, ctx);
     // SAFETY: the program's own call.
@@ -114,13 +128,13 @@ pub(crate) unsafe fn glXCreateWindow(dpy: Ptr, config: Ptr, win: c_ulong, attrib
     // SAFETY: the program's own call.
     let drawable = guarded(|| unsafe { gl().glXCreateWindow(dpy, config, win, attribs) });
     if drawable != 0 {
-        windows::made(dpy, drawable, win);
+        sheltered(|| windows::made(dpy, drawable, win));
     }
     drawable
 }
 
 pub(crate) unsafe fn glXDestroyWindow(dpy: Ptr, win: c_ulong) {
-    windows::gone(dpy, win);
+    sheltered(|| windows::gone(dpy, win));
     // SAFETY: the program's own call.
     guarded(|| unsafe { gl().glXDestroyWindow(dpy, win) });
 }
@@ -159,7 +173,9 @@ swap_with_damage!(eglSwapBuffersWithDamageEXT);
 
 pub(crate) unsafe fn eglMakeCurrent(dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32 {
     let same = is_current(Provider::Gl, ctx, Drawable::Egl(dpy, draw));
-    finish_memory_frame();
+    if !same {
+        leave_context();
+    }
     // SAFETY: the program's own call.
     let ok = guarded(|| unsafe { gl().eglMakeCurrent(dpy, draw, read, ctx) });
     if ok != 0 && !same {
@@ -188,7 +204,7 @@ pub(crate) unsafe fn eglReleaseThread() -> u32 {
 pub(crate) unsafe fn eglGetDisplay(native: Ptr) -> Ptr {
     // SAFETY: the program's own call.
     let display = guarded(|| unsafe { gl().eglGetDisplay(native) });
-    windows::egl_display(display, 0, native);
+    sheltered(|| windows::egl_display(display, 0, native));
     display
 }
 
@@ -198,7 +214,7 @@ macro_rules! platform_display {
         pub(crate) unsafe fn $name(platform: u32, native: Ptr, attribs: Ptr) -> Ptr {
             // SAFETY: the program's own call.
             let display = guarded(|| unsafe { gl().$name(platform, native, attribs) });
-            windows::egl_display(display, platform, native);
+            sheltered(|| windows::egl_display(display, platform, native));
             display
         }
     };
@@ -215,7 +231,7 @@ macro_rules! window_surface {
             let surface = guarded(|| unsafe { gl().$name(dpy, config, win, attribs) });
             if !surface.is_null() {
                 // SAFETY: EGL has taken the window.
-                unsafe { windows::egl_made(dpy, surface, win, $address) };
+                sheltered(|| unsafe { windows::egl_made(dpy, surface, win, $address) });
             }
             surface
         }
@@ -227,7 +243,7 @@ window_surface!(eglCreatePlatformWindowSurface, true);
 window_surface!(eglCreatePlatformWindowSurfaceEXT, true);
 
 pub(crate) unsafe fn eglDestroySurface(dpy: Ptr, surface: Ptr) -> u32 {
-    windows::egl_gone(dpy, surface);
+    sheltered(|| windows::egl_gone(dpy, surface));
     // SAFETY: the program's own call.
     guarded(|| unsafe { gl().eglDestroySurface(dpy, surface) })
 }
@@ -244,7 +260,7 @@ pub(crate) unsafe fn OSMesaMakeCurrent(
     width: i32,
     height: i32,
 ) -> u8 {
-    finish_memory_frame();
+    leave_context();
     // SAFETY: the program's own call.
     let ok = guarded(|| unsafe { osmesa().OSMesaMakeCurrent(ctx, buffer, kind, width, height) });
     if ok != 0 {
@@ -256,7 +272,7 @@ pub(crate) unsafe fn OSMesaMakeCurrent(
 }
 
 pub(crate) unsafe fn OSMesaDestroyContext(ctx: Ptr) {
-    finish_memory_frame();
+    leave_context();
     destroyed(Provider::OsMesa, ctx);
     // SAFETY: the program's own call.
     guarded(|| unsafe { osmesa().OSMesaDestroyContext(ctx) });

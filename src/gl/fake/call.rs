@@ -148,7 +148,7 @@ macro_rules! record_functions {
                     clippy::too_many_arguments,
                     reason = "the API's own name and signature"
                 )]
-                extern "C" fn $name($($a: $t),*) $(-> $r)? {
+                extern "C-unwind" fn $name($($a: $t),*) $(-> $r)? {
                     let answer = $crate::gl::fake::record(
                         slot::$name,
                         &[$($crate::gl::fake::Recorded::arg($a)),*],

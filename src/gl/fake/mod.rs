@@ -146,7 +146,7 @@ impl Fake {
         DRIVER.set(Some(driver));
         let fake = Fake {
             // A table for each test is small, and `Gl` wants one that lives for ever.
-            real: Box::leak(Box::new(Real::new(load))),
+            real: Box::leak(Box::new(Real::new(|name| Some(load(name))))),
             _not_send: core::marker::PhantomData,
         };
         fake.version(4, 5).window(64, 48)

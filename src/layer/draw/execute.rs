@@ -63,6 +63,24 @@ impl Layer {
 
     /// Makes a draw as [`Layer::choose`] has chosen.
     pub(in crate::layer) fn execute_by(&mut self, gl: &Gl, draw: &mut Draw, execution: &Execution) {
+        let feeds = self.queries.feeds();
+        if feeds && self.has_copies() {
+            // What is written comes from the program's own textures.
+            self.write_back_textures(gl);
+        }
+        match draw.hazard {
+            ReplayHazard::None if feeds => {
+                self.feed(gl, draw, |layer, draw| layer.send_by(gl, draw, execution));
+            }
+            // A second sending would start from the state that the first one has left.
+            ReplayHazard::Current(_) | ReplayHazard::Anything { .. } if feeds => {
+                (draw.send)(Send::AsItIs);
+            }
+            _ => self.send_by(gl, draw, execution),
+        }
+    }
+
+    fn send_by(&mut self, gl: &Gl, draw: &mut Draw, execution: &Execution) {
         match execution {
             Execution::Once => self.once(gl, draw.images, &mut || (draw.send)(Send::AsItIs)),
             Execution::Replay => self.replay_in(gl, draw),
@@ -189,6 +207,7 @@ impl Layer {
             state,
             known,
             queries,
+            frame,
             ..
         } = self;
         let Targets {
@@ -200,14 +219,17 @@ impl Layer {
         };
         let (own, mut paused) = (surface.tiles().own(), true);
         queries.pause(gl);
+        frame.owe_own_view(true);
         let each = &mut |view| {
             if view == own && std::mem::take(&mut paused) {
                 queries.resume(gl);
+                frame.owe_own_view(false);
             }
             offscreen.bind(gl, &images.bound, view);
             call(view);
         };
         let sent = replay(gl, surface, state, &known.rig, shear, hazard, true, each);
+        frame.owe_own_view(false);
         offscreen.unbind(gl, &images.bound);
         sent
     }

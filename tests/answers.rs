@@ -1,0 +1,319 @@
+//! Programs ask for state and results and use rare commands: all answers are those without the layer, and what is drawn is in every
+//! view. (The programs lie in tests/answers; their heads list the modes.)
+#![forbid(unsafe_code)]
+
+mod support;
+
+use image::{RgbImage, imageops};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use support::views::{REPLAYED, VIEWS, Views, extents};
+use support::{
+    Compiled, bare, built, extent, layered, lines, own_screen, rgb, succeed, window_picture,
+};
+
+const ATLASES: [&str; 2] = ["side-by-side", "layers"];
+
+/// A program of tests/answers.
+fn program(name: &str) -> PathBuf {
+    let source = Path::new("tests/answers").join(name).with_extension("c");
+    let libraries = ["-lEGL", "-lGL", "-lX11"];
+    let built_as = format!("answers-{name}");
+    built(
+        &built_as,
+        &[source.as_path()],
+        Compiled::Program,
+        &libraries,
+    )
+}
+
+/// Lets a command of `timeout` run a program.
+fn limited(mut timeout: Command, program: &Path, arguments: &[&str]) -> Command {
+    timeout.args(["-k", "2", "20"]).arg(program).args(arguments);
+    timeout
+}
+
+/// A program with a time limit, bare.
+fn plain(program: &Path, arguments: &[&str]) -> Command {
+    limited(bare("timeout"), program, arguments)
+}
+
+/// A program with a time limit, under the layer.
+fn under(program: &Path, arguments: &[&str], options: &[(&str, &str)]) -> Command {
+    limited(layered("timeout", options), program, arguments)
+}
+
+/// The views of an atlas.
+fn tiles(all: &RgbImage) -> Vec<RgbImage> {
+    let (width, height) = (all.width() / VIEWS, all.height());
+    let tile = |view| imageops::crop_imm(all, view * width, 0, width, height).to_image();
+    (0..VIEWS).map(tile).collect()
+}
+
+/// Checks that a program prints the same bare and in three views, and that all views of a frame are the same: what it draws is flat, or
+/// at the depth of zero parallax.
+#[track_caller]
+fn alike(name: &str, arguments: &[&str], frame: u32) {
+    let program = program(name);
+    let expected = lines(&mut plain(&program, arguments));
+    for atlas in ATLASES {
+        let views = Views {
+            atlas,
+            frame,
+            ..REPLAYED
+        };
+        let (told, all) = views.shown(&mut under(&program, arguments, &[]));
+        assert_eq!(told, expected, "{name} {arguments:?}, {atlas}");
+        let tiles = tiles(&all);
+        for (view, tile) in tiles.iter().enumerate() {
+            let differing = manyview::metric::pixels_over(&tiles[1], tile, 0);
+            assert_eq!(differing, 0, "{name} {arguments:?}, {atlas}, view {view}");
+        }
+    }
+}
+
+/// As [`alike`], with the shaders that move nothing, and with a camera.
+#[track_caller]
+fn alike_by_both_shaders(name: &str, mode: &str, frame: u32) {
+    for shaders in ["flat", "camera"] {
+        alike(name, &[mode, shaders], frame);
+    }
+}
+
+/// Checks that what a program with feedback draws at a depth of 4 has the parallax of each view.
+#[track_caller]
+fn moved_beside_feedback(mode: &str) {
+    let (program, arguments) = (program("feedback"), [mode, "camera"]);
+    for atlas in ATLASES {
+        let views = Views {
+            atlas,
+            convergence: 8.0,
+            ..REPLAYED
+        };
+        let (_, all) = views.shown(&mut under(&program, &arguments, &[]));
+        // Moved by ±0.4 · (4 − 8) / 4 in 32 columns: to the right for the left camera.
+        let [left, own, right] = extents(&all, [0, 255, 0]);
+        for (at, shift) in [(left, 12.8), (right, -12.8)] {
+            let by = [at[0] - own[0], at[1] - own[1]];
+            assert!(
+                by.iter().all(|by: &f64| (by - shift).abs() <= 1.5),
+                "{mode}, {atlas}: {by:?} for {shift}"
+            );
+        }
+    }
+}
+
+/// Checks that text of an X font is what it is without the layer, as it is read back and in the window, whichever view that shows.
+#[track_caller]
+fn written(mode: &str) {
+    let (program, screen) = (program("text"), own_screen());
+    let run = |mut command: Command| {
+        let output = succeed(screen.give(&mut command));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let expected = run(plain(&program, &[mode]));
+    assert!(!expected.contains(": 0 pixels"), "{expected}");
+    for atlas in ATLASES {
+        for view in ["view:0", "view:1", "view:2"] {
+            let options = [("VIEWS", "3"), ("ATLAS", atlas), ("OUTPUT", view)];
+            let told = run(under(&program, &[mode], &options));
+            assert_eq!(told, expected, "{mode}, {atlas}, {view}");
+        }
+    }
+}
+
+#[test]
+fn text_of_an_x_font_is_in_every_view() {
+    for mode in ["generated", "alone"] {
+        written(mode);
+    }
+}
+
+#[test]
+fn text_of_an_x_font_under_names_of_the_program_is_in_every_view() {
+    written("numbered");
+}
+
+#[test]
+fn text_of_an_x_font_takes_the_place_of_other_lists() {
+    for mode in ["again", "deleted"] {
+        written(mode);
+    }
+}
+
+#[test]
+fn text_of_an_x_font_is_called_by_other_lists() {
+    for mode in ["nested", "executed"] {
+        written(mode);
+    }
+}
+
+#[test]
+fn what_is_fed_back_is_fed_back_once_and_drawn_in_every_view() {
+    for mode in ["active", "discard", "again", "clear", "copy", "offscreen"] {
+        alike_by_both_shaders("feedback", mode, 1);
+    }
+}
+
+#[test]
+fn what_is_drawn_while_feedback_is_paused_is_in_every_view() {
+    for mode in ["paused", "program", "object"] {
+        alike_by_both_shaders("feedback", mode, 1);
+    }
+}
+
+#[test]
+fn what_is_drawn_while_feedback_is_active_has_parallax() {
+    for mode in ["active", "paused", "program", "offscreen"] {
+        moved_beside_feedback(mode);
+    }
+}
+
+#[test]
+fn a_frame_ends_while_feedback_is_active() {
+    for mode in ["swap", "pausedswap"] {
+        for frame in [1, 2] {
+            alike_by_both_shaders("feedback", mode, frame);
+        }
+    }
+    // The panel's picture is made by passes, which draw.
+    let folder = tempfile::tempdir().expect("a folder");
+    let picture = folder.path().join("frame.png");
+    let options = [
+        ("VIEWS", "3"),
+        ("OUTPUT", "panel"),
+        ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
+        ("CAPTURE_FRAMES", "1"),
+    ];
+    lines(&mut under(
+        &program("feedback"),
+        &["swap", "flat"],
+        &options,
+    ));
+    // The first of three bars.
+    assert_eq!(extent(&rgb(&picture), 1, 0, [255, 0, 0]), [6.0, 18.0]);
+}
+
+#[test]
+fn feedback_that_is_refused_changes_nothing() {
+    for mode in ["wrong", "failed"] {
+        alike_by_both_shaders("feedback", mode, 1);
+    }
+}
+
+#[test]
+fn no_state_changes_between_two_commands() {
+    let program = program("state");
+    for mode in ["default", "set", "program", "pipeline", "framebuffer"] {
+        let expected = lines(&mut plain(&program, &[mode]));
+        assert!(!expected.contains("became"), "{mode}: {expected}");
+        for atlas in ATLASES {
+            for (strategy, output) in [
+                ("replay", "panel"),
+                ("replay", "rgbd"),
+                ("depth-image", "panel"),
+                ("occlusion", "panel"),
+            ] {
+                let options = [
+                    ("VIEWS", "3"),
+                    ("ATLAS", atlas),
+                    ("STRATEGY", strategy),
+                    ("OUTPUT", output),
+                ];
+                let told = lines(&mut under(&program, &[mode], &options));
+                assert_eq!(told, expected, "{mode}, {options:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn draws_whose_count_lies_in_a_buffer_are_in_every_view() {
+    for mode in ["arrays", "elements"] {
+        alike("unhooked", &[mode], 1);
+    }
+}
+
+#[test]
+fn draws_in_several_primitive_modes_are_in_every_view() {
+    for mode in ["modes", "modeelements"] {
+        alike("unhooked", &[mode], 1);
+    }
+}
+
+#[test]
+fn textures_that_are_written_by_their_names_show_what_was_written() {
+    for mode in ["image", "subimage"] {
+        alike("unhooked", &[mode], 1);
+    }
+}
+
+#[test]
+fn framebuffers_get_other_images_by_their_names() {
+    for mode in ["attached", "renderbuffer", "named"] {
+        alike("unhooked", &[mode], 1);
+    }
+}
+
+#[test]
+fn a_raster_position_with_four_coordinates_is_a_place_in_the_window() {
+    alike("unhooked", &["windowpos"], 1);
+}
+
+#[test]
+fn queries_of_all_kinds_count_what_is_drawn_once() {
+    for mode in ["indexed", "statistics"] {
+        alike("unhooked", &[mode], 1);
+    }
+}
+
+/// The picture of a view that a program draws itself.
+fn drawn(program: &Path, mode: &str, view: u32, frame: u32) -> RgbImage {
+    let folder = tempfile::tempdir().expect("a folder");
+    let picture = folder.path().join("frame.ppm");
+    let path = picture.to_str().expect("UTF-8");
+    let (view, frame) = (view.to_string(), frame.to_string());
+    lines(&mut plain(program, &[mode, &view, &frame, path]));
+    window_picture(&picture)
+}
+
+/// Checks the views before and after the camera has zoomed against those that the program draws itself.
+#[track_caller]
+fn zoomed(mode: &str) {
+    let program = program("blocks");
+    let expected = lines(&mut plain(&program, &[mode, "1", "0"]));
+    for (frame, strategy) in [(2, "replay"), (5, "replay"), (5, "instanced")] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let picture = folder.path().join("frame.png");
+        let frames = frame.to_string();
+        let options = [
+            ("VIEWS", "3"),
+            ("STRATEGY", strategy),
+            ("ATLAS", "layers"),
+            // As in the program.
+            ("EYE_SPACING", "0.4"),
+            ("FOCAL_DEPTH", "4"),
+            ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
+            ("CAPTURE_FRAMES", &*frames),
+            ("CAPTURE_WHAT", "atlas"),
+        ];
+        let told = lines(&mut under(&program, &[mode, "1", "0"], &options));
+        assert_eq!(told, expected, "{mode}, {strategy}");
+        for (view, tile) in (0..).zip(tiles(&rgb(&picture))) {
+            let own = drawn(&program, mode, view, frame);
+            let differing = manyview::metric::pixels_over(&own, &tile, 0);
+            // A camera that is not followed is wrong in hundreds of pixels.
+            assert!(
+                differing <= 8,
+                "{mode}, {strategy}, frame {frame}, view {view}: {differing} pixels"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_camera_in_a_plain_uniform_zooms() {
+    for mode in ["subdata", "weapon", "flat", "level", "menu"] {
+        zoomed(&format!("uniform{mode}"));
+    }
+}

@@ -1,0 +1,229 @@
+//! Windows, pixmaps, pbuffers and surfaces, several of them in one program: each has its own picture, whichever context draws to it,
+//! whatever is current when it is shown, and whatever shows it. A program prints what it reads back and what X has in its windows. The
+//! layer shows the view that the program itself would draw, or another one of a flat picture, so that all lines are as without the layer.
+#![forbid(unsafe_code)]
+
+mod support;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use support::{Compiled, Screen, bare, built, layered, library, own_screen, succeed};
+
+fn source(name: &str) -> PathBuf {
+    Path::new("tests/drawables").join(name).with_extension("c")
+}
+
+fn program() -> PathBuf {
+    let names = [
+        "main",
+        "drawables",
+        "presents",
+        "swaps",
+        "reads",
+        "surfaces",
+        "growths",
+    ];
+    let sources = names.map(source);
+    let sources: Vec<&Path> = sources.iter().map(PathBuf::as_path).collect();
+    let libraries = ["-lGL", "-lEGL", "-lX11", "-lpthread", "-ldl"];
+    built("drawables", &sources, Compiled::Program, &libraries)
+}
+
+/// The lines that a mode of the program prints, and its stderr. It runs by `timeout`, whose variables it gets.
+#[track_caller]
+fn run(screen: &Screen, mut timeout: Command, program: &Path, mode: &str) -> [String; 2] {
+    timeout.args(["-k", "2", "20"]).arg(program).arg(mode);
+    let output = succeed(screen.give(&mut timeout));
+    [output.stdout, output.stderr].map(|text| String::from_utf8(text).expect("text"))
+}
+
+/// Our own lines; other libraries may write to stderr as well.
+fn ours(stderr: &str) -> Vec<&str> {
+    let lines = stderr.lines();
+    lines
+        .filter(|line| line.starts_with("manyview: "))
+        .collect()
+}
+
+/// Checks that the program prints the same bare and under the layer: in its own view, and in the first one, because the pictures are flat.
+#[track_caller]
+fn same(modes: &[&str]) {
+    let (screen, program) = (own_screen(), program());
+    for mode in modes {
+        let [expected, _] = run(&screen, bare("timeout"), &program, mode);
+        assert!(!expected.is_empty(), "{mode}");
+        for output in ["view:1", "view:0"] {
+            let options = [("VIEWS", "3"), ("OUTPUT", output)];
+            let [actual, stderr] = run(&screen, layered("timeout", &options), &program, mode);
+            assert_eq!(actual, expected, "{mode}, {output}: {stderr}");
+            assert!(ours(&stderr).is_empty(), "{mode}, {output}: {stderr}");
+        }
+    }
+}
+
+/// The same with a library of tests/drawables behind the layer, which has these variables. Nothing is said twice.
+#[track_caller]
+fn same_before(behind: &str, modes: &[&str], variables: &[(&str, &str)]) {
+    let source = source(behind);
+    let behind = built(behind, &[source.as_path()], Compiled::Library, &["-ldl"]);
+    let both = format!("{}:{}", library().display(), behind.display());
+    let options = [("VIEWS", "3"), ("OUTPUT", "view:1")];
+    let (screen, program) = (own_screen(), program());
+    for mode in modes {
+        let mut command = bare("timeout");
+        command.env("LD_PRELOAD", &behind);
+        let [expected, _] = run(&screen, command, &program, mode);
+        let mut command = layered("timeout", &options);
+        command.env("LD_PRELOAD", &both);
+        command.envs(variables.iter().copied());
+        let [actual, stderr] = run(&screen, command, &program, mode);
+        assert_eq!(actual, expected, "{mode}, {variables:?}: {stderr}");
+        let mut said = ours(&stderr);
+        let lines = said.len();
+        said.sort_unstable();
+        said.dedup();
+        assert_eq!(said.len(), lines, "{mode}, {variables:?}: {stderr}");
+    }
+}
+
+/// The same with a driver that refuses array textures, once for each variable of refuses.c.
+#[track_caller]
+fn same_refused(modes: &[&str], refused: &[(&str, &str)]) {
+    for &variable in refused {
+        same_before("refuses", modes, &[variable]);
+    }
+}
+
+/// The views of a small window of the program's have memory, and those of a large one have not.
+#[track_caller]
+fn same_without_memory(modes: &[&str]) {
+    same_refused(modes, &[("REFUSE_TEXELS", "20000")]);
+}
+
+// What makes a picture visible, besides a swap.
+
+#[test]
+fn a_part_of_a_window_is_copied_to_the_front() {
+    same(&["sub"]);
+}
+
+/// Wine and compositors show parts of a surface where the driver has these commands.
+#[test]
+fn a_part_of_a_surface_is_posted() {
+    same_before("offers", &["egl-post"], &[]);
+}
+
+#[test]
+fn a_front_buffer_is_shown_by_a_wait_and_by_another_context() {
+    same(&["front", "front-left"]);
+}
+
+#[test]
+fn a_window_without_a_back_buffer_is_shown_by_whatever_flushes() {
+    same(&["single-wait", "single-left", "single-next", "single-swap"]);
+}
+
+/// Parts of the driver are gone when functions given to atexit run.
+#[test]
+fn a_context_is_left_at_the_end_of_the_process() {
+    same(&["single-ends"]);
+}
+
+#[test]
+fn a_blit_alone_is_shown_by_a_flush() {
+    same(&["single-blit"]);
+}
+
+#[test]
+fn a_pixmap_has_what_was_drawn() {
+    same(&["pixmap", "pixmap-wait", "pixmap-left", "egl-copied"]);
+}
+
+#[test]
+fn a_pixmap_that_was_drawn_is_a_texture() {
+    same(&["texture", "texture-other"]);
+}
+
+// Several drawables and contexts.
+
+#[test]
+fn two_contexts_draw_to_two_windows_and_one_swaps_both() {
+    same(&["egl-two"]);
+}
+
+#[test]
+fn windows_that_are_swapped_while_they_are_current() {
+    same(&["plain", "plain-one"]);
+}
+
+#[test]
+fn a_window_is_swapped_where_no_context_is_current() {
+    same(&["none", "thread-none"]);
+}
+
+#[test]
+fn the_draw_buffer_goes_with_the_context() {
+    same(&["buffers"]);
+}
+
+#[test]
+fn a_window_in_the_place_of_one_that_is_gone() {
+    same(&["again"]);
+}
+
+#[test]
+fn a_window_is_destroyed_while_it_is_current() {
+    same(&["destroyed", "destroyed-own"]);
+}
+
+// No memory for all of the views.
+
+#[test]
+fn a_window_grows_beyond_the_memory() {
+    same_without_memory(&["grows", "grows-back"]);
+}
+
+#[test]
+fn a_window_grows_beyond_the_memory_while_the_front_buffer_is_drawn_to() {
+    same_without_memory(&["grows-buffer"]);
+}
+
+#[test]
+fn a_window_grows_beyond_the_memory_after_a_texture_was_drawn() {
+    same_without_memory(&["grows-texture", "grows-bound"]);
+}
+
+#[test]
+fn a_window_grows_beyond_the_memory_while_another_thread_draws() {
+    same_without_memory(&["grows-thread"]);
+}
+
+#[test]
+fn a_context_goes_to_a_window_beyond_the_memory() {
+    same_without_memory(&["larger", "small", "at-once"]);
+}
+
+/// The picture is not lost where the memory is there at the next try.
+#[test]
+fn an_atlas_is_refused_once() {
+    same_refused(
+        &["buffers", "plain", "plain-one", "again", "egl-two"],
+        &[
+            ("REFUSE_ONE", "1"),
+            ("REFUSE_ONE", "2"),
+            ("REFUSE_FROM", "1"),
+        ],
+    );
+}
+
+#[test]
+fn an_image_for_each_view_is_refused() {
+    same_refused(
+        &["apart"],
+        &[
+            ("REFUSE_ONE", "3"),
+            ("REFUSE_ONE", "4"),
+            ("REFUSE_FROM", "3"),
+        ],
+    );
+}
