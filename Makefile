@@ -7,6 +7,9 @@ CARGO ?= cargo
 TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
 BIN := $(TARGET)/release
 DEMOS := $(TARGET)/demos
+# The same of 32 bits.
+RUST_32 := i686-unknown-linux-gnu
+DEMOS_32 := $(TARGET)/demos-32
 PICTURES := $(TARGET)/demo
 # The outputs that `make demo` shows of each program; only the panel's picture needs the panel.
 OUTPUTS := panel quilt sbs
@@ -19,6 +22,12 @@ PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libosmesa6 li
 OPTIONAL_PACKAGES := faketime piglit
 # Programs that test-long and test-full record and repeat.
 LONG_PACKAGES := gltron xscreensaver-gl
+# What 32-bit programs, and building them, need. The architecture i386 is added to dpkg.
+PACKAGES_32 := gcc-multilib g++-multilib libgl1:i386 libegl1:i386 libgl1-mesa-dri:i386 libosmesa6:i386 libosmesa6-dev:i386 \
+	libgl-dev:i386 libegl-dev:i386 libx11-dev:i386 libpng-dev:i386 libglu1-mesa-dev:i386
+# Tests that preload the layer into programs of this project; not those that start them by `manyview`, which refuses 32-bit programs.
+TESTS_32 := answers cases conditions drawables front harm hosts memory oracle outputs passes passthrough quad random shaded
+NOT_32 := a_captured_picture_replaces_no_other_file
 # Packages of test-full only.
 FULL_PACKAGES := valgrind
 # Demo programs that `manyview bench` draws; they are installed with it.
@@ -35,11 +44,11 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures same measured mutants shaders man book lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-32 test-full build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants shaders man book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
-	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
+	@sed -n 's/^\([a-z0-9-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
 
 # The unit tests of the hooks need the driver that records calls. This does not touch libmanyview.so, which `build` alone makes.
 FAKE_DRIVER := --features manyview-shim/fake-driver
@@ -94,6 +103,19 @@ test-long: packages build demos ## run the tests that take long as well
 	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip full_ --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
+packages-32: packages ## install the i386 packages that are missing
+	@sh scripts/packages.sh $(PACKAGES_32)
+	rustup target add $(RUST_32)
+
+build-32: packages-32 ## build the library for 32-bit programs
+	$(CARGO) build --release --target $(RUST_32) -p manyview-shim
+
+demos-32: packages-32 ## build the demo programs of 32 bits
+	$(MAKE) -C examples OUT=$(DEMOS_32) CC="gcc -m32"
+
+test-32: build build-32 demos-32 ## run the tests that preload the layer in programs of 32 bits (installs i386 packages)
+	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast $(TESTS_32:%=--test %) -- $(NOT_32:%=--skip %)
+
 test-full: packages build demos ## run all tests but those of programs, also all of piglit's and valgrind (an hour)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
@@ -101,6 +123,7 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(programs|soak)_/)'; \
 	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
+	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
 programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (two hours)
 	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture

@@ -3,7 +3,8 @@
 #
 #   scripts/packages.sh PACKAGE... [--optional PACKAGE...]
 #
-# A missing optional package is a warning: the tests that need it say that they are skipped.
+# A missing optional package is a warning: the tests that need it say that they are skipped. With packages such as libgl1:i386, dpkg gets
+# that architecture.
 set -eu
 
 say() { echo "packages: $*" >&2; }
@@ -61,6 +62,19 @@ update() {
     say "reading the package index"
     apt update || say "apt-get update failed; going on with the index that is there"
 }
+
+# A package of another architecture needs that in dpkg, and its index.
+for package in $need $want; do
+    case $package in
+        *:*)
+            if ! dpkg --print-foreign-architectures | grep -qx "${package##*:}"; then
+                say "adding the architecture ${package##*:}"
+                $as_root dpkg --add-architecture "${package##*:}"
+                update
+            fi
+            ;;
+    esac
+done
 
 available() {
     apt-cache show --no-all-versions "$1" >/dev/null 2>&1

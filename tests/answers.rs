@@ -202,6 +202,25 @@ fn feedback_that_is_refused_changes_nothing() {
 }
 
 #[test]
+fn every_viewport_stays_where_the_program_has_put_it() {
+    for mode in ["viewport", "array", "fraction", "all", "list"] {
+        alike("indexed", &[mode], 2);
+    }
+}
+
+#[test]
+fn every_scissor_test_is_as_the_program_has_switched_it() {
+    for mode in ["scissor", "first"] {
+        alike("indexed", &[mode], 2);
+    }
+}
+
+#[test]
+fn every_depth_range_keeps_its_place() {
+    alike("indexed", &["range"], 2);
+}
+
+#[test]
 fn no_state_changes_between_two_commands() {
     let program = program("state");
     for mode in ["default", "set", "program", "pipeline", "framebuffer"] {

@@ -8,7 +8,8 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use support::{
-    Compiled, Screen, bare, built, demo, layered, manyview, own_screen, scratch, screen, succeed,
+    Compiled, Screen, bare, built, demo, layered, manyview, own_screen, programs_folder, screen,
+    succeed,
 };
 use tempfile::tempdir;
 
@@ -273,7 +274,7 @@ fn loads() -> PathBuf {
 
 /// A folder with a libEGL.so and a libGLESv2.so of a program's own, and a plugin that is linked with them.
 fn private() -> PathBuf {
-    let folder = scratch("test-programs/private");
+    let folder = programs_folder("private");
     let library = |name: &str, source: &str, more: &[&str]| {
         let source = Path::new("tests/harm").join(source);
         let found = format!("-L{}", folder.display());

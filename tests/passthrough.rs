@@ -5,7 +5,7 @@ mod support;
 
 use std::path::Path;
 use std::process::Command;
-use support::{bare, demo, layered, screen, succeed};
+use support::{bare, demo, is_32_bit, layered, screen, succeed};
 
 const DEMOS: [&str; 13] = [
     "gears",
@@ -129,6 +129,9 @@ const PBUFFER: &str = "named clear colour = ";
 /// (tests/oracle.rs).
 const PIXELS: [&str; 4] = [" colour = ", " depth = ", " stencil = ", "own pixel = "];
 
+/// A line that libOSMesa of i386 answers otherwise than all other drivers: its own C code multiplies in the extended precision of the x87.
+const X87: &str = "accumulation multiplied colour";
+
 fn answers(command: &mut Command, api: &str, more: &[&str], pixels: bool) -> Vec<String> {
     let screen = screen();
     command.args(["--api", api, "--frames", "1"]).args(more);
@@ -138,6 +141,7 @@ fn answers(command: &mut Command, api: &str, more: &[&str], pixels: bool) -> Vec
         .lines()
         .filter(|line| !KNOWN.contains(line))
         .filter(|line| !(more.contains(&"pbuffer") && line.starts_with(PBUFFER)))
+        .filter(|line| !(is_32_bit() && api == "osmesa" && line.starts_with(X87)))
         .filter(|line| pixels || !PIXELS.iter().any(|part| line.contains(part)))
         .map(
             |line| match NAMES.iter().find(|part| line.contains(**part)) {

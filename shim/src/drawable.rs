@@ -26,7 +26,8 @@ pub(crate) fn window(drawable: Drawable) -> Option<(String, u32)> {
             // SAFETY: the program has just shown a frame with this display on this thread.
             let name = unsafe { xcb::display_name(display) }?;
             let window = windows::behind(display, drawable);
-            Some((name, u32::try_from(window).ok()?))
+            // Identifiers of X have 29 bits.
+            Some((name, window as u32))
         }
         _ => None,
     }

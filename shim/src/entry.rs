@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1780] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1781] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1788,10 +1788,11 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1780] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1780] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1781] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -3572,11 +3573,12 @@ pub(crate) static HOOK: [Option<crate::Address>; 1780] = [
     None,
     None,
     None,
+    None,
 ];
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1780] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1781] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -5310,6 +5312,7 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1780] = [
     Some(zeros_OSMesaCreateContextAttribs),
     Some(zeros_OSMesaDestroyContext),
     Some(zeros_OSMesaGetProcAddress),
+    None,
     None,
     None,
     None,
@@ -12782,109 +12785,109 @@ export! { 505, glScissor, first_glScissor, hook_glScissor, zeros_glScissor, (x: 
     unsafe { gl.glScissor(x, y, width, height) };
 } }
 export! { 506, glScissorArrayv, first_glScissorArrayv, hook_glScissorArrayv, zeros_glScissorArrayv, (first: u32, count: i32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorArrayv(first, count, v) };
 } }
 export! { 507, glScissorArrayvNV, first_glScissorArrayvNV, hook_glScissorArrayvNV, zeros_glScissorArrayvNV, (first: u32, count: i32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorArrayvNV(first, count, v) };
 } }
 export! { 508, glScissorArrayvOES, first_glScissorArrayvOES, hook_glScissorArrayvOES, zeros_glScissorArrayvOES, (first: u32, count: i32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorArrayvOES(first, count, v) };
 } }
 export! { 509, glScissorIndexed, first_glScissorIndexed, hook_glScissorIndexed, zeros_glScissorIndexed, (index: u32, left: i32, bottom: i32, width: i32, height: i32) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexed(index, left, bottom, width, height) };
 } }
 export! { 510, glScissorIndexedNV, first_glScissorIndexedNV, hook_glScissorIndexedNV, zeros_glScissorIndexedNV, (index: u32, left: i32, bottom: i32, width: i32, height: i32) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedNV(index, left, bottom, width, height) };
 } }
 export! { 511, glScissorIndexedOES, first_glScissorIndexedOES, hook_glScissorIndexedOES, zeros_glScissorIndexedOES, (index: u32, left: i32, bottom: i32, width: i32, height: i32) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedOES(index, left, bottom, width, height) };
 } }
 export! { 512, glScissorIndexedv, first_glScissorIndexedv, hook_glScissorIndexedv, zeros_glScissorIndexedv, (index: u32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedv(index, v) };
 } }
 export! { 513, glScissorIndexedvNV, first_glScissorIndexedvNV, hook_glScissorIndexedvNV, zeros_glScissorIndexedvNV, (index: u32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedvNV(index, v) };
 } }
 export! { 514, glScissorIndexedvOES, first_glScissorIndexedvOES, hook_glScissorIndexedvOES, zeros_glScissorIndexedvOES, (index: u32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedvOES(index, v) };
 } }
 export! { 515, glViewportArrayv, first_glViewportArrayv, hook_glViewportArrayv, zeros_glViewportArrayv, (first: u32, count: i32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportArrayv(first, count, v) };
 } }
 export! { 516, glViewportArrayvNV, first_glViewportArrayvNV, hook_glViewportArrayvNV, zeros_glViewportArrayvNV, (first: u32, count: i32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportArrayvNV(first, count, v) };
 } }
 export! { 517, glViewportArrayvOES, first_glViewportArrayvOES, hook_glViewportArrayvOES, zeros_glViewportArrayvOES, (first: u32, count: i32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportArrayvOES(first, count, v) };
 } }
 export! { 518, glViewportIndexedf, first_glViewportIndexedf, hook_glViewportIndexedf, zeros_glViewportIndexedf, (index: u32, x: f32, y: f32, w: f32, h: f32) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedf(index, x, y, w, h) };
 } }
 export! { 519, glViewportIndexedfNV, first_glViewportIndexedfNV, hook_glViewportIndexedfNV, zeros_glViewportIndexedfNV, (index: u32, x: f32, y: f32, w: f32, h: f32) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfNV(index, x, y, w, h) };
 } }
 export! { 520, glViewportIndexedfOES, first_glViewportIndexedfOES, hook_glViewportIndexedfOES, zeros_glViewportIndexedfOES, (index: u32, x: f32, y: f32, w: f32, h: f32) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfOES(index, x, y, w, h) };
 } }
 export! { 521, glViewportIndexedfv, first_glViewportIndexedfv, hook_glViewportIndexedfv, zeros_glViewportIndexedfv, (index: u32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfv(index, v) };
 } }
 export! { 522, glViewportIndexedfvNV, first_glViewportIndexedfvNV, hook_glViewportIndexedfvNV, zeros_glViewportIndexedfvNV, (index: u32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfvNV(index, v) };
 } }
 export! { 523, glViewportIndexedfvOES, first_glViewportIndexedfvOES, hook_glViewportIndexedfvOES, zeros_glViewportIndexedfvOES, (index: u32, v: Ptr) -> (), {
-    hooks::touch(Touch::RECTS);
+    hooks::touch(Touch::RECTS | Touch::VIEWPORTS);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfvOES(index, v) };
@@ -12932,61 +12935,61 @@ export! { 530, glDisable, first_glDisable, hook_glDisable, zeros_glDisable, (cap
     unsafe { gl.glDisable(cap) };
 } }
 export! { 531, glEnablei, first_glEnablei, hook_glEnablei, zeros_glEnablei, (target: u32, index: u32) -> (), {
-    hooks::cap(target, true);
+    hooks::cap_indexed(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnablei(target, index) };
 } }
 export! { 532, glEnableIndexedEXT, first_glEnableIndexedEXT, hook_glEnableIndexedEXT, zeros_glEnableIndexedEXT, (target: u32, index: u32) -> (), {
-    hooks::cap(target, true);
+    hooks::cap_indexed(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableIndexedEXT(target, index) };
 } }
 export! { 533, glEnableiEXT, first_glEnableiEXT, hook_glEnableiEXT, zeros_glEnableiEXT, (target: u32, index: u32) -> (), {
-    hooks::cap(target, true);
+    hooks::cap_indexed(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableiEXT(target, index) };
 } }
 export! { 534, glEnableiNV, first_glEnableiNV, hook_glEnableiNV, zeros_glEnableiNV, (target: u32, index: u32) -> (), {
-    hooks::cap(target, true);
+    hooks::cap_indexed(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableiNV(target, index) };
 } }
 export! { 535, glEnableiOES, first_glEnableiOES, hook_glEnableiOES, zeros_glEnableiOES, (target: u32, index: u32) -> (), {
-    hooks::cap(target, true);
+    hooks::cap_indexed(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableiOES(target, index) };
 } }
 export! { 536, glDisablei, first_glDisablei, hook_glDisablei, zeros_glDisablei, (target: u32, index: u32) -> (), {
-    hooks::cap(target, false);
+    hooks::cap_indexed(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisablei(target, index) };
 } }
 export! { 537, glDisableIndexedEXT, first_glDisableIndexedEXT, hook_glDisableIndexedEXT, zeros_glDisableIndexedEXT, (target: u32, index: u32) -> (), {
-    hooks::cap(target, false);
+    hooks::cap_indexed(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableIndexedEXT(target, index) };
 } }
 export! { 538, glDisableiEXT, first_glDisableiEXT, hook_glDisableiEXT, zeros_glDisableiEXT, (target: u32, index: u32) -> (), {
-    hooks::cap(target, false);
+    hooks::cap_indexed(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableiEXT(target, index) };
 } }
 export! { 539, glDisableiNV, first_glDisableiNV, hook_glDisableiNV, zeros_glDisableiNV, (target: u32, index: u32) -> (), {
-    hooks::cap(target, false);
+    hooks::cap_indexed(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableiNV(target, index) };
 } }
 export! { 540, glDisableiOES, first_glDisableiOES, hook_glDisableiOES, zeros_glDisableiOES, (target: u32, index: u32) -> (), {
-    hooks::cap(target, false);
+    hooks::cap_indexed(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableiOES(target, index) };

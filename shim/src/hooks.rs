@@ -166,6 +166,15 @@ pub(crate) fn cap(cap: u32, on: bool) {
     });
 }
 
+/// Before a capability of one index is enabled or disabled.
+#[inline]
+pub(crate) fn cap_indexed(index_cap: u32, on: bool) {
+    match index_cap {
+        SCISSOR_TEST => touch(Touch::RECTS | Touch::VIEWPORTS),
+        _ => cap(index_cap, on),
+    }
+}
+
 /// The space of a raster position.
 #[derive(Clone, Copy)]
 pub(crate) enum Place {

@@ -7,7 +7,7 @@ use std::os::fd::AsRawFd;
 /// A socket of ours, which is used only while its descriptor still belongs to it.
 pub(crate) struct Checked<T: AsRawFd> {
     socket: ManuallyDrop<T>,
-    identity: (u64, u64),
+    identity: (libc::dev_t, libc::ino_t),
 }
 
 impl<T: AsRawFd> Checked<T> {
@@ -34,7 +34,7 @@ impl<T: AsRawFd> Drop for Checked<T> {
 }
 
 /// Device and inode of the file behind a descriptor.
-fn identity(socket: &impl AsRawFd) -> Option<(u64, u64)> {
+fn identity(socket: &impl AsRawFd) -> Option<(libc::dev_t, libc::ino_t)> {
     // SAFETY: all-zero is a valid stat.
     let mut status: libc::stat = unsafe { core::mem::zeroed() };
     // SAFETY: status is ours; the descriptor may be anything.

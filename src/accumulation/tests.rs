@@ -54,7 +54,7 @@ impl Stage {
         };
         let tiles = Tiles::new(2, [64, 48], Grid::FULL, AtlasLayout::Layers, limits);
         let atlas = Atlas::new(&gl, names, &window, tiles.expect("fits"), true).expect("an atlas");
-        let neutral = Neutral::enter(&gl, true);
+        let neutral = Neutral::enter(&gl, true, false);
         let buffer = Accumulation::new(&gl, &neutral, names, 450, &atlas).expect("programs");
         fake.forget();
         Stage {

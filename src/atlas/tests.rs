@@ -286,7 +286,7 @@ fn depths_are_read_when_they_are_there() {
     let gl = fake.gl();
     let mut atlas = atlas(&gl, SideBySide, 0);
     atlas.make_depths(&gl, &mut Names::default(), &window(&gl, 0));
-    let neutral = Neutral::enter(&gl, true);
+    let neutral = Neutral::enter(&gl, true, false);
     let taken = (0..4)
         .map(|_| atlas.take_depths(&gl, &neutral))
         .collect::<Vec<_>>();

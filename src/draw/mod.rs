@@ -19,7 +19,5 @@ pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
 pub use programs::Programs;
 pub use reference::{Drawing, Rays, draw_to_reference};
-pub use replay::{
-    ReplayHazard, cut, enter_own, others, replay, restore_viewport, set_tile_viewport,
-};
+pub use replay::{ReplayHazard, cut, enter_own, others, replay, set_tile_viewport};
 pub use variant::{Drawn, NoVariant, Variant, VariantKind, drawn};

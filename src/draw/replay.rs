@@ -5,7 +5,7 @@ use super::pixel_size::{PixelSizeGuard, Units};
 use crate::atlas::{Grid, Surface, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Rig, Shear};
-use crate::state::{Effect, State};
+use crate::state::{Effect, Indexed, State};
 use crate::view::ViewIndex;
 
 /// The state that a draw changes, and that its second sending would start from.
@@ -194,7 +194,7 @@ impl<'a> Sending<'a> {
         if self.beside() && !self.is_free(view) {
             set_tile_viewport(self.gl, self.state, &self.tiles, view, x);
         } else if self.beside() {
-            restore_viewport(self.gl, self.state);
+            self.state.rectangles.put(self.gl);
         }
     }
 
@@ -267,7 +267,7 @@ impl<'a> Sending<'a> {
     fn end(&self, keeps_state: bool) {
         let own = self.tiles.own();
         if self.beside() && !self.is_free(own) {
-            restore_viewport(self.gl, self.state);
+            self.state.rectangles.put(self.gl);
         }
         let moved = self.rig.position(own) != 0.0 || self.projection.is_slanted();
         if !keeps_state || self.keeps_projection() && moved {
@@ -332,13 +332,26 @@ pub fn others(
     }
     surface.enter(gl, own);
     if beside {
-        restore_viewport(gl, state);
+        state.rectangles.put(gl);
     }
     projection.restore();
 }
 
 /// Sets the program's viewport and scissor in the tile of a view, which begins at `offset` pixels; the scissor is cut to the tile.
 pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) {
+    if state.rectangles.are_several() && tiles.grid.is_full() {
+        for (index, own) in (0..).zip(&state.rectangles.indexed) {
+            let [x, y, w, h] = own.viewport;
+            let scissor = own.scissor_test.then_some(own.scissor);
+            let placed = Indexed {
+                viewport: [x + offset as f32, y, w, h],
+                scissor: cut_by(scissor, tiles, view, offset),
+                scissor_test: true,
+            };
+            placed.put(gl, index);
+        }
+        return;
+    }
     if tiles.grid.is_full() {
         let [x, y, w, h] = state.rectangles.viewport;
         gl.viewport(x + offset, y, w, h);
@@ -354,11 +367,17 @@ pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex,
 
 /// The scissor rectangle of a tile, in pixels of the atlas: the whole tile, or the program's scissor in it.
 pub fn cut(state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) -> [i32; 4] {
+    let rectangles = &state.rectangles;
+    let scissor = rectangles.scissor_test.then_some(rectangles.scissor);
+    cut_by(scissor, tiles, view, offset)
+}
+
+/// [`cut`] for one of the program's scissor rectangles.
+fn cut_by(scissor: Option<[i32; 4]>, tiles: &Tiles, view: ViewIndex, offset: i32) -> [i32; 4] {
     let size = [tiles.width as i32, tiles.height as i32];
-    if !state.rectangles.scissor_test {
+    let Some([x, y, w, h]) = scissor else {
         return [offset, 0, size[0], size[1]];
-    }
-    let [x, y, w, h] = state.rectangles.scissor;
+    };
     let [[x0, x1], [y0, y1]] = [(x, w, 0), (y, h, 1)].map(|(from, length, axis)| {
         let ends = [from, from.saturating_add(length)];
         let ends = if tiles.grid.is_full() {
@@ -369,17 +388,6 @@ pub fn cut(state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) -> [i32; 
         ends.map(|end| end.clamp(0, size[axis]))
     });
     [x0 + offset, y0, (x1 - x0).max(0), (y1 - y0).max(0)]
-}
-
-/// Restores the program's own viewport and scissor.
-pub fn restore_viewport(gl: &Gl, state: &State) {
-    let [x, y, w, h] = state.rectangles.viewport;
-    gl.viewport(x, y, w, h);
-    let [x, y, w, h] = state.rectangles.scissor;
-    gl.scissor(x, y, w, h);
-    if !state.rectangles.scissor_test {
-        gl.disable(c::SCISSOR_TEST);
-    }
 }
 
 /// A raster position that moves with a point of the scene.

@@ -169,12 +169,7 @@ impl StateGuard {
         gl.use_program(ProgramName::ZERO);
         self.pixel_sizes.leave(gl);
         if self.placed {
-            let [x, y, w, h] = state.rectangles.viewport;
-            gl.viewport(x, y, w, h);
-            if state.rectangles.scissor_test {
-                let [x, y, w, h] = state.rectangles.scissor;
-                gl.scissor(x, y, w, h);
-            }
+            state.rectangles.put(gl);
         }
         atlas.bind_row(gl, 0);
     }

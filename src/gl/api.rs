@@ -57,6 +57,7 @@ plain! {
     polygon_offset = glPolygonOffset(factor: f32, units: f32);
     polygon_offset_clamp = glPolygonOffsetClamp(factor: f32, units: f32, clamp: f32);
     scissor = glScissor(x: i32, y: i32, w: i32, h: i32);
+    scissor_indexed = glScissorIndexed(index: u32, x: i32, y: i32, w: i32, h: i32);
     enable = glEnable(cap: u32);
     disable = glDisable(cap: u32);
     enablei = glEnablei(cap: u32, index: u32);
@@ -227,6 +228,14 @@ impl Gl {
         let mut out = [0; K];
         out.copy_from_slice(&v[..K]);
         out
+    }
+
+    /// glGetFloati_v, 4 values.
+    pub fn get_floats_indexed(&self, name: u32, index: u32) -> [f32; 4] {
+        let mut v = [0f32; 4];
+        // SAFETY: room for 4 elements.
+        unsafe { self.real.glGetFloati_v(name, index, v.as_mut_ptr().cast()) };
+        v
     }
 
     /// glGetLightfv, up to 4 values.

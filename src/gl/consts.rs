@@ -65,6 +65,7 @@ pub const MODELVIEW_MATRIX: u32 = 0x0BA6;
 pub const VIEWPORT: u32 = 0x0BA2;
 pub const SCISSOR_BOX: u32 = 0x0C10;
 pub const SCISSOR_TEST: u32 = 0x0C11;
+pub const MAX_VIEWPORTS: u32 = 0x825B;
 pub const RENDER: u32 = 0x1C00;
 pub const SELECT: u32 = 0x1C02;
 pub const FEEDBACK: u32 = 0x1C01;

@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1780;
+pub const COUNT: usize = 1781;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1746,48 +1746,49 @@ pub mod slot {
     pub const glUnmapBuffer: usize = 1735;
     pub const glGetString: usize = 1736;
     pub const glGetStringi: usize = 1737;
-    pub const glGenQueries: usize = 1738;
-    pub const glGetRenderbufferParameteriv: usize = 1739;
-    pub const glCreateShader: usize = 1740;
-    pub const glShaderSource: usize = 1741;
-    pub const glCompileShader: usize = 1742;
-    pub const glGetShaderiv: usize = 1743;
-    pub const glGetShaderInfoLog: usize = 1744;
-    pub const glCreateProgram: usize = 1745;
-    pub const glAttachShader: usize = 1746;
-    pub const glGetProgramInfoLog: usize = 1747;
-    pub const glDeleteShader: usize = 1748;
-    pub const glGetUniformLocation: usize = 1749;
-    pub const glIsProgram: usize = 1750;
-    pub const glGetShaderSource: usize = 1751;
-    pub const glGetAttachedShaders: usize = 1752;
-    pub const glGetActiveUniform: usize = 1753;
-    pub const glGetActiveAttrib: usize = 1754;
-    pub const glGetAttribLocation: usize = 1755;
-    pub const glGetFragDataLocation: usize = 1756;
-    pub const glBindFragDataLocation: usize = 1757;
-    pub const glGetUniformdv: usize = 1758;
-    pub const glGetUniformuiv: usize = 1759;
-    pub const glGetActiveUniformBlockiv: usize = 1760;
-    pub const glGetActiveUniformsiv: usize = 1761;
-    pub const glGetActiveUniformBlockName: usize = 1762;
-    pub const glGetProgramInterfaceiv: usize = 1763;
-    pub const glGetProgramResourceName: usize = 1764;
-    pub const glFenceSync: usize = 1765;
-    pub const glClientWaitSync: usize = 1766;
-    pub const glDeleteSync: usize = 1767;
-    pub const glGetBufferSubData: usize = 1768;
-    pub const glGetUniformBlockIndex: usize = 1769;
-    pub const glBindBufferBase: usize = 1770;
-    pub const glBindBufferRange: usize = 1771;
-    pub const glGenBuffers: usize = 1772;
-    pub const glBindAttribLocation: usize = 1773;
-    pub const glProgramParameteri: usize = 1774;
-    pub const glPatchParameteri: usize = 1775;
-    pub const glGenVertexArrays: usize = 1776;
-    pub const glBindVertexArray: usize = 1777;
-    pub const glGenSamplers: usize = 1778;
-    pub const glBindSampler: usize = 1779;
+    pub const glGetFloati_v: usize = 1738;
+    pub const glGenQueries: usize = 1739;
+    pub const glGetRenderbufferParameteriv: usize = 1740;
+    pub const glCreateShader: usize = 1741;
+    pub const glShaderSource: usize = 1742;
+    pub const glCompileShader: usize = 1743;
+    pub const glGetShaderiv: usize = 1744;
+    pub const glGetShaderInfoLog: usize = 1745;
+    pub const glCreateProgram: usize = 1746;
+    pub const glAttachShader: usize = 1747;
+    pub const glGetProgramInfoLog: usize = 1748;
+    pub const glDeleteShader: usize = 1749;
+    pub const glGetUniformLocation: usize = 1750;
+    pub const glIsProgram: usize = 1751;
+    pub const glGetShaderSource: usize = 1752;
+    pub const glGetAttachedShaders: usize = 1753;
+    pub const glGetActiveUniform: usize = 1754;
+    pub const glGetActiveAttrib: usize = 1755;
+    pub const glGetAttribLocation: usize = 1756;
+    pub const glGetFragDataLocation: usize = 1757;
+    pub const glBindFragDataLocation: usize = 1758;
+    pub const glGetUniformdv: usize = 1759;
+    pub const glGetUniformuiv: usize = 1760;
+    pub const glGetActiveUniformBlockiv: usize = 1761;
+    pub const glGetActiveUniformsiv: usize = 1762;
+    pub const glGetActiveUniformBlockName: usize = 1763;
+    pub const glGetProgramInterfaceiv: usize = 1764;
+    pub const glGetProgramResourceName: usize = 1765;
+    pub const glFenceSync: usize = 1766;
+    pub const glClientWaitSync: usize = 1767;
+    pub const glDeleteSync: usize = 1768;
+    pub const glGetBufferSubData: usize = 1769;
+    pub const glGetUniformBlockIndex: usize = 1770;
+    pub const glBindBufferBase: usize = 1771;
+    pub const glBindBufferRange: usize = 1772;
+    pub const glGenBuffers: usize = 1773;
+    pub const glBindAttribLocation: usize = 1774;
+    pub const glProgramParameteri: usize = 1775;
+    pub const glPatchParameteri: usize = 1776;
+    pub const glGenVertexArrays: usize = 1777;
+    pub const glBindVertexArray: usize = 1778;
+    pub const glGenSamplers: usize = 1779;
+    pub const glBindSampler: usize = 1780;
 }
 
 /// Name of each command.
@@ -3530,6 +3531,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glUnmapBuffer",
     c"glGetString",
     c"glGetStringi",
+    c"glGetFloati_v",
     c"glGenQueries",
     c"glGetRenderbufferParameteriv",
     c"glCreateShader",
@@ -5313,6 +5315,7 @@ real_functions! {
     glUnmapBuffer(target: u32) -> u8 = 0;
     glGetString(name: u32) -> Ptr = core::ptr::null_mut();
     glGetStringi(name: u32, index: u32) -> Ptr = core::ptr::null_mut();
+    glGetFloati_v(target: u32, index: u32, data: Ptr);
     glGenQueries(n: i32, ids: Ptr);
     glGetRenderbufferParameteriv(target: u32, pname: u32, params: Ptr);
     glCreateShader(type_: u32) -> u32 = 0;

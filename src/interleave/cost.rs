@@ -98,7 +98,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
         gl.finish();
         Ok::<_, String>(start.elapsed().as_secs_f64() * 1000.0)
     };
-    let neutral = Neutral::enter(gl, gl.has_extension("GL_ARB_compatibility"));
+    let neutral = Neutral::enter(gl, gl.has_extension("GL_ARB_compatibility"), false);
     let mut interleave = || {
         let none = &mut |_| Default::default();
         interleaver.draw(gl, &neutral, config, &views, none, Output::Panel, &panel)

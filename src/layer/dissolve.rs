@@ -37,14 +37,8 @@ impl Layer {
     /// Sets what a draw changes for a view to what the program has set.
     fn put_interrupted_state(&mut self, gl: &Gl) {
         gl.use_program(self.state.in_use.program);
-        let [x, y, w, h] = self.state.rectangles.viewport;
-        gl.viewport(x, y, w, h);
-        let [x, y, w, h] = self.state.rectangles.scissor;
-        gl.scissor(x, y, w, h);
-        match self.state.rectangles.scissor_test {
-            true => gl.enable(c::SCISSOR_TEST),
-            false => gl.disable(c::SCISSOR_TEST),
-        }
+        gl.enable(c::SCISSOR_TEST);
+        self.state.rectangles.put(gl);
     }
 
     /// Copies the program's own view to the true framebuffer 0.

@@ -478,7 +478,7 @@ impl Layer {
         }
         crate::draw::set_tile_viewport(gl, &self.state, &self.targets.atlas.tiles, view, x);
         call();
-        crate::draw::restore_viewport(gl, &self.state);
+        self.state.rectangles.put(gl);
     }
 
     pub(super) fn tile_size(&self) -> [i32; 2] {

@@ -43,7 +43,7 @@ impl Frames {
             return;
         };
         self.report.write(self.config, frame);
-        let neutral = Neutral::enter(gl, false);
+        let neutral = Neutral::enter(gl, false, gl.since((4, 1), None));
         let framebuffers = gl.version() >= (3, 0);
         let read = if framebuffers {
             FramebufferName(gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32)

@@ -2,7 +2,7 @@
 
 use super::Layer;
 use crate::gl::Gl;
-use crate::state::Neutral;
+use crate::state::{Neutral, Touch};
 
 impl Layer {
     /// Runs `work` in neutral state. Afterwards all state of the program's is as before, framebuffer bindings included. No query of the
@@ -14,7 +14,9 @@ impl Layer {
     ) -> R {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
-        let neutral = Neutral::enter(gl, self.state.has.compatibility);
+        let state = &self.state;
+        let several = state.touched.has(Touch::VIEWPORTS) || state.rectangles.are_several();
+        let neutral = Neutral::enter(gl, state.has.compatibility, several);
         let done = work(self, &neutral);
         neutral.leave(gl);
         self.rebind(gl);

@@ -7,6 +7,7 @@ mod effect;
 mod framebuffer;
 mod lists;
 mod neutral;
+mod rectangles;
 mod shaders;
 
 pub use classification::ClassificationState;
@@ -14,6 +15,7 @@ pub use effect::{Effect, Immediate};
 pub use framebuffer::{BACK, Buffers, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Lists, Orphans, Run, Segment, Start};
 pub use neutral::Neutral;
+pub use rectangles::{Indexed, Rectangles};
 pub use shaders::{
     Linked, Matrices, Samplers, ShaderSource, Shaders, link_change, sources, uniform_change,
     uniform_changes,
@@ -58,8 +60,10 @@ impl Touch {
     pub const WINDOW_POS: Touch = Touch(256);
     /// Blending, stencil test and polygon stipple.
     pub const COVER: Touch = Touch(1 << 14);
+    /// Viewports, scissor rectangles and scissor tests by index: they differ from now on. [`Touch::RECTS`] goes with it.
+    pub const VIEWPORTS: Touch = Touch(1 << 15);
     /// Everything.
-    pub const ALL: Touch = Touch(0xffff_fffe);
+    pub const ALL: Touch = Touch(0xffff_fffe & !(1 << 15));
     /// Nothing.
     pub const NONE: Touch = Touch(0);
 
@@ -99,17 +103,6 @@ pub struct FixedMatrices {
     pub mode: u32,
     /// GL_PROJECTION_MATRIX.
     pub projection: [f32; 16],
-}
-
-/// Where pictures are drawn. Rectangles are x, y, width, height in the program's window space (origin at the lower left).
-#[derive(Debug, Default)]
-pub struct Rectangles {
-    /// GL_VIEWPORT (of index 0).
-    pub viewport: [i32; 4],
-    /// GL_SCISSOR_BOX (of index 0).
-    pub scissor: [i32; 4],
-    /// GL_SCISSOR_TEST.
-    pub scissor_test: bool,
 }
 
 /// Modes that decide whether primitives make a picture.
@@ -236,9 +229,8 @@ impl State {
     pub fn refresh(&mut self, gl: &Gl) {
         let touched = self.touched;
         if touched.has(Touch::RECTS) {
-            self.rectangles.viewport = gl.get_integers(c::VIEWPORT);
-            self.rectangles.scissor = gl.get_integers(c::SCISSOR_BOX);
-            self.rectangles.scissor_test = gl.is_enabled(c::SCISSOR_TEST);
+            let several = touched.has(Touch::VIEWPORTS) || self.rectangles.are_several();
+            self.rectangles = Rectangles::ask(gl, several);
         }
         if touched.has(Touch::PROJECTION) && self.has.compatibility {
             self.matrices.projection = gl.get_floats(c::PROJECTION_MATRIX);
@@ -253,8 +245,9 @@ impl State {
             }
             self.framebuffers.reread(gl);
         }
-        self.touched =
-            touched.without(Touch::RECTS | Touch::PROJECTION | Touch::MODE | Touch::OBJECTS);
+        self.touched = touched.without(
+            Touch::RECTS | Touch::VIEWPORTS | Touch::PROJECTION | Touch::MODE | Touch::OBJECTS,
+        );
     }
 
     /// Takes the program's errors out of the driver's queue, before the layer's own calls, which may raise errors. While errors are kept

@@ -2,6 +2,7 @@
 //!
 //! Every pass of the layer takes a [`Neutral`] as an argument, so that none can run in the program's state.
 
+use super::Rectangles;
 use crate::gl::{Gl, PixelStore, ProgramName, TextureName, VertexArrayName, consts as c};
 
 /// Capabilities that would spoil a copy of colours; off while we draw.
@@ -50,6 +51,8 @@ pub struct Neutral {
     enabled: Vec<u32>,
     colours: Colours,
     viewport: [i32; 4],
+    /// Where the program has set some by their index.
+    rectangles: Option<Rectangles>,
     polygon_mode: [u32; 2],
     pixels: PixelStore,
     /// `None` in a context without vertex arrays and array textures.
@@ -80,8 +83,10 @@ impl Context<'_> {
 }
 
 impl Neutral {
-    /// Saves the program's state and sets the neutral one; `compatibility`: the context has fixed function.
-    pub fn enter(gl: &Gl, compatibility: bool) -> Neutral {
+    /// Saves the program's state and sets the neutral one; `compatibility`: the context has fixed function;
+    /// `several`: the program has set viewports or scissor rectangles by their index.
+    pub fn enter(gl: &Gl, compatibility: bool, several: bool) -> Neutral {
+        let rectangles = several.then(|| Rectangles::ask(gl, true));
         let context = Context {
             gl,
             compatibility,
@@ -106,6 +111,7 @@ impl Neutral {
             enabled,
             colours,
             viewport: gl.get_integers(c::VIEWPORT),
+            rectangles,
             polygon_mode,
             pixels,
             objects,
@@ -122,6 +128,9 @@ impl Neutral {
         let [x, y, w, h] = self.viewport;
         gl.viewport(x, y, w, h);
         self.enabled.iter().for_each(|&e| gl.enable(e));
+        if let Some(rectangles) = self.rectangles {
+            rectangles.put(gl);
+        }
         self.colours.leave(gl);
         let [front, back] = self.polygon_mode;
         if front != back {

@@ -17,6 +17,7 @@
  *   texture-other  the same by another context */
 #include "drawables.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void sub(int other)

@@ -287,7 +287,10 @@ pub fn entry(commands: &[Command]) -> String {
                     "list_only" | "before_uncompiled" | "uniform" | "texture_parameter" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
                     "texture" => "texture(target)".into(),
                     "named" => format!("named(Object::{arg}({arg}Name({})))", c.params[0].name),
-                    _ => format!("cap({}, {})", c.params[0].name, name.starts_with("glEnable")),
+                    _ => {
+                        let hook = if c.params.len() > 1 { "cap_indexed" } else { "cap" };
+                        format!("{hook}({}, {})", c.params[0].name, name.starts_with("glEnable"))
+                    }
                 };
                 writeln!(o, "    hooks::{note};\n    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call}{}", if c.ret == "()" { ";" } else { "" }).unwrap();
             }

@@ -25,12 +25,24 @@ pub(crate) fn target_folder() -> &'static Path {
         .expect("a binary lies in a folder")
 }
 
+/// Whether the programs of the tests and the layer in them have 32 bits, which `make test-32` asks for.
+pub(crate) fn is_32_bit() -> bool {
+    std::env::var("MANYVIEW_TESTS_BITS").is_ok_and(|bits| bits == "32")
+}
+
 /// The layer's library.
 pub(crate) fn library() -> PathBuf {
-    let path = target_folder().join("libmanyview.so");
+    let folder = target_folder();
+    let (path, target) = match (is_32_bit(), folder.parent(), folder.file_name()) {
+        (true, Some(all), Some(profile)) => {
+            let folder = all.join("i686-unknown-linux-gnu").join(profile);
+            (folder.join("libmanyview.so"), "build-32")
+        }
+        _ => (folder.join("libmanyview.so"), "build"),
+    };
     assert!(
         path.is_file(),
-        "{} is missing: run `make build` first",
+        "{} is missing: run `make {target}` first",
         path.display()
     );
     path
@@ -38,10 +50,11 @@ pub(crate) fn library() -> PathBuf {
 
 /// A demo program of `examples/`, such as `gears`.
 pub(crate) fn demo(name: &str) -> PathBuf {
-    let path = target_folder().with_file_name("demos").join(name);
+    let target = if is_32_bit() { "demos-32" } else { "demos" };
+    let path = target_folder().with_file_name(target).join(name);
     assert!(
         path.is_file(),
-        "{} is missing: run `make demos` first",
+        "{} is missing: run `make {target}` first",
         path.display()
     );
     path
@@ -284,9 +297,18 @@ pub(crate) fn compiled(name: &str, kind: Compiled, libraries: &[&str]) -> PathBu
     built(name, &[source.as_path()], kind, libraries)
 }
 
+/// The folder, or a folder in it, of programs and libraries that the tests build.
+pub(crate) fn programs_folder(inside: &str) -> PathBuf {
+    let folder = match is_32_bit() {
+        true => "test-programs-32",
+        false => "test-programs",
+    };
+    scratch(&format!("{folder}/{inside}"))
+}
+
 /// Builds a library or a program from C files of the repository; `more` are the compiler's last arguments.
 pub(crate) fn built(name: &str, sources: &[&Path], kind: Compiled, more: &[&str]) -> PathBuf {
-    let folder = scratch("test-programs");
+    let folder = programs_folder("");
     let out = match kind {
         Compiled::Library => folder.join(format!("{name}.so")),
         Compiled::Program => folder.join(name),
@@ -298,6 +320,7 @@ pub(crate) fn built(name: &str, sources: &[&Path], kind: Compiled, more: &[&str]
         .into_temp_path();
     let mut command = Command::new("cc");
     command.args(["-O1", "-Wall", "-Wextra"]);
+    command.args(is_32_bit().then_some("-m32"));
     if let Compiled::Library = kind {
         command.args(["-shared", "-fPIC"]);
     }

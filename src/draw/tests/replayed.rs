@@ -6,7 +6,7 @@ use crate::atlas::{Grid, ViewSet};
 use crate::config::AtlasLayout::{Layers, SideBySide};
 use crate::gl::fake::Fake;
 use crate::gl::{FramebufferName, Vertices, consts as c};
-use crate::state::Effect;
+use crate::state::{Effect, Rectangles};
 use crate::view::ViewIndex;
 
 impl Stage {
@@ -392,15 +392,24 @@ fn what_begins_in_the_own_view_ends_in_the_others() {
     }
 }
 
-/// A known gap: the layer follows the first of several viewports, and glViewport sets all of them.
 #[test]
-#[should_panic(expected = "GL_VIEWPORT of index 1")]
-fn further_viewports_are_lost() {
+fn several_viewports_are_in_each_tile_and_come_back() {
     let mut stage = Stage::new(SideBySide, Grid::FULL);
-    stage.program(|gl| gl.viewport_indexed_f(1, 0.0, 0.0, 8.0, 8.0));
+    stage.program(|gl| {
+        gl.viewport_indexed_f(1, 0.5, 0.0, 8.0, 8.0);
+        gl.scissor_indexed(2, 1, 2, 3, 4);
+        gl.enablei(c::SCISSOR_TEST, 2);
+    });
+    stage.state.rectangles = Rectangles::ask(&stage.gl, true);
     let before = stage.fake.state();
     stage.replay(ReplayHazard::None, &mut |_| ());
     stage.fake.assert_restored(&before);
+    // In the tiles of four views, and where it was.
+    let mut placed = stage.fake.lines("glViewportIndexedf*");
+    placed.retain(|line| line.contains("(1, "));
+    placed.sort();
+    placed.dedup();
+    assert_eq!(placed.len(), 4, "{placed:?}");
 }
 
 #[test]

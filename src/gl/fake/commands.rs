@@ -264,6 +264,10 @@ impl Driver {
                 let place: Vec<f64> = (1..5).map(|at| call.number(at)).collect();
                 self.put(Scope::Index(first), c::VIEWPORT, &place);
             }
+            "glScissorIndexed" => {
+                let place: Vec<f64> = (1..5).map(|at| call.number(at)).collect();
+                self.put(Scope::Index(first), c::SCISSOR_BOX, &place);
+            }
             "glPolygonMode" => {
                 let mut modes = self.state.get(Scope::Context, c::POLYGON_MODE);
                 for (face, mode) in [c::FRONT, c::BACK].into_iter().zip(&mut modes) {

@@ -111,6 +111,7 @@ const OPAQUE: &[f64] = &[0.0, 0.0, 0.0, 1.0];
 const INITIAL: &[(u32, &[f64])] = &[
     (c::VIEWPORT, &[0.0; 4]),
     (c::SCISSOR_BOX, &[0.0; 4]),
+    (c::MAX_VIEWPORTS, &[16.0]),
     (c::COLOR_WRITEMASK, WHITE),
     (c::DEPTH_RANGE, &[0.0, 1.0]),
     (c::DEPTH_WRITEMASK, &[1.0]),

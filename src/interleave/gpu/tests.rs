@@ -33,7 +33,7 @@ impl Stage {
         let interleaver = Interleaver::new(&gl, names, glsl, None);
         gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         let fixed = !gl.is_es() && gl.get_integer(c::CONTEXT_PROFILE_MASK) == 2;
-        let neutral = Neutral::enter(&gl, fixed);
+        let neutral = Neutral::enter(&gl, fixed, false);
         fake.forget();
         Stage {
             fake,

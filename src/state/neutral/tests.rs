@@ -47,7 +47,7 @@ fn a_state_that_nobody_expects_comes_back() {
                 fake.program(|gl| gl.color_maski(0, 1, 0, 1, 0));
             }
             let before = fake.state();
-            let neutral = Neutral::enter(&gl, fixed);
+            let neutral = Neutral::enter(&gl, fixed, false);
             gl.viewport(1, 2, 3, 4);
             neutral.leave(&gl);
             let version = gl.get_string(c::VERSION);
@@ -65,7 +65,7 @@ fn passes_may_change_what_is_saved() {
         // Of the colour masks, that of the first draw buffer is neutral.
         fake.program(|gl| gl.color_mask(0, 0, 0, 0));
         let (gl, before) = (fake.gl(), fake.state());
-        let neutral = Neutral::enter(&gl, true);
+        let neutral = Neutral::enter(&gl, true, false);
         disturb(&gl);
         neutral.leave(&gl);
         let differences = before.differences(&fake.state());
@@ -98,7 +98,7 @@ fn passes_find_a_neutral_state() {
         let fake = Fake::new();
         fake.scramble(seed, true);
         let gl = fake.gl();
-        let neutral = Neutral::enter(&gl, true);
+        let neutral = Neutral::enter(&gl, true, false);
         let state = fake.state();
         let on: Vec<u32> = off
             .into_iter()
@@ -132,7 +132,7 @@ fn passes_find_a_neutral_state() {
 fn a_context_is_asked_only_for_what_it_has() {
     let fake = Fake::new().es(3, 0);
     let gl = fake.gl();
-    Neutral::enter(&gl, false).leave(&gl);
+    Neutral::enter(&gl, false, false).leave(&gl);
     let asked: Vec<String> = fake.asked().into_iter().map(|(what, _)| what).collect();
     for name in [
         "POLYGON_MODE",

@@ -18,7 +18,7 @@ static void *next(const char *name)
 {
     static void *(*look)(void *, const char *);
     if (!look)
-        look = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.2.5");
+        look = (void *(*)(void *, const char *))dlvsym(RTLD_NEXT, "dlsym", sizeof(void *) == 4 ? "GLIBC_2.0" : "GLIBC_2.2.5");
     return look(RTLD_NEXT, name);
 }
 
