@@ -27,7 +27,7 @@ PACKAGES_32 := gcc-multilib g++-multilib libgl1:i386 libegl1:i386 libgl1-mesa-dr
 	libgl-dev:i386 libegl-dev:i386 libx11-dev:i386 libpng-dev:i386 libglu1-mesa-dev:i386
 # Tests that preload the layer into programs of this project; not those that start them by `manyview`, which refuses 32-bit programs.
 TESTS_32 := answers cases conditions drawables front harm hosts memory oracle outputs passes passthrough quad random shaded
-NOT_32 := a_captured_picture_replaces_no_other_file
+NOT_32 := a_captured_picture_replaces_no_other_file capture_says_that_there_is_no_stereo_window
 # Packages of test-full only.
 FULL_PACKAGES := valgrind
 # Demo programs that `manyview bench` draws; they are installed with it.
