@@ -227,3 +227,47 @@ fn an_image_for_each_view_is_refused() {
         ],
     );
 }
+
+/// Gaps that are known: a mode that is mended fails here, and gets a test of its own (plans/drawables.md).
+#[test]
+#[ignore = "half a minute: make test-full"]
+fn full_gaps_are_still_there() {
+    const GAPS: [&str; 29] = [
+        "sub-other",
+        "blit",
+        "blit-scaled",
+        "copy-pixels",
+        "copy-texture",
+        "framebuffer",
+        "other",
+        "pixels",
+        "pixels-small",
+        "read-buffer",
+        "swap",
+        "then",
+        "egl-both",
+        "egl-formats",
+        "egl-none",
+        "egl-one",
+        "egl-read",
+        "glx-none",
+        "back",
+        "both",
+        "both-sharing",
+        "one",
+        "one-wide",
+        "pbuffer",
+        "pbuffer-other",
+        "thread",
+        "thread-both",
+        "two",
+        "two-wide",
+    ];
+    let (screen, program) = (own_screen(), program());
+    for mode in GAPS {
+        let [expected, _] = run(&screen, bare("timeout"), &program, mode);
+        let options = [("VIEWS", "3"), ("OUTPUT", "view:1")];
+        let [actual, _] = run(&screen, layered("timeout", &options), &program, mode);
+        assert_ne!(actual, expected, "{mode} is right now");
+    }
+}

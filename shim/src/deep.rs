@@ -6,7 +6,7 @@
 //! it has opened a library, and when a context is made current.
 
 use crate::exports::export;
-use crate::provider::{own, symbol};
+use crate::provider::{is_name_of_gl, own, symbol};
 use crate::switch::{self, Mode};
 use core::ffi::{CStr, c_char, c_void};
 use core::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
@@ -47,19 +47,6 @@ const KINDS: [usize; 2] = [6, 7];
 const KINDS: [usize; 2] = [1025, 1026];
 #[cfg(not(any(target_arch = "x86_64", target_arch = "x86", target_arch = "aarch64")))]
 const KINDS: [usize; 0] = [];
-
-/// Beginnings of the names of GL's own libraries, which call each other and are left alone.
-const GL: [&[u8]; 9] = [
-    b"libGL.so",
-    b"libGLX",
-    b"libGLdispatch.so",
-    b"libGLES",
-    b"libEGL",
-    b"libOpenGL.so",
-    b"libOSMesa.so",
-    b"libnvidia-",
-    b"libglapi.so",
-];
 
 const PT_LOAD: u32 = 1;
 const PT_DYNAMIC: u32 = 2;
@@ -168,7 +155,7 @@ impl Library<'_> {
     }
 
     fn is_gl(&self) -> bool {
-        GL.iter().any(|name| self.file.starts_with(name))
+        is_name_of_gl(self.file)
     }
 
     /// The first address, and the end of the last segment.

@@ -153,10 +153,25 @@ pub(crate) fn provider_of(p: *const c_void) -> Option<Provider> {
     [Provider::Gl, Provider::OsMesa].into_iter().find(holds)
 }
 
-/// Whether a file name could be that of a library of GL.
+/// Whether a file, without its folder, is named as one of GL's own libraries, which call each other.
+pub(crate) fn is_name_of_gl(file: &[u8]) -> bool {
+    const BEGINNINGS: [&str; 9] = [
+        "libGL.so",
+        "libGLX",
+        "libGLdispatch.so",
+        "libGLES",
+        "libEGL",
+        "libOpenGL.so",
+        "libOSMesa.so",
+        "libnvidia-",
+        "libglapi.so",
+    ];
+    BEGINNINGS.iter().any(|b| file.starts_with(b.as_bytes()))
+}
+
+/// Whether an address lies in a library that is named as one of GL's.
 pub(crate) fn is_named_as_gl(p: *const c_void) -> bool {
-    let names = ["libGL", "libEGL", "libOpenGL", "libOSMesa"];
-    object(p).is_some_and(|(_, file)| names.iter().any(|n| file.starts_with(n.as_bytes())))
+    object(p).is_some_and(|(_, file)| is_name_of_gl(&file))
 }
 
 unsafe extern "C" {

@@ -169,7 +169,7 @@ impl StateGuard {
         gl.use_program(ProgramName::ZERO);
         self.pixel_sizes.leave(gl);
         if self.placed {
-            state.rectangles.put(gl);
+            state.rectangles.put_in_force(gl);
         }
         atlas.bind_row(gl, 0);
     }

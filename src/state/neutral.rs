@@ -50,13 +50,20 @@ enum Needs {
 pub struct Neutral {
     enabled: Vec<u32>,
     colours: Colours,
-    viewport: [i32; 4],
-    /// Where the program has set some by their index.
-    rectangles: Option<Rectangles>,
+    viewports: Viewports,
     polygon_mode: [u32; 2],
     pixels: PixelStore,
     /// `None` in a context without vertex arrays and array textures.
     objects: Option<Objects>,
+}
+
+/// What the viewport of a pass replaces.
+#[derive(Debug)]
+enum Viewports {
+    /// One viewport, which is that of all indices.
+    One([i32; 4]),
+    /// By index, with scissor tests, which are switched by index as well.
+    Several(Rectangles),
 }
 
 /// The properties of the context that decide which state is saved.
@@ -86,7 +93,10 @@ impl Neutral {
     /// Saves the program's state and sets the neutral one; `compatibility`: the context has fixed function;
     /// `several`: the program has set viewports or scissor rectangles by their index.
     pub fn enter(gl: &Gl, compatibility: bool, several: bool) -> Neutral {
-        let rectangles = several.then(|| Rectangles::ask(gl, true));
+        let viewports = match several {
+            true => Viewports::Several(Rectangles::ask(gl, true)),
+            false => Viewports::One(gl.get_integers(c::VIEWPORT)),
+        };
         let context = Context {
             gl,
             compatibility,
@@ -110,8 +120,7 @@ impl Neutral {
         Neutral {
             enabled,
             colours,
-            viewport: gl.get_integers(c::VIEWPORT),
-            rectangles,
+            viewports,
             polygon_mode,
             pixels,
             objects,
@@ -125,11 +134,10 @@ impl Neutral {
 
     /// Restores the program's state. Framebuffer bindings are the caller's.
     pub fn leave(self, gl: &Gl) {
-        let [x, y, w, h] = self.viewport;
-        gl.viewport(x, y, w, h);
         self.enabled.iter().for_each(|&e| gl.enable(e));
-        if let Some(rectangles) = self.rectangles {
-            rectangles.put(gl);
+        match self.viewports {
+            Viewports::One([x, y, w, h]) => gl.viewport(x, y, w, h),
+            Viewports::Several(rectangles) => rectangles.put(gl),
         }
         self.colours.leave(gl);
         let [front, back] = self.polygon_mode;

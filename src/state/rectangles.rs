@@ -48,6 +48,19 @@ impl Rectangles {
         }
     }
 
+    /// Sets again the viewport, and the scissor rectangle where it is in force: all that a draw moves which leaves the scissor test alone.
+    pub fn put_in_force(&self, gl: &Gl) {
+        if self.are_several() {
+            return self.put(gl);
+        }
+        let [x, y, w, h] = self.viewport;
+        gl.viewport(x, y, w, h);
+        if self.scissor_test {
+            let [x, y, w, h] = self.scissor;
+            gl.scissor(x, y, w, h);
+        }
+    }
+
     /// Whether the program has set some by their index.
     pub fn are_several(&self) -> bool {
         !self.indexed.is_empty()

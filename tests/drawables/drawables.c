@@ -99,6 +99,17 @@ void middle(int colour)
     glRectf(-0.75f, -0.75f, 0.75f, 0.75f);
 }
 
+void use_framebuffer(void)
+{
+    GLuint name, colours;
+    glGenFramebuffers(1, &name);
+    glGenRenderbuffers(1, &colours);
+    glBindFramebuffer(GL_FRAMEBUFFER, name);
+    glBindRenderbuffer(GL_RENDERBUFFER, colours);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, SIZE, SIZE);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colours);
+}
+
 void shown(const char *what, Drawable drawable)
 {
     XSync(display, False);

@@ -23,6 +23,8 @@ void use(GLXDrawable draw, GLXDrawable read, GLXContext context);
 void clear(int colour);
 /* A rectangle in the middle of what is drawn to. */
 void middle(int colour);
+/* Binds a new framebuffer of SIZE x SIZE pixels. */
+void use_framebuffer(void);
 /* Prints the corner and the middle of a window or pixmap as X has them. Nothing is flushed before it but the connection. */
 void shown(const char *what, Drawable drawable);
 /* Prints the same of the read buffer, and the error that is set. */

@@ -61,16 +61,10 @@ static void front(int left)
 
 static void single_blit(void)
 {
-    GLuint name, colours;
     open_display(1);
     Window a = open_window(0);
     use(a, a, open_context(NULL));
-    glGenFramebuffers(1, &name);
-    glGenRenderbuffers(1, &colours);
-    glBindFramebuffer(GL_FRAMEBUFFER, name);
-    glBindRenderbuffer(GL_RENDERBUFFER, colours);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, SIZE, SIZE);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colours);
+    use_framebuffer();
     clear(RED);
     middle(WHITE);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);

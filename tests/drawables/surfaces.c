@@ -1,7 +1,6 @@
 /* The same with EGL, and contexts without a drawable:
  *
  *   egl-read         a surface to draw to, and another one to read from
- *   egl-read-alone   a surface to read from, and none to draw to
  *   egl-one          one context with two windows in turn, of which only the current one may be swapped
  *   egl-two          a context for each window
  *   egl-both         two contexts draw to one window
@@ -72,7 +71,7 @@ static void swap(const char *what, EGLSurface of)
     printf("swap of %s: %u, error 0x%x\n", what, done, eglGetError());
 }
 
-static void read_from(int alone)
+static void read_from(void)
 {
     open_egl();
     Window a = open_window(0);
@@ -84,11 +83,6 @@ static void read_from(int alone)
     bind("window", window, window, first);
     clear(RED);
     middle(WHITE);
-    if (alone) {
-        bind("pbuffer alone", EGL_NO_SURFACE, aside, first);
-        pixels("window");
-        return;
-    }
     bind("both", window, aside, first);
     pixels("pbuffer");
     glBlitFramebuffer(0, 0, SIZE, SIZE, 0, 0, SIZE, SIZE / 2 + 8, GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -228,13 +222,7 @@ static void post(void)
 /* Binds a framebuffer with a renderbuffer, and prints what becomes of a clear. */
 static void beside(void)
 {
-    GLuint name, colours;
-    glGenFramebuffers(1, &name);
-    glGenRenderbuffers(1, &colours);
-    glBindFramebuffer(GL_FRAMEBUFFER, name);
-    glBindRenderbuffer(GL_RENDERBUFFER, colours);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, SIZE, SIZE);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colours);
+    use_framebuffer();
     clear(GREEN);
     pixels("framebuffer");
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -282,8 +270,8 @@ static void glx_none(void)
 
 int surfaces(const char *mode)
 {
-    if (is(mode, "egl-read") || is(mode, "egl-read-alone"))
-        read_from(is(mode, "egl-read-alone"));
+    if (is(mode, "egl-read"))
+        read_from();
     else if (is(mode, "egl-one") || is(mode, "egl-two"))
         in_turn(is(mode, "egl-one") ? 1 : 2);
     else if (is(mode, "egl-both"))

@@ -43,6 +43,13 @@ static void exist(GLuint first, GLuint last)
 static void asks(GLuint list, const char *way)
 {
     printf("eight: %u\n", glGenLists(8));
+    /* The layer keeps several lists of its own for this one, which lie above all names of the program. */
+    glNewList(1, GL_COMPILE);
+    square(-1, 1, 1);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    square(0, 1, 1);
+    glEndList();
     glDeleteLists(3, 4);
     glNewList(list, strcmp(way, "execute") ? GL_COMPILE : GL_COMPILE_AND_EXECUTE);
     if (strcmp(way, "empty"))
