@@ -3,8 +3,10 @@
 use crate::caller::{Caller, Calls, Passing, caller};
 use crate::control;
 use crate::deep;
-use crate::drawable::{self, Drawable};
+use crate::drawable::{self, Drawable, Pair};
+use crate::drawables;
 use crate::fault;
+use crate::geometry::Seen;
 use crate::keys;
 use crate::live;
 use crate::messages::{self, Receiver};
@@ -17,7 +19,7 @@ use crate::switch::{self, Mode, say, say_once, turn_off};
 use crate::uncancelled::Uncancelled;
 use core::cell::Cell;
 use manyview_core::gl::{Gl, Ptr, Real};
-use manyview_core::layer::{Frames, Layer};
+use manyview_core::layer::{CurrentDrawable, Frames, Layer};
 
 /// The state of a thread. It has no destructor, because threads may call GL while they end.
 struct Thread {
@@ -252,22 +254,22 @@ fn give_up(why: &str) {
     }
 }
 
-/// Whether this thread already has a context current with a drawable, so that MakeCurrent changes nothing.
-pub(crate) fn is_current(provider: Provider, handle: Ptr, drawable: Drawable) -> bool {
+/// Whether this thread already has a context current with these drawables, so that MakeCurrent changes nothing.
+pub(crate) fn is_current(provider: Provider, handle: Ptr, drawables: Option<Pair>) -> bool {
     let is = |c: &Context| {
-        c.key == (provider, handle) && c.drawable.get() == drawable && !registry::is_destroyed(c)
+        c.key == (provider, handle) && c.drawables.get() == drawables && !registry::is_destroyed(c)
     };
     current(is) == Some(true)
 }
 
 /// Whether the current context draws to this drawable.
 pub(crate) fn draws_to(drawable: Drawable) -> bool {
-    current(|c| c.drawable.get() == drawable) == Some(true)
+    current(|c| c.draws_to() == Some(drawable)) == Some(true)
 }
 
 /// After a successful MakeCurrent of the program: sets up the layer of the context, or resumes the one that it has. With a null handle
 /// or without a drawable, the thread has nothing to draw to.
-pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Drawable>) {
+pub(crate) fn made_current(provider: Provider, handle: Ptr, drawables: Option<Pair>) {
     // The call comes from the driver or the layer, inside a call that has a hook of its own.
     if caller() != Caller::Program {
         return;
@@ -275,25 +277,27 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
     set_inside(Inside::Outside);
     sheltered(release);
     THREAD.with(|t| t.provider.set((!handle.is_null()).then_some(provider)));
-    let (Some(drawable), false) = (drawable, handle.is_null()) else {
+    if handle.is_null() {
+        return;
+    }
+    let key = (provider, handle);
+    let Some(current_ones) = sheltered(|| take(key, drawables)).flatten() else {
         return;
     };
-    let Some((width, height)) = sheltered(|| take((provider, handle), drawable)).flatten() else {
-        return;
-    };
-    let moved = current(|c| c.drawable.replace(drawable) != drawable) == Some(true);
+    current(|c| c.drawables.set(drawables));
     let outcome = with_context(|gl, c, work| {
+        let [draw, _] = current_ones;
         let outcome = match (&mut work.layer, &mut work.frames) {
-            (None, None) if work.refused => Ok(()),
-            (None, None) => attach(gl, c.key, work, width, height),
-            (Some(l), _) if moved || l.size() != (width, height) => {
-                l.resize(gl, width, height).map_err(|e| e.to_string())
-            }
-            (_, Some(f)) => {
-                f.resize(width, height);
+            (None, None) if work.refused || drawables.is_none() => Ok(()),
+            (None, None) => attach(gl, c.key, work, current_ones),
+            (Some(l), _) => {
+                switch_to(gl, l, c.key, current_ones);
                 Ok(())
             }
-            _ => Ok(()),
+            (_, Some(f)) => {
+                f.resize(draw.size.0, draw.size.1);
+                Ok(())
+            }
         };
         match &mut work.layer {
             Some(_) if outcome.is_err() => {
@@ -313,30 +317,61 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
     }
 }
 
-/// Makes a context that the driver has made current that of this thread. Returns the size of its drawable, in pixels; None where the context
-/// is left alone.
-fn take(key: Key, drawable: Drawable) -> Option<(u32, u32)> {
+/// Says what the layer has to say at once.
+fn announce(layer: &mut Layer) {
+    layer
+        .take_announced()
+        .iter()
+        .for_each(|said| say_once(said));
+}
+
+fn switch_to(gl: &Gl, layer: &mut Layer, key: Key, current: [CurrentDrawable; 2]) {
+    let elsewhere = |id| drawables::drawn_elsewhere(id, key);
+    layer.switch(gl, current, &elsewhere, &drawables::lives);
+    announce(layer);
+}
+
+/// Makes a context that the driver has made current that of this thread. Returns its drawables, that to draw to first; None where the
+/// context is left alone. Without a drawable, a context is left alone that never had one.
+fn take(key: Key, drawables: Option<Pair>) -> Option<[CurrentDrawable; 2]> {
     if switch::off() && !registry::knows(key) {
         return None;
     }
     deep::rebind_new_libraries();
-    let size = drawable::first_size(drawable)?;
-    let Some(context) = registry::take(key, || Context::new(key, drawable)) else {
+    let current = match drawables {
+        Some(Pair { draw, read }) => {
+            let current = |drawable| {
+                let (id, size) = (drawables::id(drawable), drawable::first_size(drawable)?);
+                Some(CurrentDrawable { id, size })
+            };
+            let drawn = current(draw)?;
+            let read = if read == draw { None } else { current(read) };
+            [drawn, read.unwrap_or(drawn)]
+        }
+        None if registry::knows(key) => [CurrentDrawable::NONE; 2],
+        None => return None,
+    };
+    let Some(context) = registry::take(key, || Context::new(key, drawables)) else {
         say("a context is current on two threads; the second one shows it as it is");
         return None;
     };
     THREAD.with(|t| t.context.set(context));
-    Some(size)
+    Some(current)
 }
 
-fn attach(gl: &Gl, key: Key, work: &mut Work, width: u32, height: u32) -> Result<(), String> {
+fn attach(gl: &Gl, key: Key, work: &mut Work, current: [CurrentDrawable; 2]) -> Result<(), String> {
     match (switch::mode(), switch::config()) {
         (Mode::Active, Some(config)) => {
             let member = shares::member(key.0, key.1);
-            let layer = Layer::new(gl, config, width, height, member);
-            work.layer = Some(layer.map_err(|e| e.to_string())?);
+            let layer = Layer::new(gl, config, current[0], member).map_err(|e| e.to_string())?;
+            let layer = work.layer.insert(layer);
+            announce(layer);
+            switch_to(gl, layer, key, current);
         }
-        (Mode::Observe, Some(config)) => work.frames = Some(Frames::new(config, width, height)),
+        (Mode::Observe, Some(config)) => {
+            let (width, height) = current[0].size;
+            work.frames = Some(Frames::new(config, width, height));
+        }
         _ => {}
     }
     Ok(())
@@ -389,8 +424,12 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
             if let Some(l) = &mut work.layer {
                 control::before(l);
                 keys::before(l);
-                if l.follows_window() {
-                    l.moved(drawable::place(c.drawable.get(), l.size(), &mut work.seen));
+                let kept = drawable.is_none() || !l.has_back_buffer();
+                if let Some(draw) = c.draws_to() {
+                    follow_window(l, draw, &mut work.seen);
+                    if l.drawn() {
+                        drawables::drawn_by(drawables::id(draw), kept.then_some(c.key));
+                    }
                 }
                 l.show(gl, drawable.is_some());
             }
@@ -407,7 +446,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
                 l.count_frame();
                 live::adopt(l);
                 // Keys come first, so that no client of the socket gets a picture that a key asked for.
-                keys::after(l, || drawable::window(c.drawable.get()));
+                keys::after(l, || c.draws_to().and_then(drawable::window));
                 control::after(l);
             }
             if let Some(f) = &mut work.frames {
@@ -415,8 +454,24 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
             }
         });
         check_size();
+    } else if let Some(id) = drawable.and_then(drawables::known) {
+        with_context(|_, _, work| {
+            drawables::drawn_by(id, None);
+            if let Some(l) = &mut work.layer
+                && l.shown_aside(id)
+            {
+                l.count_frame();
+            }
+        });
     }
     r
+}
+
+/// Tells the layer where the window is, where its picture depends on that.
+fn follow_window(layer: &mut Layer, drawable: Drawable, seen: &mut Option<Seen>) {
+    if layer.follows_window() {
+        layer.moved(drawable::place(drawable, layer.size(), seen));
+    }
 }
 
 /// The program sets its viewport to a size. A size that it did not use before may be the new size of the window.
@@ -432,25 +487,22 @@ pub(crate) fn viewport_set(width: i32, height: i32) {
 
 /// Follows the size of the drawable. Called at the swap and at a viewport of a new size, which are safe moments on the GL thread.
 fn check_size() {
-    let failed = with_context(|gl, c, work| {
-        let (w, h) = drawable::size(c.drawable.get())?;
+    with_context(|gl, c, work| {
+        let (w, h) = drawable::size(c.draws_to()?)?;
         work.viewports.window_has((w, h));
         if let Some(f) = &mut work.frames {
             f.resize(w, h);
         }
         let l = work.layer.as_mut().filter(|l| l.can_resize())?;
-        l.resize(gl, w, h).err().map(|e| e.to_string())
+        l.resize(gl, w, h);
+        announce(l);
+        Some(())
     });
-    if let Some(Some(e)) = failed {
-        give_up(&e);
-        // This context gets its framebuffer 0 back now, others at their next call.
-        enter(|_, _| ());
-    }
 }
 
 /// Whether the current context draws to the program's memory (OSMesa).
 pub(crate) fn draws_to_memory() -> bool {
-    current(|c| matches!(c.drawable.get(), Drawable::Memory(..))) == Some(true)
+    current(|c| matches!(c.draws_to(), Some(Drawable::Memory(..)))) == Some(true)
 }
 
 /// Writes back the program's textures if other contexts can read them.
@@ -474,12 +526,42 @@ pub(crate) fn show_flushed<R>(call: impl FnOnce() -> R) -> R {
     }
 }
 
-/// The program is about to leave its context, which flushes. Anything that it has drawn to its memory (OSMesa) since its last glFinish is a
-/// frame.
-pub(crate) fn leave_context() {
+/// The program is about to leave its context, which flushes, for `next` with other drawables. Anything that it has drawn to its memory
+/// (OSMesa) since its last glFinish is a frame. Of a window's back buffer, the true framebuffer 0 gets the picture.
+pub(crate) fn leave_context(next: Key, drawables: Option<Pair>) {
     show_flushed(|| ());
-    if draws_to_memory() && is_drawn() {
+    if !draws_to_memory() {
+        leave_drawable(next, drawables);
+    } else if is_drawn() {
         // SAFETY: the context is still current.
         frame(None, || unsafe { Provider::OsMesa.real().glFinish() });
     }
+}
+
+fn leave_drawable(next: Key, next_drawables: Option<Pair>) {
+    with_context(|gl, c, work| {
+        let _quiet = Quiet::new();
+        let layer = work.layer.as_mut()?;
+        let draw = c.draws_to()?;
+        let id = drawables::id(draw);
+        if layer.is_ahead() {
+            drawables::drawn_by(id, Some(c.key));
+        }
+        let handed_over = next != c.key
+            && next_drawables.is_some_and(|d| d.draw == draw || d.read == draw)
+            && drawables::drawn_elsewhere(id, next);
+        follow_window(layer, draw, &mut work.seen);
+        layer.leave_drawable(gl, handed_over);
+        Some(())
+    });
+}
+
+/// Makes a call after which another thread may show what was drawn.
+pub(crate) fn show_finished<R>(call: impl FnOnce() -> R) -> R {
+    if !draws_to_memory() && registry::threads() > 1 {
+        let this = current(|c| (c.key, c.drawables.get()));
+        this.into_iter()
+            .for_each(|(key, drawables)| leave_drawable(key, drawables));
+    }
+    show_flushed(call)
 }

@@ -19,6 +19,23 @@ pub(crate) enum Drawable {
     Memory(u32, u32),
 }
 
+/// The drawables that a context has current: one to draw to, and one to read from. Mostly they are the same.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Pair {
+    pub(crate) draw: Drawable,
+    pub(crate) read: Drawable,
+}
+
+impl Pair {
+    /// The same one for both.
+    pub(crate) fn of(drawable: Drawable) -> Pair {
+        Pair {
+            draw: drawable,
+            read: drawable,
+        }
+    }
+}
+
 /// The name of the X display and the window behind a GLX drawable. None for other drawables.
 pub(crate) fn window(drawable: Drawable) -> Option<(String, u32)> {
     match drawable {

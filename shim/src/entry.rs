@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1781] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1786] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1706,6 +1706,10 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1781] = [
     AtomicPtr::new(first_glXDestroyContext as *mut ()),
     AtomicPtr::new(first_glXCreateWindow as *mut ()),
     AtomicPtr::new(first_glXDestroyWindow as *mut ()),
+    AtomicPtr::new(first_glXDestroyPbuffer as *mut ()),
+    AtomicPtr::new(first_glXDestroyGLXPbufferSGIX as *mut ()),
+    AtomicPtr::new(first_glXDestroyPixmap as *mut ()),
+    AtomicPtr::new(first_glXDestroyGLXPixmap as *mut ()),
     AtomicPtr::new(first_glXGetProcAddress as *mut ()),
     AtomicPtr::new(first_glXGetProcAddressARB as *mut ()),
     AtomicPtr::new(core::ptr::null_mut()),
@@ -1730,6 +1734,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1781] = [
     AtomicPtr::new(first_eglCreatePlatformWindowSurface as *mut ()),
     AtomicPtr::new(first_eglCreatePlatformWindowSurfaceEXT as *mut ()),
     AtomicPtr::new(first_eglDestroySurface as *mut ()),
+    AtomicPtr::new(first_eglTerminate as *mut ()),
     AtomicPtr::new(first_eglGetProcAddress as *mut ()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
@@ -1792,7 +1797,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1781] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1781] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1786] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -3491,6 +3496,10 @@ pub(crate) static HOOK: [Option<crate::Address>; 1781] = [
     Some(crate::Address(hook_glXDestroyContext as *const ())),
     Some(crate::Address(hook_glXCreateWindow as *const ())),
     Some(crate::Address(hook_glXDestroyWindow as *const ())),
+    Some(crate::Address(hook_glXDestroyPbuffer as *const ())),
+    Some(crate::Address(hook_glXDestroyGLXPbufferSGIX as *const ())),
+    Some(crate::Address(hook_glXDestroyPixmap as *const ())),
+    Some(crate::Address(hook_glXDestroyGLXPixmap as *const ())),
     Some(crate::Address(hook_glXGetProcAddress as *const ())),
     Some(crate::Address(hook_glXGetProcAddressARB as *const ())),
     None,
@@ -3515,6 +3524,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1781] = [
     Some(crate::Address(hook_eglCreatePlatformWindowSurface as *const ())),
     Some(crate::Address(hook_eglCreatePlatformWindowSurfaceEXT as *const ())),
     Some(crate::Address(hook_eglDestroySurface as *const ())),
+    Some(crate::Address(hook_eglTerminate as *const ())),
     Some(crate::Address(hook_eglGetProcAddress as *const ())),
     None,
     None,
@@ -3578,7 +3588,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1781] = [
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1781] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1786] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -5277,6 +5287,10 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1781] = [
     Some(zeros_glXDestroyContext),
     Some(zeros_glXCreateWindow),
     Some(zeros_glXDestroyWindow),
+    Some(zeros_glXDestroyPbuffer),
+    Some(zeros_glXDestroyGLXPbufferSGIX),
+    Some(zeros_glXDestroyPixmap),
+    Some(zeros_glXDestroyGLXPixmap),
     Some(zeros_glXGetProcAddress),
     Some(zeros_glXGetProcAddressARB),
     None,
@@ -5301,6 +5315,7 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1781] = [
     Some(zeros_eglCreatePlatformWindowSurface),
     Some(zeros_eglCreatePlatformWindowSurfaceEXT),
     Some(zeros_eglDestroySurface),
+    Some(zeros_eglTerminate),
     Some(zeros_eglGetProcAddress),
     None,
     None,
@@ -5363,35 +5378,36 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1781] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1728] = [
-    (b"OSMesaCreateContext", 1728, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1730, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1729, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1731, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1732, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1727, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglBindTexImage", 1710, crate::Address(eglBindTexImage as *const ())),
-    (b"eglCopyBuffers", 1707, crate::Address(eglCopyBuffers as *const ())),
-    (b"eglCreateContext", 1712, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1719, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1720, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1718, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1713, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1721, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1715, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1716, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1717, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1722, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1711, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglPostSubBufferNV", 1704, crate::Address(eglPostSubBufferNV as *const ())),
-    (b"eglReleaseThread", 1714, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1701, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersRegion2NOK", 1706, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
-    (b"eglSwapBuffersRegionNOK", 1705, crate::Address(eglSwapBuffersRegionNOK as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1703, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1702, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"eglWaitClient", 1709, crate::Address(eglWaitClient as *const ())),
-    (b"eglWaitGL", 1708, crate::Address(eglWaitGL as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
+    (b"OSMesaCreateContext", 1733, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1735, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1734, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1736, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1737, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1732, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglBindTexImage", 1714, crate::Address(eglBindTexImage as *const ())),
+    (b"eglCopyBuffers", 1711, crate::Address(eglCopyBuffers as *const ())),
+    (b"eglCreateContext", 1716, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1723, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1724, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1722, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1717, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1725, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1719, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1720, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1721, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1727, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1715, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglPostSubBufferNV", 1708, crate::Address(eglPostSubBufferNV as *const ())),
+    (b"eglReleaseThread", 1718, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1705, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersRegion2NOK", 1710, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
+    (b"eglSwapBuffersRegionNOK", 1709, crate::Address(eglSwapBuffersRegionNOK as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1707, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1706, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"eglTerminate", 1726, crate::Address(eglTerminate as *const ())),
+    (b"eglWaitClient", 1713, crate::Address(eglWaitClient as *const ())),
+    (b"eglWaitGL", 1712, crate::Address(eglWaitGL as *const ())),
     (b"glAccum", 1391, crate::Address(glAccum as *const ())),
     (b"glActiveStencilFaceEXT", 819, crate::Address(glActiveStencilFaceEXT as *const ())),
     (b"glActiveTexture", 555, crate::Address(glActiveTexture as *const ())),
@@ -7082,9 +7098,13 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1728] = [
     (b"glXCreateNewContext", 1692, crate::Address(glXCreateNewContext as *const ())),
     (b"glXCreateWindow", 1696, crate::Address(glXCreateWindow as *const ())),
     (b"glXDestroyContext", 1695, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyGLXPbufferSGIX", 1699, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
+    (b"glXDestroyGLXPixmap", 1701, crate::Address(glXDestroyGLXPixmap as *const ())),
+    (b"glXDestroyPbuffer", 1698, crate::Address(glXDestroyPbuffer as *const ())),
+    (b"glXDestroyPixmap", 1700, crate::Address(glXDestroyPixmap as *const ())),
     (b"glXDestroyWindow", 1697, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1698, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1699, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXGetProcAddress", 1702, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1703, crate::Address(glXGetProcAddressARB as *const ())),
     (b"glXMakeContextCurrent", 1689, crate::Address(glXMakeContextCurrent as *const ())),
     (b"glXMakeCurrent", 1688, crate::Address(glXMakeCurrent as *const ())),
     (b"glXMakeCurrentReadSGI", 1690, crate::Address(glXMakeCurrentReadSGI as *const ())),
@@ -19102,123 +19122,143 @@ export! { 1697, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow,
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1698, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1698, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glXDestroyPbuffer(dpy, pbuf) }
+} }
+export! { 1699, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glXDestroyGLXPbufferSGIX(dpy, pbuf) }
+} }
+export! { 1700, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glXDestroyPixmap(dpy, pixmap) }
+} }
+export! { 1701, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glXDestroyGLXPixmap(dpy, pixmap) }
+} }
+export! { 1702, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1699, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1703, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1701, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1705, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1702, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1706, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1703, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1707, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1704, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
+export! { 1708, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglPostSubBufferNV(dpy, surface, x, y, width, height) }
 } }
-export! { 1705, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1709, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegionNOK(dpy, surface, numRects, rects) }
 } }
-export! { 1706, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1710, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegion2NOK(dpy, surface, numRects, rects) }
 } }
-export! { 1707, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
+export! { 1711, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCopyBuffers(dpy, surface, target) }
 } }
-export! { 1708, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
+export! { 1712, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitGL() }
 } }
-export! { 1709, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
+export! { 1713, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitClient() }
 } }
-export! { 1710, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
+export! { 1714, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglBindTexImage(dpy, surface, buffer) }
 } }
-export! { 1711, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1715, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1712, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1716, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1713, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1717, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1714, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
+export! { 1718, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1715, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1719, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1716, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1720, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1717, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1721, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1718, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1722, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1719, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1723, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1720, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1724, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1721, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1725, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1722, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1726, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::eglTerminate(dpy) }
+} }
+export! { 1727, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1727, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1732, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1728, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1733, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1729, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1734, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1730, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1735, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1731, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1736, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1732, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1737, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

@@ -9,6 +9,7 @@ mod control;
 mod deep;
 mod dl;
 mod drawable;
+mod drawables;
 #[rustfmt::skip]
 #[allow(non_snake_case, unreachable_pub, unused_unsafe, clippy::missing_safety_doc, clippy::too_many_arguments, clippy::not_unsafe_ptr_arg_deref, reason = "generated; the names and signatures are the API's own, the contract of each is the API's")]
 mod entry;

@@ -1,6 +1,6 @@
 //! The record of a context of the program.
 
-use crate::drawable::Drawable;
+use crate::drawable::{Drawable, Pair};
 use crate::geometry::Seen;
 use crate::messages::Receiver;
 use crate::provider::Provider;
@@ -17,7 +17,8 @@ pub(crate) struct Context {
     pub(crate) key: Key,
     /// The driver's functions, from the first time that the context was current.
     pub(crate) gl: OnceCell<Gl>,
-    pub(crate) drawable: Cell<Drawable>,
+    /// Those that it was last current with; none where it was current without any.
+    pub(crate) drawables: Cell<Option<Pair>>,
     /// The program's debug callback, once it has set one.
     pub(crate) receiver: OnceCell<&'static Receiver>,
     /// Borrowed by the hook at work: a call from inside the layer or the driver finds it borrowed and passes.
@@ -40,11 +41,11 @@ pub(crate) struct Work {
 }
 
 impl Context {
-    pub(crate) fn new(key: Key, drawable: Drawable) -> Context {
+    pub(crate) fn new(key: Key, drawables: Option<Pair>) -> Context {
         Context {
             key,
             gl: OnceCell::new(),
-            drawable: Cell::new(drawable),
+            drawables: Cell::new(drawables),
             receiver: OnceCell::new(),
             work: RefCell::new(Work {
                 seen: None,
@@ -55,5 +56,10 @@ impl Context {
                 frames: None,
             }),
         }
+    }
+
+    /// The drawable that it draws to.
+    pub(crate) fn draws_to(&self) -> Option<Drawable> {
+        self.drawables.get().map(|drawables| drawables.draw)
     }
 }

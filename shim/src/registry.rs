@@ -66,6 +66,12 @@ pub(crate) fn knows(key: Key) -> bool {
     registry.0.iter().any(|e| e.key == key && !e.destroyed)
 }
 
+/// The number of threads that have a context.
+pub(crate) fn threads() -> usize {
+    let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    registry.0.iter().filter(|e| e.thread.is_some()).count()
+}
+
 /// Whether a thread has ended. A thread that ends with a context current never releases it.
 fn is_gone(thread: c_int) -> bool {
     // SAFETY: signal 0 only asks whether the thread is there.
@@ -120,6 +126,7 @@ pub(crate) fn is_destroyed(context: *const Context) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawable::{Drawable, Pair};
     use crate::provider::Provider;
 
     fn key(handle: usize) -> Key {
@@ -127,7 +134,7 @@ mod tests {
     }
 
     fn made(key: Key) -> Context {
-        Context::new(key, crate::drawable::Drawable::Memory(1, 1))
+        Context::new(key, Some(Pair::of(Drawable::Memory(1, 1))))
     }
 
     fn taken(key: Key) -> Option<usize> {

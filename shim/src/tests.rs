@@ -2,7 +2,7 @@
 //! read the same state as without the layer.
 
 use crate::context::{self, guarded};
-use crate::drawable::Drawable;
+use crate::drawable::{Drawable, Pair};
 use crate::entry::*;
 use crate::provider::Provider;
 use crate::switch;
@@ -63,8 +63,8 @@ impl Program {
         });
         switch::configure(config.expect("options"));
         DRIVER.set(Some(fake.real()));
-        let drawable = Some(Drawable::Memory(SIZE.0, SIZE.1));
-        context::made_current(Provider::Gl, handle(), drawable);
+        let drawables = Some(Pair::of(Drawable::Memory(SIZE.0, SIZE.1)));
+        context::made_current(Provider::Gl, handle(), drawables);
         assert!(context::enter(|_, _| ()).is_some(), "a layer");
         let program = Program { fake };
         program.look();

@@ -17,18 +17,30 @@ pub(super) struct Front {
 
 impl Atlas {
     /// Makes the front buffer: after the first swap (`swapped`) with the contents of the back buffer, before it undefined. The caller saves
-    /// and restores bindings as for [`Atlas::new`] and the draw and read buffers of all framebuffers; the scissor test must be off.
-    pub fn make_front(&mut self, gl: &Gl, names: &mut Names, window: &Window, swapped: bool) {
+    /// and restores bindings as for [`Atlas::new`] and the draw and read buffers of all framebuffers; the scissor test must be off. False
+    /// where the driver makes none.
+    pub fn make_front(
+        &mut self,
+        gl: &Gl,
+        names: &mut Names,
+        window: &Window,
+        swapped: bool,
+    ) -> bool {
         let t = self.tiles;
         let size = [t.texture_width(), t.height, t.rows].map(|n| n as i32);
         let texture = names.texture(gl);
         store(gl, texture, color_format(window), size);
         self.textures.push(texture);
         self.attach_front(gl, texture);
+        if gl.check_framebuffer_status(c::DRAW_FRAMEBUFFER) != c::FRAMEBUFFER_COMPLETE {
+            self.drop_front(gl, texture);
+            return false;
+        }
         self.front = Some(Front { texture, idle: 0 });
         if swapped {
             self.copy_to_front(gl);
         }
+        true
     }
 
     fn attach_front(&self, gl: &Gl, texture: TextureName) {
@@ -40,6 +52,12 @@ impl Atlas {
             gl.bind_framebuffer(c::FRAMEBUFFER, layered);
             gl.framebuffer_texture(c::FRAMEBUFFER, FRONT, texture, 0);
         }
+    }
+
+    fn drop_front(&mut self, gl: &Gl, texture: TextureName) {
+        self.attach_front(gl, TextureName::ZERO);
+        gl.delete_texture(texture);
+        self.textures.retain(|&t| t != texture);
     }
 
     /// Whether [`Atlas::make_front`] has nothing to do.
@@ -72,9 +90,7 @@ impl Atlas {
         front.idle = if used { 0 } else { front.idle + 1 };
         let texture = front.texture;
         if front.idle > IDLE {
-            self.attach_front(gl, TextureName::ZERO);
-            gl.delete_texture(texture);
-            self.textures.retain(|&t| t != texture);
+            self.drop_front(gl, texture);
             self.front = None;
         } else {
             self.copy_to_front(gl);

@@ -6,6 +6,7 @@ mod front;
 mod grid;
 mod layers;
 mod names;
+mod plain;
 mod pyramid;
 mod reference;
 mod single;
@@ -301,6 +302,9 @@ impl Atlas {
 
     /// Deletes all objects; only while its context is current.
     pub fn delete(mut self, gl: &Gl) {
+        if self.is_plain() {
+            return;
+        }
         self.framebuffers().for_each(|f| gl.delete_framebuffer(f));
         self.textures.iter().for_each(|&t| gl.delete_texture(t));
         let (buffer, fence) = self.give_buffer();
@@ -349,6 +353,43 @@ impl Atlas {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
             let all = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT;
             gl.blit_framebuffer(from_x, 0, from_x + w, h, x, 0, x + w, h, all, c::NEAREST);
+        }
+    }
+
+    /// Copies the true framebuffer 0, of this size in pixels, to the program's own view. The back buffer must be the draw buffer. Changes
+    /// the framebuffer bindings; the scissor test must be off. The driver raises errors where a format differs.
+    pub fn import(&self, gl: &Gl, [width, height]: [u32; 2]) {
+        let (to, x) = self.target(self.tiles.own());
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
+        let [w, h] = [width, height].map(|n| n as i32);
+        for mask in [
+            c::COLOR_BUFFER_BIT,
+            c::DEPTH_BUFFER_BIT,
+            c::STENCIL_BUFFER_BIT,
+        ] {
+            gl.blit_framebuffer(0, 0, w, h, x, 0, x + w, h, mask, c::NEAREST);
+        }
+    }
+
+    /// Copies the program's own view, stretched to the window's size, to the true framebuffer 0. The back buffer must be the read buffer.
+    /// Changes the framebuffer bindings; the scissor test must be off. The driver raises errors where a format differs.
+    pub fn export(&self, gl: &Gl) {
+        let own = self.tiles.own();
+        if !self.tiles.grid.is_full() {
+            return self.spread(gl, own, FramebufferName::ZERO);
+        }
+        let (from, x) = self.target(own);
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, FramebufferName::ZERO);
+        let [w, h] = [self.tiles.width, self.tiles.height].map(|n| n as i32);
+        // Each alone, so that a format that differs keeps no other buffer from being copied.
+        for mask in [
+            c::COLOR_BUFFER_BIT,
+            c::DEPTH_BUFFER_BIT,
+            c::STENCIL_BUFFER_BIT,
+        ] {
+            gl.blit_framebuffer(x, 0, x + w, h, 0, 0, w, h, mask, c::NEAREST);
         }
     }
 
@@ -458,13 +499,29 @@ impl Atlas {
     }
 
     /// Makes the target of [`Atlas::take_single`], and with `staged` also that of [`Atlas::stage`], where they do not exist yet. The caller
-    /// saves and restores bindings as for [`Atlas::new`].
-    pub fn make_singles(&mut self, gl: &Gl, names: &mut Names, window: &Window, staged: bool) {
+    /// saves and restores bindings as for [`Atlas::new`]. False where the driver makes none.
+    pub fn make_singles(
+        &mut self,
+        gl: &Gl,
+        names: &mut Names,
+        window: &Window,
+        staged: bool,
+    ) -> bool {
         while !self.has_singles(staged) {
             let size = [window.width as i32, window.height as i32];
             let single = Single::new(gl, names, window, size, self.flipped, &mut self.textures);
+            let status = gl.check_framebuffer_status(c::FRAMEBUFFER);
             self.singles.push(single);
+            if status != c::FRAMEBUFFER_COMPLETE {
+                return false;
+            }
         }
+        true
+    }
+
+    /// The framebuffer of [`Atlas::take_single`].
+    pub fn single(&self) -> Option<FramebufferName> {
+        self.singles.first().map(Single::framebuffer)
     }
 
     /// Whether [`Atlas::make_singles`] has nothing to do.

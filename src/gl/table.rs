@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1781;
+pub const COUNT: usize = 1786;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1706,89 +1706,94 @@ pub mod slot {
     pub const glXDestroyContext: usize = 1695;
     pub const glXCreateWindow: usize = 1696;
     pub const glXDestroyWindow: usize = 1697;
-    pub const glXGetProcAddress: usize = 1698;
-    pub const glXGetProcAddressARB: usize = 1699;
-    pub const glXQueryDrawable: usize = 1700;
-    pub const eglSwapBuffers: usize = 1701;
-    pub const eglSwapBuffersWithDamageKHR: usize = 1702;
-    pub const eglSwapBuffersWithDamageEXT: usize = 1703;
-    pub const eglPostSubBufferNV: usize = 1704;
-    pub const eglSwapBuffersRegionNOK: usize = 1705;
-    pub const eglSwapBuffersRegion2NOK: usize = 1706;
-    pub const eglCopyBuffers: usize = 1707;
-    pub const eglWaitGL: usize = 1708;
-    pub const eglWaitClient: usize = 1709;
-    pub const eglBindTexImage: usize = 1710;
-    pub const eglMakeCurrent: usize = 1711;
-    pub const eglCreateContext: usize = 1712;
-    pub const eglDestroyContext: usize = 1713;
-    pub const eglReleaseThread: usize = 1714;
-    pub const eglGetDisplay: usize = 1715;
-    pub const eglGetPlatformDisplay: usize = 1716;
-    pub const eglGetPlatformDisplayEXT: usize = 1717;
-    pub const eglCreateWindowSurface: usize = 1718;
-    pub const eglCreatePlatformWindowSurface: usize = 1719;
-    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1720;
-    pub const eglDestroySurface: usize = 1721;
-    pub const eglGetProcAddress: usize = 1722;
-    pub const eglQuerySurface: usize = 1723;
-    pub const eglQueryContext: usize = 1724;
-    pub const eglGetCurrentContext: usize = 1725;
-    pub const glXGetCurrentContext: usize = 1726;
-    pub const OSMesaMakeCurrent: usize = 1727;
-    pub const OSMesaCreateContext: usize = 1728;
-    pub const OSMesaCreateContextExt: usize = 1729;
-    pub const OSMesaCreateContextAttribs: usize = 1730;
-    pub const OSMesaDestroyContext: usize = 1731;
-    pub const OSMesaGetProcAddress: usize = 1732;
-    pub const glGetTextureParameteriv: usize = 1733;
-    pub const glMapBufferRange: usize = 1734;
-    pub const glUnmapBuffer: usize = 1735;
-    pub const glGetString: usize = 1736;
-    pub const glGetStringi: usize = 1737;
-    pub const glGetFloati_v: usize = 1738;
-    pub const glGenQueries: usize = 1739;
-    pub const glGetRenderbufferParameteriv: usize = 1740;
-    pub const glCreateShader: usize = 1741;
-    pub const glShaderSource: usize = 1742;
-    pub const glCompileShader: usize = 1743;
-    pub const glGetShaderiv: usize = 1744;
-    pub const glGetShaderInfoLog: usize = 1745;
-    pub const glCreateProgram: usize = 1746;
-    pub const glAttachShader: usize = 1747;
-    pub const glGetProgramInfoLog: usize = 1748;
-    pub const glDeleteShader: usize = 1749;
-    pub const glGetUniformLocation: usize = 1750;
-    pub const glIsProgram: usize = 1751;
-    pub const glGetShaderSource: usize = 1752;
-    pub const glGetAttachedShaders: usize = 1753;
-    pub const glGetActiveUniform: usize = 1754;
-    pub const glGetActiveAttrib: usize = 1755;
-    pub const glGetAttribLocation: usize = 1756;
-    pub const glGetFragDataLocation: usize = 1757;
-    pub const glBindFragDataLocation: usize = 1758;
-    pub const glGetUniformdv: usize = 1759;
-    pub const glGetUniformuiv: usize = 1760;
-    pub const glGetActiveUniformBlockiv: usize = 1761;
-    pub const glGetActiveUniformsiv: usize = 1762;
-    pub const glGetActiveUniformBlockName: usize = 1763;
-    pub const glGetProgramInterfaceiv: usize = 1764;
-    pub const glGetProgramResourceName: usize = 1765;
-    pub const glFenceSync: usize = 1766;
-    pub const glClientWaitSync: usize = 1767;
-    pub const glDeleteSync: usize = 1768;
-    pub const glGetBufferSubData: usize = 1769;
-    pub const glGetUniformBlockIndex: usize = 1770;
-    pub const glBindBufferBase: usize = 1771;
-    pub const glBindBufferRange: usize = 1772;
-    pub const glGenBuffers: usize = 1773;
-    pub const glBindAttribLocation: usize = 1774;
-    pub const glProgramParameteri: usize = 1775;
-    pub const glPatchParameteri: usize = 1776;
-    pub const glGenVertexArrays: usize = 1777;
-    pub const glBindVertexArray: usize = 1778;
-    pub const glGenSamplers: usize = 1779;
-    pub const glBindSampler: usize = 1780;
+    pub const glXDestroyPbuffer: usize = 1698;
+    pub const glXDestroyGLXPbufferSGIX: usize = 1699;
+    pub const glXDestroyPixmap: usize = 1700;
+    pub const glXDestroyGLXPixmap: usize = 1701;
+    pub const glXGetProcAddress: usize = 1702;
+    pub const glXGetProcAddressARB: usize = 1703;
+    pub const glXQueryDrawable: usize = 1704;
+    pub const eglSwapBuffers: usize = 1705;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1706;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1707;
+    pub const eglPostSubBufferNV: usize = 1708;
+    pub const eglSwapBuffersRegionNOK: usize = 1709;
+    pub const eglSwapBuffersRegion2NOK: usize = 1710;
+    pub const eglCopyBuffers: usize = 1711;
+    pub const eglWaitGL: usize = 1712;
+    pub const eglWaitClient: usize = 1713;
+    pub const eglBindTexImage: usize = 1714;
+    pub const eglMakeCurrent: usize = 1715;
+    pub const eglCreateContext: usize = 1716;
+    pub const eglDestroyContext: usize = 1717;
+    pub const eglReleaseThread: usize = 1718;
+    pub const eglGetDisplay: usize = 1719;
+    pub const eglGetPlatformDisplay: usize = 1720;
+    pub const eglGetPlatformDisplayEXT: usize = 1721;
+    pub const eglCreateWindowSurface: usize = 1722;
+    pub const eglCreatePlatformWindowSurface: usize = 1723;
+    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1724;
+    pub const eglDestroySurface: usize = 1725;
+    pub const eglTerminate: usize = 1726;
+    pub const eglGetProcAddress: usize = 1727;
+    pub const eglQuerySurface: usize = 1728;
+    pub const eglQueryContext: usize = 1729;
+    pub const eglGetCurrentContext: usize = 1730;
+    pub const glXGetCurrentContext: usize = 1731;
+    pub const OSMesaMakeCurrent: usize = 1732;
+    pub const OSMesaCreateContext: usize = 1733;
+    pub const OSMesaCreateContextExt: usize = 1734;
+    pub const OSMesaCreateContextAttribs: usize = 1735;
+    pub const OSMesaDestroyContext: usize = 1736;
+    pub const OSMesaGetProcAddress: usize = 1737;
+    pub const glGetTextureParameteriv: usize = 1738;
+    pub const glMapBufferRange: usize = 1739;
+    pub const glUnmapBuffer: usize = 1740;
+    pub const glGetString: usize = 1741;
+    pub const glGetStringi: usize = 1742;
+    pub const glGetFloati_v: usize = 1743;
+    pub const glGenQueries: usize = 1744;
+    pub const glGetRenderbufferParameteriv: usize = 1745;
+    pub const glCreateShader: usize = 1746;
+    pub const glShaderSource: usize = 1747;
+    pub const glCompileShader: usize = 1748;
+    pub const glGetShaderiv: usize = 1749;
+    pub const glGetShaderInfoLog: usize = 1750;
+    pub const glCreateProgram: usize = 1751;
+    pub const glAttachShader: usize = 1752;
+    pub const glGetProgramInfoLog: usize = 1753;
+    pub const glDeleteShader: usize = 1754;
+    pub const glGetUniformLocation: usize = 1755;
+    pub const glIsProgram: usize = 1756;
+    pub const glGetShaderSource: usize = 1757;
+    pub const glGetAttachedShaders: usize = 1758;
+    pub const glGetActiveUniform: usize = 1759;
+    pub const glGetActiveAttrib: usize = 1760;
+    pub const glGetAttribLocation: usize = 1761;
+    pub const glGetFragDataLocation: usize = 1762;
+    pub const glBindFragDataLocation: usize = 1763;
+    pub const glGetUniformdv: usize = 1764;
+    pub const glGetUniformuiv: usize = 1765;
+    pub const glGetActiveUniformBlockiv: usize = 1766;
+    pub const glGetActiveUniformsiv: usize = 1767;
+    pub const glGetActiveUniformBlockName: usize = 1768;
+    pub const glGetProgramInterfaceiv: usize = 1769;
+    pub const glGetProgramResourceName: usize = 1770;
+    pub const glFenceSync: usize = 1771;
+    pub const glClientWaitSync: usize = 1772;
+    pub const glDeleteSync: usize = 1773;
+    pub const glGetBufferSubData: usize = 1774;
+    pub const glGetUniformBlockIndex: usize = 1775;
+    pub const glBindBufferBase: usize = 1776;
+    pub const glBindBufferRange: usize = 1777;
+    pub const glGenBuffers: usize = 1778;
+    pub const glBindAttribLocation: usize = 1779;
+    pub const glProgramParameteri: usize = 1780;
+    pub const glPatchParameteri: usize = 1781;
+    pub const glGenVertexArrays: usize = 1782;
+    pub const glBindVertexArray: usize = 1783;
+    pub const glGenSamplers: usize = 1784;
+    pub const glBindSampler: usize = 1785;
 }
 
 /// Name of each command.
@@ -3491,6 +3496,10 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glXDestroyContext",
     c"glXCreateWindow",
     c"glXDestroyWindow",
+    c"glXDestroyPbuffer",
+    c"glXDestroyGLXPbufferSGIX",
+    c"glXDestroyPixmap",
+    c"glXDestroyGLXPixmap",
     c"glXGetProcAddress",
     c"glXGetProcAddressARB",
     c"glXQueryDrawable",
@@ -3515,6 +3524,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"eglCreatePlatformWindowSurface",
     c"eglCreatePlatformWindowSurfaceEXT",
     c"eglDestroySurface",
+    c"eglTerminate",
     c"eglGetProcAddress",
     c"eglQuerySurface",
     c"eglQueryContext",
@@ -5275,6 +5285,10 @@ real_functions! {
     glXDestroyContext(dpy: Ptr, ctx: Ptr);
     glXCreateWindow(dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong = 0;
     glXDestroyWindow(dpy: Ptr, win: c_ulong);
+    glXDestroyPbuffer(dpy: Ptr, pbuf: c_ulong);
+    glXDestroyGLXPbufferSGIX(dpy: Ptr, pbuf: c_ulong);
+    glXDestroyPixmap(dpy: Ptr, pixmap: c_ulong);
+    glXDestroyGLXPixmap(dpy: Ptr, pixmap: c_ulong);
     glXGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
     glXGetProcAddressARB(name: Ptr) -> Ptr = core::ptr::null_mut();
     glXQueryDrawable(dpy: Ptr, drawable: c_ulong, attribute: i32, value: Ptr);
@@ -5299,6 +5313,7 @@ real_functions! {
     eglCreatePlatformWindowSurface(dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
     eglCreatePlatformWindowSurfaceEXT(dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
     eglDestroySurface(dpy: Ptr, surface: Ptr) -> u32 = 0;
+    eglTerminate(dpy: Ptr) -> u32 = 0;
     eglGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
     eglQuerySurface(dpy: Ptr, surface: Ptr, attribute: i32, value: Ptr) -> u32 = 0;
     eglQueryContext(dpy: Ptr, ctx: Ptr, attribute: i32, value: Ptr) -> u32 = 0;

@@ -54,7 +54,7 @@ impl Layer {
             call();
             return self.compiled_names(&[op, value.to_bits()]);
         }
-        if !self.draws_to_zero() {
+        if !self.draws_to_zero() || self.is_plain() {
             return call();
         }
         let mask: [i32; 4] = gl.get_integers_indexed(c::COLOR_WRITEMASK, 0);
@@ -79,6 +79,7 @@ impl Layer {
     /// Whether glAccum and glClear now reach the accumulation buffer of framebuffer 0.
     fn accumulates(&self, gl: &Gl) -> bool {
         self.state.window.accumulates()
+            && !self.is_plain()
             && self.state.draws_to_window()
             && !gl.is_enabled(c::RASTERIZER_DISCARD)
     }

@@ -1,6 +1,7 @@
 //! glBlitFramebuffer between the window and framebuffers of the program's: from each view to the same view.
 
 use super::Layer;
+use super::canvas::Reading;
 use crate::atlas::Tiles;
 use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::plan::Unrepresentable;
@@ -18,13 +19,16 @@ impl Layer {
         }
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
+        let parked = matches!(self.canvases.reading(), Reading::Parked(_));
+        if read.is_zero() && !draw.is_zero() && parked {
+            return self.in_read_canvas(gl, |layer| layer.blit(gl, scaled, blit));
+        }
         if read.is_zero() && !draw.is_zero() {
             self.synthesise_views(gl);
         }
         let split = self.targets.offscreen.is_split(gl, read);
         if !draw.is_zero() {
-            let differs =
-                split || (read.is_zero() && self.session.config.views > 1 && !self.is_mono());
+            let differs = split || (read.is_zero() && self.reads_views() && !self.is_mono());
             return match differs && self.split(gl, draw)
                 || self.targets.offscreen.is_split(gl, draw)
             {
@@ -41,7 +45,16 @@ impl Layer {
         self.frame.draws();
         self.state.refresh(gl);
         self.hold_everything(gl, Unrepresentable::Copies);
+        if read.is_zero() && parked {
+            self.in_read_canvas(gl, |layer| {
+                layer.hold_everything(gl, Unrepresentable::Copies)
+            });
+        }
         self.diagnostics.proving.stop_search();
+        if scaled && self.are_beside() {
+            self.make_singles(gl, true);
+            self.make_read_singles(gl);
+        }
         self.in_proof(gl, |layer| layer.blit_views(gl, scaled, blit));
         self.blit_views(gl, scaled, blit);
     }
@@ -52,6 +65,8 @@ impl Layer {
         let (draw, read) = (self.state.framebuffers.draw, self.state.framebuffers.read);
         if !read.is_zero() {
             self.split(gl, read);
+        } else if !self.make_singles(gl, false) {
+            return blit(0, 0);
         }
         let tiles = Tiles {
             shown: self.wanted_views(),
@@ -83,22 +98,38 @@ impl Layer {
             [image] if image != c::NONE => Some(image),
             _ => None,
         };
-        let beside = self.targets.atlas.tiles.columns > 1 && !self.targets.atlas.multisampled();
-        let single = single.filter(|_| scaled && beside);
+        let single = single.filter(|_| scaled && self.are_beside());
         for view in self.targets.atlas.tiles.order() {
             if let Some(image) = single {
                 self.scaled_blit(gl, view, (image, read), blit);
                 continue;
             }
             let x = self.targets.atlas.enter(gl, view);
-            let from = match self.state.framebuffers.read {
-                FramebufferName::ZERO => self.targets.atlas.target(view).0,
-                read => self.targets.offscreen.view(gl, read, view),
+            let (from, from_x) = match self.state.framebuffers.read {
+                FramebufferName::ZERO => self.read_target(view),
+                read => (self.targets.offscreen.view(gl, read, view), 0),
             };
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-            self.scissored(gl, view, x, &mut || blit(if read { x } else { 0 }, x));
+            self.scissored(gl, view, x, &mut || blit(from_x, x));
         }
         self.rebind(gl);
+    }
+
+    /// The framebuffer that a view of framebuffer 0 is read from, and the x offset of its tile in pixels.
+    fn read_target(&self, view: ViewIndex) -> (FramebufferName, i32) {
+        match self.canvases.reading() {
+            Reading::Drawn => self.targets.atlas.target(view),
+            Reading::Parked(_) => self
+                .canvases
+                .read()
+                .map_or((FramebufferName::ZERO, 0), |read| read.target(view)),
+            Reading::True => (FramebufferName::ZERO, 0),
+        }
+    }
+
+    /// Whether tiles lie beside each other in a framebuffer that can be copied from.
+    fn are_beside(&self) -> bool {
+        self.targets.atlas.tiles.columns > 1 && !self.targets.atlas.multisampled()
     }
 
     /// Blits one view through a framebuffer of the window's size. Where a scaled blit takes the nearest pixel, the choice is a matter of
@@ -110,11 +141,10 @@ impl Layer {
         (image, read): (u32, bool),
         blit: &mut dyn FnMut(i32, i32),
     ) {
-        self.make_singles(gl, true);
         let from = self.state.framebuffers.read_image();
         let staged = self.unscissored(gl, |layer| layer.targets.atlas.stage(gl, view, image, from));
         if read {
-            self.take_single(gl, view);
+            self.take_read_single(gl, view);
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, staged);
         } else {
             let from = self.state.framebuffers.read;

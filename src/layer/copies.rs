@@ -3,6 +3,7 @@
 //!
 //! Motion blur, water, heat: the program copies what it has drawn into a texture and draws that over the scene again.
 
+use super::canvas::Reading;
 use super::{Layer, keep_bindings};
 use crate::gl::{FramebufferName, Gl, Object, RenderbufferName, TextureName, consts as c};
 use crate::view::ViewIndex;
@@ -18,8 +19,11 @@ impl Layer {
         call: &mut dyn FnMut(),
     ) {
         let from = self.state.framebuffers.read;
+        if let (FramebufferName::ZERO, Reading::Parked(_)) = (from, self.canvases.reading()) {
+            return self.in_read_canvas(gl, |layer| layer.copy_texture(gl, target, x, width, call));
+        }
         let differs = match from {
-            FramebufferName::ZERO => self.session.config.views > 1,
+            FramebufferName::ZERO => self.reads_views(),
             _ => self.targets.offscreen.is_split(gl, from),
         };
         let texture = self.bound_texture(gl, target);
@@ -27,6 +31,9 @@ impl Layer {
             return self.read(gl, x, width, call);
         }
         self.leave_mono(gl);
+        if from.is_zero() && !self.make_singles(gl, false) {
+            return self.read(gl, x, width, call);
+        }
         self.state.keep_errors(gl);
         let split = keep_bindings(gl, || {
             let names = &mut self.targets.names;
@@ -64,6 +71,15 @@ impl Layer {
         self.targets.offscreen.written(texture);
         self.drain_own_errors(gl);
         self.rebind(gl);
+    }
+
+    /// Whether what is read from framebuffer 0 may differ between the views.
+    pub(super) fn reads_views(&self) -> bool {
+        match self.canvases.reading() {
+            Reading::Drawn => self.session.config.views > 1 && !self.is_plain(),
+            Reading::Parked(_) => self.canvases.read().is_some_and(|read| !read.is_plain()),
+            Reading::True => false,
+        }
     }
 
     /// The texture that is bound at `target`; 0 where that is no target whose textures are copied per view.

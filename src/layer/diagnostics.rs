@@ -18,6 +18,8 @@ pub(super) struct Diagnostics {
     fallbacks: Counts<Reason>,
     /// GL names that the layer has made and deleted.
     made: Count,
+    /// Sentences that the user is to see at once.
+    pub(super) announced: Vec<String>,
 }
 
 impl Diagnostics {
@@ -29,6 +31,7 @@ impl Diagnostics {
             picture: control::Picture::None,
             fallbacks: Counts::default(),
             made: Count::default(),
+            announced: Vec::new(),
         }
     }
 

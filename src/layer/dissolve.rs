@@ -2,8 +2,8 @@
 
 use super::orphans::delete_orphans;
 use super::{Layer, with_raw_copies};
-use crate::gl::{FramebufferName, Gl, consts as c};
-use crate::state::Compiling;
+use crate::gl::{Gl, consts as c};
+use crate::state::{BACK, Compiling};
 
 impl Layer {
     /// Whether a draw has been sent for other views, and not yet for the program's own. So it is where a fault has interrupted a replay.
@@ -24,7 +24,7 @@ impl Layer {
         }
         self.targets.offscreen.write_back(gl);
         with_raw_copies(gl, || self.show_own_view(gl));
-        self.give_framebuffer(gl);
+        self.apply_plain_buffers(gl);
         if let Some(list) = list {
             reopen(gl, list);
         }
@@ -41,34 +41,11 @@ impl Layer {
         self.state.rectangles.put(gl);
     }
 
-    /// Copies the program's own view to the true framebuffer 0.
-    fn show_own_view(&mut self, gl: &Gl) {
-        let own = self.targets.atlas.tiles.own();
-        self.take_single(gl, own);
-        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, FramebufferName::ZERO);
-        let [w, h] = [self.state.window.width, self.state.window.height].map(|n| n as i32);
-        // Depths can be copied only where the formats are the same; the error of another one is dropped.
-        for mask in [
-            c::COLOR_BUFFER_BIT,
-            c::DEPTH_BUFFER_BIT,
-            c::STENCIL_BUFFER_BIT,
-        ] {
-            gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, mask, c::NEAREST);
+    /// Copies the program's own view to the true framebuffer 0. The scissor test must be off.
+    pub(super) fn show_own_view(&mut self, gl: &Gl) {
+        if !self.is_plain() {
+            self.reading(gl, BACK, |layer| layer.targets.atlas.export(gl));
         }
-    }
-
-    /// Binds the true framebuffer 0 where the program has framebuffer 0 bound, with the program's draw and read buffers.
-    fn give_framebuffer(&mut self, gl: &Gl) {
-        let f = &self.state.framebuffers;
-        gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
-        match f.draw_buffers.as_slice() {
-            // The plain call takes names that stand for two buffers, the other one does not.
-            [one] if !gl.is_es() => gl.draw_buffer(*one),
-            several => gl.draw_buffers(several),
-        }
-        gl.read_buffer(f.read_buffer);
-        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, f.draw);
-        gl.bind_framebuffer(c::READ_FRAMEBUFFER, f.read);
     }
 }
 

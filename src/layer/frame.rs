@@ -18,6 +18,8 @@ pub(super) struct Frame {
     list: Option<ListName>,
     /// Something was drawn that is to be shown.
     drawn: bool,
+    /// The true framebuffer 0 has a picture of all that was drawn.
+    pictured: bool,
     /// A draw since the last timed frame was made by another strategy than replay.
     amplifies: bool,
     /// A draw is being sent for other views than the program's own, which is last.
@@ -48,6 +50,17 @@ impl Frame {
     /// Something is drawn that is to be shown.
     pub(super) fn draws(&mut self) {
         self.drawn = true;
+        self.pictured = false;
+    }
+
+    /// The true framebuffer 0 has a picture of all that was drawn.
+    pub(super) fn pictured(&mut self) {
+        self.pictured = true;
+    }
+
+    /// Whether something was drawn of which the true framebuffer 0 has no picture.
+    pub(super) fn is_stale(&self) -> bool {
+        self.drawn && !self.pictured
     }
 
     /// Whether something was drawn that is to be shown.
@@ -75,15 +88,14 @@ impl Frame {
 impl Layer {
     /// Shows the frame in the true framebuffer 0. The caller swaps (`swap`) or flushes after it. The program's state is as before.
     pub fn show(&mut self, gl: &Gl, swap: bool) {
-        // Our drawing would be compiled into the program's list, be a hit of its selection, or be fed back to it.
-        if self.state.list.is_some()
-            || self.state.begin != crate::state::Begin::Outside
-            || self.state.primitives.render_mode != c::RENDER
-        {
+        if !self.may_show() {
             return;
         }
         self.finish_explanation(gl);
         self.refit(gl);
+        if self.is_plain() {
+            return self.end_plain_frame();
+        }
         if self.is_mono() {
             self.enter_mono(gl);
         }
@@ -99,6 +111,20 @@ impl Layer {
         self.realign_tiles();
         self.frame.end();
         self.known.frame = Default::default();
+    }
+
+    /// The program has drawn the picture itself, into the true framebuffer 0.
+    fn end_plain_frame(&mut self) {
+        self.leave_scene();
+        self.frame.end();
+        self.known.frame = Default::default();
+    }
+
+    /// Whether the layer can draw a picture: it would be compiled into the program's list, be a hit of its selection, or be fed back to it.
+    pub(super) fn may_show(&self) -> bool {
+        self.state.list.is_none()
+            && self.state.begin == crate::state::Begin::Outside
+            && self.state.primitives.render_mode == c::RENDER
     }
 
     /// Makes the picture of what was drawn to the back buffer, or to the front one, and readies the atlas for the next frame.
@@ -128,15 +154,7 @@ impl Layer {
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
     fn present(&mut self, gl: &Gl, image: u32, neutral: &Neutral) {
         self.end_scene(gl, neutral);
-        if self.synthesis.straight().is_none() {
-            let views = match self.is_mono() {
-                true => self.targets.atlas.tiles.own_alone(),
-                false => ViewSet::ALL,
-            };
-            self.targets.atlas.resolve(gl, &views, c::COLOR_BUFFER_BIT);
-        }
-        let output = self.output();
-        let depth = (output == Output::Rgbd).then(|| self.own_depth(gl, neutral));
+        let depth = self.resolve_pictures(gl, neutral);
         gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         if image == FRONT {
             gl.draw_buffer(c::FRONT);
@@ -148,6 +166,28 @@ impl Layer {
         let source = self.source(image, depth.as_ref());
         self.capture(gl, neutral, &source);
         self.track_depths(gl, neutral);
+    }
+
+    /// Draws the picture of the back buffer as it is now into the true framebuffer 0; the frame goes on. Changes the framebuffers that are
+    /// bound.
+    pub(super) fn present_unfinished(&mut self, gl: &Gl, neutral: &Neutral) {
+        self.reading(gl, BACK, |layer| {
+            let depth = layer.resolve_pictures(gl, neutral);
+            gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
+            layer.draw_picture(gl, BACK, depth.as_ref(), neutral);
+        });
+    }
+
+    /// Resolves the views that are shown, and reads the depth of the own one where the output has it. Changes the framebuffers that are bound.
+    fn resolve_pictures(&mut self, gl: &Gl, neutral: &Neutral) -> Option<Depth> {
+        if self.synthesis.straight().is_none() {
+            let views = match self.is_mono() {
+                true => self.targets.atlas.tiles.own_alone(),
+                false => ViewSet::ALL,
+            };
+            self.targets.atlas.resolve(gl, &views, c::COLOR_BUFFER_BIT);
+        }
+        (self.output() == Output::Rgbd).then(|| self.own_depth(gl, neutral))
     }
 
     /// The source of pictures: the atlas, with one of its images.
@@ -271,6 +311,11 @@ impl Layer {
         self.frame.drawn()
             && !self.is_hidden()
             && (!self.state.window.buffers.double_buffered || self.state.framebuffers.draws_front())
+    }
+
+    /// Whether what was drawn is shown by a swap, after which the drawable may hold anything.
+    pub fn has_back_buffer(&self) -> bool {
+        self.state.window.buffers.double_buffered
     }
 
     /// Whether something was drawn since the last frame was shown.

@@ -1,11 +1,12 @@
 //! The program's framebuffer 0: how it is bound, drawn to, read from and queried.
 
+use super::canvas::Reading;
 use super::draw::Request;
 use super::{Layer, keep_bindings, with_raw_copies};
 use crate::atlas::Atlas;
 use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::plan::{Kind, Unrepresentable};
-use crate::state::{BACK, Command, Run, Segment, Touch};
+use crate::state::{BACK, Command, FRONT, Run, Segment, Touch};
 use crate::view::ViewIndex;
 
 /// The buffers of framebuffer 0 that one glPushAttrib has saved.
@@ -105,14 +106,15 @@ impl Layer {
             c::READ_FRAMEBUFFER => (false, true),
             _ => return bind(target, name),
         };
-        bind(
-            target,
-            if name.is_zero() {
-                self.targets.atlas.framebuffer()
-            } else {
-                name
-            },
-        );
+        let drawn = self.targets.atlas.framebuffer();
+        match (name, target) {
+            (FramebufferName::ZERO, c::READ_FRAMEBUFFER) => bind(target, self.read_name()),
+            (FramebufferName::ZERO, _) => bind(target, drawn),
+            _ => bind(target, name),
+        }
+        if name.is_zero() && target == c::FRAMEBUFFER && self.read_name() != drawn {
+            bind(c::READ_FRAMEBUFFER, self.read_name());
+        }
         if draw {
             self.targets.atlas.forget_row();
             self.state.framebuffers.draw = name;
@@ -149,7 +151,19 @@ impl Layer {
             self.targets.atlas.forget_row();
         }
         if read && f.read.is_zero() {
-            gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.targets.atlas.framebuffer());
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.read_name());
+        }
+    }
+
+    /// The framebuffer that is bound for reading where the program has framebuffer 0 bound.
+    fn read_name(&self) -> FramebufferName {
+        match self.canvases.reading() {
+            Reading::True => FramebufferName::ZERO,
+            Reading::Drawn => self.targets.atlas.framebuffer(),
+            Reading::Parked(_) => self
+                .canvases
+                .read()
+                .map_or(FramebufferName::ZERO, Atlas::framebuffer),
         }
     }
 
@@ -242,6 +256,9 @@ impl Layer {
     }
 
     fn read_from(&self, gl: &Gl, image: u32) {
+        if self.is_plain() {
+            return;
+        }
         for target in self.atlases().flat_map(Atlas::targets) {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, target);
             gl.read_buffer(image);
@@ -250,20 +267,30 @@ impl Layer {
 
     /// Sets the program's draw and read buffers of framebuffer 0 in each framebuffer object of the atlas.
     pub(super) fn apply_buffers(&mut self, gl: &Gl) {
+        if self.is_plain() {
+            return self.apply_plain_buffers(gl);
+        }
         if self.state.framebuffers.uses_front()
             && !self.targets.atlas.has_front()
             && self.targets.atlas.tiles.grid.is_full()
         {
             self.leave_mono(gl);
+            self.state.keep_errors(gl);
             let (names, window) = (&mut self.targets.names, &self.state.window);
             let swapped = self.diagnostics.report.frames() > 0;
             let make = || self.targets.atlas.make_front(gl, names, window, swapped);
-            with_raw_copies(gl, || keep_bindings(gl, make));
+            if !with_raw_copies(gl, || keep_bindings(gl, make)) {
+                return self.become_plain(gl);
+            }
         }
         let f = &self.state.framebuffers;
         if f.uses_front() && !self.targets.atlas.tiles.grid.is_full() {
-            // This calls `apply_buffers` again, for the new atlas.
-            return self.hold_everything(gl, Unrepresentable::FrontBuffer);
+            self.state.keep_errors(gl);
+            // Both call `apply_buffers` again, for the new atlas.
+            return match self.targets.stuck {
+                true => self.become_plain(gl),
+                false => self.hold_everything(gl, Unrepresentable::FrontBuffer),
+            };
         }
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw_images(), f.read_image());
@@ -276,8 +303,48 @@ impl Layer {
             gl.draw_buffers(&draw);
             gl.read_buffer(read);
         }
+        self.apply_read_buffer(gl, read);
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, bound_draw);
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, bound_read);
+    }
+
+    /// Sets the program's read buffer in the drawable that is read from, where that is another one than is drawn to. `image` is that of the
+    /// atlas. Binds framebuffers for reading.
+    fn apply_read_buffer(&self, gl: &Gl, image: u32) {
+        match self.canvases.reading() {
+            Reading::Drawn => {}
+            Reading::True => {
+                gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
+                gl.read_buffer(self.state.framebuffers.read_buffer);
+            }
+            Reading::Parked(_) => {
+                let read = self.canvases.read();
+                let image = match image {
+                    FRONT if read.is_some_and(|read| !read.has_front()) => BACK,
+                    image => image,
+                };
+                for target in read.into_iter().flat_map(Atlas::targets) {
+                    gl.bind_framebuffer(c::READ_FRAMEBUFFER, target);
+                    gl.read_buffer(image);
+                }
+            }
+        }
+    }
+
+    /// Sets the program's draw and read buffers of framebuffer 0 in the true one.
+    pub(super) fn apply_plain_buffers(&mut self, gl: &Gl) {
+        let f = &self.state.framebuffers;
+        gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
+        match f.draw_buffers.as_slice() {
+            // The plain call takes names that stand for two buffers, the other one does not.
+            [one] if !gl.is_es() => gl.draw_buffer(*one),
+            several => gl.draw_buffers(several),
+        }
+        gl.read_buffer(f.read_buffer);
+        self.apply_read_buffer(gl, f.read_image());
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, f.draw);
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, f.read);
+        self.bind_draw(gl, true, true);
     }
 
     /// Runs `f` with other framebuffers bound, for commands that take theirs by name.
@@ -327,6 +394,7 @@ impl Layer {
             _ => {}
         }
         match name {
+            _ if self.is_plain() => None,
             c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.0.into()),
             c::READ_FRAMEBUFFER_BINDING => Some(f.read.0.into()),
             c::DRAW_BUFFER if zero && !es => Some(buffer(0)),
@@ -364,14 +432,24 @@ impl Layer {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
             return;
         }
+        if let (FramebufferName::ZERO, Reading::Parked(_)) = (read, self.canvases.reading()) {
+            return self.in_read_canvas(gl, |layer| {
+                // The canvas was bound for drawing, too, if at all.
+                layer.read(gl, x, width, call);
+            });
+        }
         // A read beyond the right edge of the window must not reach another view.
         let beside =
             self.targets.atlas.tiles.columns > 1 && x.saturating_add(width) > self.tile_size()[0];
         let other = self.targets.atlas.multisampled() || !self.targets.atlas.tiles.grid.is_full();
-        if !self.state.framebuffers.read.is_zero() || !(other || beside) {
+        let unread = !read.is_zero() || self.canvases.reading() == Reading::True;
+        if unread || !(other || beside) {
             return call();
         }
         self.state.refresh(gl);
+        if !self.make_singles(gl, false) {
+            return call();
+        }
         self.take_single(gl, self.targets.atlas.tiles.own());
         let draw = match self.state.framebuffers.draw {
             FramebufferName::ZERO => self.targets.atlas.framebuffer(),
@@ -396,9 +474,9 @@ impl Layer {
         }
     }
 
-    /// Binds a copy of a view's tile for reading. Changes the draw framebuffer. The state must have been refreshed.
+    /// Binds a copy of a view's tile for reading. Changes the draw framebuffer. The state must have been refreshed, and the target made by
+    /// [`Layer::make_singles`].
     pub(super) fn take_single(&mut self, gl: &Gl, view: ViewIndex) {
-        self.make_singles(gl, false);
         let read = match self.state.framebuffers.read_image() {
             c::NONE => c::NONE,
             _ => BACK,
@@ -406,12 +484,40 @@ impl Layer {
         self.unscissored(gl, |layer| layer.targets.atlas.take_single(gl, view, read));
     }
 
-    pub(super) fn make_singles(&mut self, gl: &Gl, staged: bool) {
-        if !self.targets.atlas.has_singles(staged) {
-            keep_bindings(gl, || {
-                let (names, window) = (&mut self.targets.names, &self.state.window);
-                self.targets.atlas.make_singles(gl, names, window, staged);
-            });
+    /// Makes the targets of copies of single tiles. False where the driver makes none; the program then draws to the true framebuffer 0.
+    pub(super) fn make_singles(&mut self, gl: &Gl, staged: bool) -> bool {
+        if self.is_plain() {
+            return false;
+        }
+        if self.targets.atlas.has_singles(staged) {
+            return true;
+        }
+        self.state.keep_errors(gl);
+        let made = keep_bindings(gl, || {
+            let (names, window) = (&mut self.targets.names, &self.state.window);
+            self.targets.atlas.make_singles(gl, names, window, staged)
+        });
+        if !made {
+            self.become_plain(gl);
+        }
+        made
+    }
+
+    /// [`Layer::make_singles`] for the drawable that is read from.
+    pub(super) fn make_read_singles(&mut self, gl: &Gl) -> bool {
+        self.canvases.reading() == Reading::True
+            || self.in_read_canvas(gl, |layer| layer.make_singles(gl, false))
+    }
+
+    /// [`Layer::take_single`] of the drawable that is read from.
+    pub(super) fn take_read_single(&mut self, gl: &Gl, view: ViewIndex) {
+        match self.canvases.reading() {
+            Reading::True => gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO),
+            Reading::Drawn => self.take_single(gl, view),
+            Reading::Parked(_) => {
+                self.in_read_canvas(gl, |layer| layer.take_single(gl, view));
+                self.canvases.bind_single(gl);
+            }
         }
     }
 
@@ -437,6 +543,7 @@ impl Layer {
             return self.read(gl, x, width, call);
         }
         if !self.reads_from_zero()
+            || !self.make_read_singles(gl)
             || gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
         {
             return self.draw(gl, Kind::Pixels, call);
@@ -452,7 +559,7 @@ impl Layer {
         gl.get_floats::<4>(c::CURRENT_COLOR);
         self.queries.pause(gl);
         for view in self.targets.atlas.tiles.order() {
-            self.take_single(gl, view);
+            self.take_read_single(gl, view);
             let x = self.targets.atlas.enter(gl, view);
             if view == own {
                 self.queries.resume(gl);

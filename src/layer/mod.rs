@@ -5,6 +5,7 @@ mod accumulate;
 mod auto;
 mod blits;
 mod cameras;
+mod canvas;
 mod capture;
 mod comfort;
 mod compute;
@@ -16,6 +17,7 @@ mod draw;
 mod executed;
 mod explain;
 mod feedback;
+mod fit;
 mod frame;
 mod framebuffer;
 mod frames;
@@ -43,6 +45,7 @@ mod tests;
 mod tracked;
 mod variants;
 
+pub use canvas::{CurrentDrawable, DrawableId};
 pub use control::Pictured;
 pub use draw::Primitives;
 pub use frames::Frames;
@@ -50,16 +53,18 @@ pub use lists::is_scaled;
 pub use queries::Answer;
 pub use tracked::Primitive;
 
-use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
-use crate::config::{AtlasLayout, Config, Optimisation, Strategy, profile};
+use crate::atlas::{Atlas, Names};
+use crate::config::{Config, Optimisation, profile};
 use crate::draw::{Driver, Programs};
 use crate::gl::{BufferName, FramebufferName, Gl, TextureName, consts as c};
 use crate::plan::Rig;
-use crate::plan::decide::{Known, Mono};
+use crate::plan::decide::Known;
 use crate::report::{Proof, Report};
 use crate::state::{BACK, State, Window};
 use cameras::Cameras;
+use canvas::Canvases;
 use diagnostics::Diagnostics;
+use fit::make_atlas;
 use frame::Frame;
 use recordings::Recordings;
 use session::Session;
@@ -85,12 +90,9 @@ pub enum LayerError {
     /// On OpenGL ES the passes of the output cannot be used, and there is no other way to draw the picture.
     #[error("the passes that make the picture cannot be used: {0}")]
     Passes(String),
-    /// The atlas cannot be made.
-    #[error(transparent)]
-    Atlas(#[from] AtlasError),
 }
 
-/// One context and its drawable. More than 25 methods: one for each kind of command that a hook reports, and the steps that need several of
+/// One context and its drawables. More than 25 methods: one for each kind of command that a hook reports, and the steps that need several of
 /// the owners below. Each subject has a file of its own.
 #[derive(Debug)]
 pub struct Layer {
@@ -104,6 +106,7 @@ pub struct Layer {
     cameras: Cameras,
     known: Known,
     frame: Frame,
+    canvases: Canvases,
     queries: queries::Queries,
     diagnostics: Diagnostics,
 }
@@ -118,17 +121,16 @@ pub struct OnScreen {
 }
 
 impl Layer {
-    /// Takes over a context that was just made current for the first time, with framebuffer 0 bound. `width` and `height` are those of its
-    /// drawable, in pixels. Fails on a context that cannot be shown in several views.
+    /// Takes over a context that was just made current for the first time, with framebuffer 0 bound. Fails on a context that cannot be shown
+    /// in several views.
     pub fn new(
         gl: &Gl,
         config: &'static Config,
-        width: u32,
-        height: u32,
+        drawable: CurrentDrawable,
         group: Arc<Member>,
     ) -> Result<Layer, LayerError> {
         let support = Support::ask(gl)?;
-        let layer = Self::made(gl, config, (width, height), group, support);
+        let layer = Self::made(gl, config, drawable, group, support);
         if layer.is_err() {
             // The program must not see the errors of the attempt.
             (0..16)
@@ -141,10 +143,11 @@ impl Layer {
     fn made(
         gl: &Gl,
         config: &'static Config,
-        (width, height): (u32, u32),
+        drawable: CurrentDrawable,
         group: Arc<Member>,
         support: Support,
     ) -> Result<Layer, LayerError> {
+        let (width, height) = drawable.size;
         let window = Window::ask(gl, width, height, support.compatibility);
         let state = State::ask(gl, window, support.compatibility);
         let mut report = Report::default();
@@ -165,7 +168,7 @@ impl Layer {
         note.into_iter().for_each(|note| report.note(note));
         let session = Session::new(gl, config, support, group, program.as_deref());
         orphans::delete_orphans(gl, &session.group);
-        let targets = Targets::new(gl, &session, &state, &mut report)?;
+        let (targets, told) = Targets::new(gl, &session, &state, &mut report)?;
         let camera = session.live.camera;
         let rig = Rig::new(config.views, camera, config.profile.focal_depth);
         let mut layer = Layer {
@@ -178,44 +181,14 @@ impl Layer {
             lists: Recordings::default(),
             known: Known::new(rig),
             frame: Frame::default(),
+            canvases: Canvases::new(drawable.id),
             queries: queries::Queries::default(),
             diagnostics: Diagnostics::new(report),
         };
+        told.into_iter().for_each(|told| layer.announce(told));
         layer.drain_own_errors(gl);
         layer.bind_draw(gl, true, true);
         Ok(layer)
-    }
-
-    /// The window has another size, in pixels, or the context has another drawable: makes a new atlas for it.
-    pub fn resize(&mut self, gl: &Gl, width: u32, height: u32) -> Result<(), LayerError> {
-        let (width, height) = (width.max(1), height.max(1));
-        if (self.state.window.width, self.state.window.height) == (width, height) {
-            return Ok(());
-        }
-        self.drop_proof(gl);
-        self.known.mono = Mono::default();
-        self.forget_scene();
-        self.state.window.width = width;
-        self.state.window.height = height;
-        let grid = self.grid();
-        let (names, config, state) = (&mut self.targets.names, self.session.config, &self.state);
-        let strategy = self.session.strategy;
-        let atlas = make_atlas(
-            gl,
-            names,
-            config,
-            state,
-            &self.session.support,
-            grid,
-            strategy,
-        )?;
-        std::mem::replace(&mut self.targets.atlas, atlas).delete(gl);
-        if let Some(old) = std::mem::take(&mut self.targets.accumulated).buffer {
-            old.delete(gl);
-        }
-        self.apply_buffers(gl);
-        self.bind_draw(gl, true, true);
-        Ok(())
     }
 
     /// Whether the picture depends on where the window lies. If so, [`Layer::moved`] has to be called before each frame is shown.
@@ -240,7 +213,9 @@ impl Layer {
     pub fn owns_texture(&self, name: TextureName) -> bool {
         let proving = self.diagnostics.proving.atlas();
         !name.is_zero()
-            && (self.targets.owns_texture(name) || proving.is_some_and(|atlas| atlas.owns(name)))
+            && (self.targets.owns_texture(name)
+                || self.canvases.owns_texture(name)
+                || proving.is_some_and(|atlas| atlas.owns(name)))
     }
 
     /// Whether a framebuffer object is one of ours.
@@ -248,6 +223,7 @@ impl Layer {
         let proving = self.diagnostics.proving.atlas();
         !name.is_zero()
             && (self.targets.owns_framebuffer(name)
+                || self.canvases.owns_framebuffer(name)
                 || proving.is_some_and(|atlas| atlas.framebuffers().any(|own| own == name)))
     }
 
@@ -278,21 +254,29 @@ impl Layer {
         self.targets.names.hide();
         self.drop_proof(gl);
         self.targets.offscreen.clear(gl);
-        let note = if self.remake(gl) {
+        let mut moved = true;
+        self.in_each_canvas(|layer| {
+            moved &= layer.remake(gl);
+            if layer.targets.accumulated.buffer.is_some() {
+                layer.rename_accumulation(gl);
+            }
+        });
+        let note = if moved {
             "the program numbers its textures itself; ours moved out of its way"
         } else {
             "the program's texture names clash with ours"
         };
         self.diagnostics.report.note(note.into());
         self.targets.interleaver.rename(gl, &mut self.targets.names);
-        if self.targets.accumulated.buffer.is_some() {
-            self.in_neutral(gl, |layer, neutral| {
-                let names = &mut layer.targets.names;
-                if let Some(buffer) = &mut layer.targets.accumulated.buffer {
-                    buffer.rename(gl, neutral, names);
-                }
-            });
-        }
+    }
+
+    fn rename_accumulation(&mut self, gl: &Gl) {
+        self.in_neutral(gl, |layer, neutral| {
+            let names = &mut layer.targets.names;
+            if let Some(buffer) = &mut layer.targets.accumulated.buffer {
+                buffer.rename(gl, neutral, names);
+            }
+        });
     }
 
     /// The program enables GL_FRAMEBUFFER_SRGB. Until then the atlas is not sRGB, because drivers decode what is copied out of an sRGB
@@ -305,6 +289,9 @@ impl Layer {
         let window = &mut self.state.window;
         if window.srgb_capable && !window.srgb {
             window.srgb = true;
+            if self.targets.atlas.is_plain() {
+                return;
+            }
             self.drop_proof(gl);
             if !self.remake(gl) {
                 self.state.window.srgb = false;
@@ -318,20 +305,14 @@ impl Layer {
     /// Replaces the atlas by a new one with the same contents, on the grid that is needed now. False where the driver makes none; the old one
     /// then stays.
     fn remake(&mut self, gl: &Gl) -> bool {
+        if self.is_plain() {
+            return true;
+        }
         self.state.refresh(gl);
         self.leave_mono(gl);
         let grid = self.grid();
-        let (names, config, state) = (&mut self.targets.names, self.session.config, &self.state);
-        let strategy = self.session.strategy;
-        let Ok(mut atlas) = make_atlas(
-            gl,
-            names,
-            config,
-            state,
-            &self.session.support,
-            grid,
-            strategy,
-        ) else {
+        let (names, window) = (&mut self.targets.names, &self.state.window);
+        let Ok(mut atlas) = make_atlas(gl, names, &self.session, window, grid) else {
             return false;
         };
         with_raw_copies(gl, || {
@@ -386,45 +367,6 @@ impl Layer {
             self.diagnostics.report.error();
         }
     }
-}
-
-/// The arrangement of the views in the atlas. The strategies that draw all views at once use layers wherever a shader can choose one, even
-/// where views beside each other are asked for: one draw then serves all views without clip distances, and every view lies at the origin.
-/// Views beside each other are faster on llvmpipe 22.3 where there are many triangles (`manyview bench --strategy
-/// instanced,instanced-distances`), but fail the gate: up to 0.11 % of neverputt's pixels differ by up to 6 steps, against 0.002 % by 1 step
-/// with layers (`manyview run --prove 20`).
-fn layout(config: &Config, support: &Support, strategy: Strategy) -> AtlasLayout {
-    match strategy {
-        // The user has asked for clip distances by name, to compare.
-        _ if config.clip.is_some() => AtlasLayout::SideBySide,
-        // A geometry shader can always choose a layer.
-        Strategy::Geometry => AtlasLayout::Layers,
-        Strategy::Instanced if support.layers() => AtlasLayout::Layers,
-        _ => config.atlas,
-    }
-}
-
-fn make_atlas(
-    gl: &Gl,
-    names: &mut Names,
-    config: &Config,
-    state: &State,
-    support: &Support,
-    grid: Grid,
-    strategy: Strategy,
-) -> Result<Atlas, LayerError> {
-    let w = &state.window;
-    let tiles = Tiles::new(
-        config.views,
-        [w.width, w.height],
-        grid,
-        layout(config, support, strategy),
-        support.limits,
-    )
-    .map_err(AtlasError::from)?;
-    Ok(keep_bindings(gl, || {
-        Atlas::new(gl, names, w, tiles, support.flip)
-    })?)
 }
 
 /// Runs a copy without scissor test and sRGB conversion, so that bits stay as they are.

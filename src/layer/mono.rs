@@ -66,6 +66,7 @@ impl Layer {
             && self.session.config.strategy.disocclusion_source().is_none()
             && !self.session.config.disabled.has(Optimisation::MonoFrames)
             && self.session.support.shares
+            && !self.is_plain()
             && self.targets.atlas.tiles.grid.is_full()
             && self.targets.back_alone()
             && !self.has_copies()

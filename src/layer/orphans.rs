@@ -10,12 +10,13 @@ impl Layer {
     pub fn leave(mut self) {
         let mut lists = self.session.group.lists();
         let mask = Some(self.targets.interleaver.texture()).filter(|t| !t.is_zero());
-        for atlas in self.atlases() {
+        let atlases = || self.atlases().chain(self.canvases.atlases());
+        for atlas in atlases() {
             lists.orphans.framebuffers.extend(atlas.framebuffers());
         }
         let framebuffers = self.targets.offscreen.framebuffers();
         lists.orphans.framebuffers.extend(framebuffers);
-        let textures = self.atlases().flat_map(|atlas| atlas.textures());
+        let textures = atlases().flat_map(|atlas| atlas.textures());
         let textures = textures.copied();
         let textures = textures.chain(mask);
         lists.orphans.textures.extend(textures);
@@ -30,7 +31,9 @@ impl Layer {
         let programs = programs.chain(self.variants.own.names());
         let programs = programs.chain(self.synthesis.programs());
         lists.orphans.programs.extend(programs);
-        if let Some(accumulation) = &self.targets.accumulated.buffer {
+        let accumulated = std::iter::once(&self.targets.accumulated);
+        let accumulated = accumulated.chain(self.canvases.accumulated());
+        for accumulation in accumulated.flat_map(|accumulated| &accumulated.buffer) {
             lists.orphans.framebuffers.push(accumulation.framebuffer());
             lists.orphans.textures.extend(accumulation.textures());
             lists.orphans.programs.extend(accumulation.programs());

@@ -6,7 +6,7 @@
 //! as many by the chosen strategy as by replay alone, in turns.
 
 use super::draw::Images;
-use super::{Layer, explain, frame::tile, keep_bindings, make_atlas};
+use super::{Layer, explain, fit::make_atlas, frame::tile, keep_bindings};
 use crate::atlas::{Atlas, Grid, ViewSet};
 use crate::config::{Output, Strategy, Word};
 use crate::draw::{ReplayHazard, replay};
@@ -472,18 +472,8 @@ impl Layer {
             return self.diagnostics.proving.refuse(FRONT);
         }
         if self.diagnostics.proving.atlas.is_none() {
-            let (names, config, state) =
-                (&mut self.targets.names, self.session.config, &self.state);
-            let strategy = self.session.strategy;
-            match make_atlas(
-                gl,
-                names,
-                config,
-                state,
-                &self.session.support,
-                Grid::FULL,
-                strategy,
-            ) {
+            let (names, window) = (&mut self.targets.names, &self.state.window);
+            match make_atlas(gl, names, &self.session, window, Grid::FULL) {
                 Ok(atlas) => self.diagnostics.proving.atlas = Some(atlas),
                 Err(error) => {
                     self.diagnostics

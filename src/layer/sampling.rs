@@ -39,6 +39,11 @@ pub(super) fn grid(
 }
 
 impl Layer {
+    /// Whether the program draws to the true framebuffer 0 (see [`crate::atlas::Atlas::plain`]).
+    pub(super) fn is_plain(&self) -> bool {
+        self.targets.atlas.is_plain()
+    }
+
     pub(super) fn grid(&self) -> Grid {
         grid(
             self.session.config,
@@ -52,6 +57,9 @@ impl Layer {
 
     /// Goes over to the window's own pixels, because only those can hold what comes. `what` continues the note "because the program".
     pub(super) fn hold_everything(&mut self, gl: &Gl, what: Unrepresentable) {
+        if self.targets.stuck {
+            return;
+        }
         let grid = self.targets.atlas.tiles.grid;
         let demand = Demand::Everything(what);
         if let Some((detail, why)) = retreat(demand, grid.is_full(), grid.is_sample_aligned()) {
@@ -61,7 +69,7 @@ impl Layer {
 
     /// Before a frame is shown: makes the atlas anew, with its contents, where the output now needs tiles of another kind or size.
     pub(super) fn refit(&mut self, gl: &Gl) {
-        if self.diagnostics.proving.replays() {
+        if self.diagnostics.proving.replays() || self.is_plain() || self.targets.stuck {
             return;
         }
         let (grid, size) = self.wanted();
@@ -75,7 +83,7 @@ impl Layer {
 
     /// After a frame was shown: aligns the tiles of the next one with the panel's lenses, because the window may have moved.
     pub(super) fn realign_tiles(&mut self) {
-        if self.diagnostics.proving.replays() {
+        if self.diagnostics.proving.replays() || self.is_plain() {
             return;
         }
         let ((grid, size), shown) = (self.wanted(), self.shown());
@@ -88,7 +96,7 @@ impl Layer {
 
     /// The views that the next frame is drawn in.
     pub(super) fn shown(&self) -> ViewSet {
-        if self.is_mono() {
+        if self.is_mono() || self.is_plain() {
             return [].into_iter().collect();
         }
         if self.known.scene.is_some() {

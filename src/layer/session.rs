@@ -19,7 +19,7 @@ pub(super) struct Session {
     /// The values that the user may change while the program runs.
     pub(super) live: Live,
     /// Position of the window; none where the window system does not report it.
-    on_screen: Option<OnScreen>,
+    pub(super) on_screen: Option<OnScreen>,
     /// The display with other numbers of its lens sheet, once they have been changed.
     fitted: Option<Display>,
     pub(super) auto: Option<auto::Auto>,

@@ -1,7 +1,9 @@
 //! Render targets: the atlas of framebuffer 0, the program's own framebuffers with one image per view, and the pass that shows them.
 
+use super::fit::{Fitted, fit};
 use super::session::Session;
-use super::{LayerError, accumulate, framebuffer, make_atlas, sampling};
+use super::support::Support;
+use super::{LayerError, accumulate, framebuffer, sampling};
 use crate::atlas::{Atlas, Names};
 use crate::config::ViewScale;
 use crate::display::Placement;
@@ -11,6 +13,14 @@ use crate::offscreen::Offscreen;
 use crate::plan::decide::Detail;
 use crate::report::Report;
 use crate::state::State;
+
+/// The detail that the first tiles of a drawable have.
+pub(super) fn finest(support: &Support) -> Detail {
+    match support.viewports {
+        true => Detail::SampleAligned,
+        false => Detail::Full,
+    }
+}
 
 /// The images of a context that differ between the views.
 #[derive(Debug)]
@@ -30,14 +40,14 @@ pub(super) struct Targets {
 }
 
 impl Targets {
-    /// Makes the targets for a window of the state's size. The report says what is missing. Fails where there is no atlas, or on OpenGL ES no
-    /// pass.
+    /// Makes the targets for a window of the state's size. The report says what is missing. The sentence tells the user why
+    /// the atlas is not the wanted one. Fails on OpenGL ES where there is no pass.
     pub(super) fn new(
         gl: &Gl,
         session: &Session,
         state: &State,
         report: &mut Report,
-    ) -> Result<Self, LayerError> {
+    ) -> Result<(Self, Option<String>), LayerError> {
         let (config, support) = (session.config, &session.support);
         let mut names = Names::default();
         let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
@@ -46,10 +56,7 @@ impl Targets {
             Some(note) => report.note(note),
             None => {}
         }
-        let detail = match support.viewports {
-            true => Detail::SampleAligned,
-            false => Detail::Full,
-        };
+        let detail = finest(support);
         if gl.is_es() && config.view_scale != ViewScale::Fixed(1.0) {
             report.note("views are drawn at the size of the window, because the program has shaders of its own".into());
         }
@@ -63,20 +70,20 @@ impl Targets {
             detail,
             interleaver.on_gpu(),
         );
-        let strategy = session.strategy;
-        let atlas = make_atlas(gl, &mut names, config, state, support, grid, strategy)?;
+        let Fitted { atlas, told } = fit(gl, &mut names, session, window, grid);
         let images = session.group.shared_images();
-        Ok(Targets {
+        let targets = Targets {
             atlas,
             names,
             offscreen: Offscreen::new(gl, config.views, support.compatibility, images),
             accumulated: accumulate::Accumulated::default(),
             interleaver,
             detail,
-            stuck: false,
+            stuck: told.is_some(),
             undrawn: false,
             pushed: Vec::new(),
-        })
+        };
+        Ok((targets, told))
     }
 
     /// Whether a texture is one of these.

@@ -162,6 +162,9 @@ pub enum Unrepresentable {
     /// Blits.
     #[error("copies pictures into the window")]
     Copies,
+    /// A drawable that another context has drawn to.
+    #[error("draws to one window with several contexts")]
+    Contexts,
     /// The front buffer.
     #[error("uses the front buffer")]
     FrontBuffer,

@@ -50,6 +50,17 @@ impl Window {
         self.buffers.double_buffered && self.samples == 0 && !self.buffers.es
     }
 
+    /// Chooses the buffers that a new context would have. The driver tells those of the first drawable of a context alone.
+    pub fn choose_buffers(&mut self) {
+        let buffers = &mut self.buffers;
+        let chosen = match buffers.double_buffered || buffers.names_back {
+            true => c::BACK,
+            false => c::FRONT,
+        };
+        buffers.default_draw = chosen;
+        buffers.default_read = chosen;
+    }
+
     /// Whether it has an accumulation buffer.
     pub fn accumulates(&self) -> bool {
         self.accumulation[0] > 0
@@ -148,6 +159,12 @@ impl Framebuffers {
             buffers: window.buffers,
             two: window.has_two_images(),
         }
+    }
+
+    /// Framebuffer 0 is another window now. The names of buffers stay: they are the context's.
+    pub fn belong_to(&mut self, window: &Window) {
+        self.buffers = window.buffers;
+        self.two = window.has_two_images();
     }
 
     /// The images behind a buffer name of framebuffer 0, as attachments of the atlas. `None` for a name that framebuffer 0 of this

@@ -1,5 +1,6 @@
 /* Preloaded behind the layer: a driver that has no memory for large array textures, nor for their samples.
  *   REFUSE_TEXELS  the most texels that an array texture may have
+ *   REFUSE_NEXT    how many array textures after such a one are refused as well
  *   REFUSE_FROM    the number of the first array texture that is refused, counted from 1, whatever its size
  *   REFUSE_ONE     the number of the only array texture that is refused */
 #define _GNU_SOURCE
@@ -22,10 +23,12 @@ static long limit(const char *name)
 
 static int refuses(GLsizei width, GLsizei height, GLsizei depth)
 {
-    static long made;
+    static long made, next_ones;
     long texels = limit("REFUSE_TEXELS"), from = limit("REFUSE_FROM"), one = limit("REFUSE_ONE");
+    int large = texels && (long)width * height * depth > texels, after = !large && next_ones > 0;
     made++;
-    if (!(texels && (long)width * height * depth > texels) && !(from && made >= from) && made != one)
+    next_ones = large ? limit("REFUSE_NEXT") : next_ones - after;
+    if (!large && !after && !(from && made >= from) && made != one)
         return 0;
     error = GL_OUT_OF_MEMORY;
     return 1;

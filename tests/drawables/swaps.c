@@ -18,7 +18,9 @@
  *   buffers       the draw buffer belongs to the context, which goes to another window
  *   again         a window is destroyed, and the context draws to a new one
  *   destroyed     a window is destroyed while it is current, and the context draws on and then goes to another window
- *   destroyed-own the same with a window that is its own drawable */
+ *   destroyed-own the same with a window that is its own drawable
+ *   scenes        one context draws a scene in each of two windows, a part of the one and a part of the other in turn
+ *   scenes-apart  the same pictures, drawn one after the other by two contexts */
 #include "drawables.h"
 #include <pthread.h>
 #include <stdio.h>
@@ -296,6 +298,78 @@ static void destroyed(int own)
     shown("second", b);
 }
 
+static void look(void)
+{
+    glViewport(0, 0, SIZE, SIZE);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glFrustum(-0.5, 0.5, -0.5, 0.5, 1, 20);
+    glMatrixMode(GL_MODELVIEW);
+    glEnable(GL_DEPTH_TEST);
+}
+
+/* Quads that cut each other, before and behind the panel. */
+static void part(int number)
+{
+    static const int colours[] = {RED, GREEN, BLUE, WHITE};
+    for (int i = 0; i < 3; i++) {
+        int colour = colours[(number + i) % 4];
+        float x = (float)i - 1.2f + 0.3f * (float)number, near = -1.5f - (float)i, far = -9 + (float)(number + i);
+        glColor3ub((GLubyte)(colour >> 16), (GLubyte)(colour >> 8), (GLubyte)colour);
+        glBegin(GL_QUADS);
+        glVertex3f(x, -1, near);
+        glVertex3f(x + 1, -1, far);
+        glVertex3f(x + 1, 1, far);
+        glVertex3f(x, 1, near);
+        glEnd();
+    }
+}
+
+/* All pixels of a window in one number (FNV-1a). */
+static void sum(const char *what, Drawable drawable)
+{
+    XSync(display, False);
+    XImage *image = XGetImage(display, drawable, 0, 0, SIZE, SIZE, AllPlanes, ZPixmap);
+    unsigned long sum = 2166136261u;
+    for (int y = 0; image && y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++)
+            sum = ((sum ^ (XGetPixel(image, x, y) & WHITE)) * 16777619) & 0xffffffff;
+    printf("%s: %08lx\n", what, sum);
+    if (image)
+        XDestroyImage(image);
+}
+
+static void scenes(int apart)
+{
+    open_windows(SIZE);
+    GLXContext first = open_context(NULL), second = apart ? open_context(NULL) : first;
+    for (int frame = 0; frame < 3; frame++) {
+        use(draws_a, draws_a, first);
+        look();
+        clear(GREY);
+        part(frame);
+        if (apart) {
+            part(frame + 1);
+            glXSwapBuffers(display, draws_a);
+        }
+        use(draws_b, draws_b, second);
+        look();
+        clear(BLUE);
+        part(frame + 2);
+        if (!apart) {
+            use(draws_a, draws_a, first);
+            part(frame + 1);
+            use(draws_b, draws_b, second);
+        }
+        part(frame + 3);
+        if (!apart)
+            glXSwapBuffers(display, draws_a);
+        glXSwapBuffers(display, draws_b);
+        sum("first", a);
+        sum("second", b);
+    }
+}
+
 int swaps(const char *mode)
 {
     if (is(mode, "one") || is(mode, "one-wide"))
@@ -326,6 +400,8 @@ int swaps(const char *mode)
         again();
     else if (is(mode, "destroyed") || is(mode, "destroyed-own"))
         destroyed(is(mode, "destroyed-own"));
+    else if (is(mode, "scenes") || is(mode, "scenes-apart"))
+        scenes(is(mode, "scenes-apart"));
     else
         return 0;
     return 1;

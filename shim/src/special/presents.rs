@@ -1,6 +1,6 @@
 //! Commands other than swaps that show what was drawn, or hand it on as a texture.
 
-use crate::context::{draws_to, frame, guarded, is_drawn, real, show_flushed};
+use crate::context::{draws_to, frame, guarded, is_drawn, real, show_finished};
 use crate::drawable::Drawable;
 use crate::hooks::texture;
 use crate::provider::Provider;
@@ -72,17 +72,17 @@ pub(crate) unsafe fn eglCopyBuffers(dpy: Ptr, surface: Ptr, target: Ptr) -> u32 
 
 pub(crate) unsafe fn glXWaitGL() {
     // SAFETY: the program's own call.
-    show_flushed(|| unsafe { gl().glXWaitGL() });
+    show_finished(|| unsafe { gl().glXWaitGL() });
 }
 
 pub(crate) unsafe fn eglWaitGL() -> u32 {
     // SAFETY: the program's own call.
-    show_flushed(|| unsafe { gl().eglWaitGL() })
+    show_finished(|| unsafe { gl().eglWaitGL() })
 }
 
 pub(crate) unsafe fn eglWaitClient() -> u32 {
     // SAFETY: the program's own call.
-    show_flushed(|| unsafe { gl().eglWaitClient() })
+    show_finished(|| unsafe { gl().eglWaitClient() })
 }
 
 /// A drawable becomes the image of the texture that is bound at one of these targets.

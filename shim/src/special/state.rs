@@ -1,7 +1,7 @@
 //! State that the layer follows call by call, and queries of the program.
 
 use crate::context::{
-    draws_to_memory, enter, frame, instead, peek, real, show_flushed, viewport_set,
+    draws_to_memory, enter, frame, instead, peek, real, show_finished, show_flushed, viewport_set,
 };
 use crate::hooks::{Object, before_uncompiled, compile, named, touch};
 use manyview_core::gl::{FramebufferName, Ptr, TextureName, consts::PROGRAM_BINARY_FORMATS};
@@ -242,6 +242,6 @@ pub(crate) unsafe fn glFinish() {
     // OSMesa has no swap: at glFinish its picture is in the program's memory, which is the end of a frame.
     match draws_to_memory() {
         true => frame(None, finish),
-        false => show_flushed(finish),
+        false => show_finished(finish),
     }
 }

@@ -4,7 +4,8 @@ use crate::context::{
     destroyed, enter, frame, guarded, is_current, leave_context, made_current, sheltered,
 };
 use crate::dl::proc_address;
-use crate::drawable::Drawable;
+use crate::drawable::{Drawable, Pair};
+use crate::drawables;
 use crate::hooks::before_uncompiled;
 use crate::provider::Provider;
 use crate::shares::created;
@@ -61,26 +62,37 @@ create!(OSMesaCreateContext(format: u32, share: Ptr), share, OsMesa, osmesa);
 create!(OSMesaCreateContextExt(format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr), share, OsMesa, osmesa);
 create!(OSMesaCreateContextAttribs(attribs: Ptr, share: Ptr), share, OsMesa, osmesa);
 
+/// Makes a context current with drawables, none where there is nothing to draw to; `call` is the program's own and tells whether it is done.
+fn make_current<R>(
+    provider: Provider,
+    context: Ptr,
+    drawables: Option<Pair>,
+    call: impl FnOnce() -> R,
+    done: impl FnOnce(&R) -> bool,
+) -> R {
+    if is_current(provider, context, drawables) {
+        return guarded(call);
+    }
+    leave_context((provider, context), drawables);
+    let answer = guarded(call);
+    if done(&answer) {
+        made_current(provider, context, drawables);
+    }
+    answer
+}
+
 /// The common part of the GLX MakeCurrent family.
-fn glx_current(dpy: Ptr, drawable: c_ulong, ctx: Ptr, call: impl FnOnce() -> i32) -> i32 {
-    let same = is_current(Provider::Gl, ctx, Drawable::Glx(dpy, drawable));
-    if !same {
-        leave_context();
-    }
-    let ok = guarded(call);
-    if ok != 0 && !same {
-        made_current(
-            Provider::Gl,
-            ctx,
-            (drawable != 0).then_some(Drawable::Glx(dpy, drawable)),
-        );
-    }
-    ok
+fn glx_current(dpy: Ptr, [draw, read]: [c_ulong; 2], ctx: Ptr, call: impl FnOnce() -> i32) -> i32 {
+    let drawables = (draw != 0).then_some(Pair {
+        draw: Drawable::Glx(dpy, draw),
+        read: Drawable::Glx(dpy, read),
+    });
+    make_current(Provider::Gl, ctx, drawables, call, |&ok| ok != 0)
 }
 
 pub(crate) unsafe fn glXMakeCurrent(dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32 {
     // SAFETY: the program's own call.
-    glx_current(dpy, drawable, ctx, || unsafe {
+    glx_current(dpy, [drawable; 2], ctx, || unsafe {
         gl().glXMakeCurrent(dpy, drawable, ctx)
     })
 }
@@ -92,7 +104,7 @@ pub(crate) unsafe fn glXMakeContextCurrent(
     ctx: Ptr,
 ) -> i32 {
     // SAFETY: the program's own call.
-    glx_current(dpy, draw, ctx, || unsafe {
+    glx_current(dpy, [draw, read], ctx, || unsafe {
         gl().glXMakeContextCurrent(dpy, draw, read, ctx)
     })
 }
@@ -104,7 +116,7 @@ pub(crate) unsafe fn glXMakeCurrentReadSGI(
     ctx: Ptr,
 ) -> i32 {
     // SAFETY: the program's own call.
-    glx_current(dpy, draw, ctx, || unsafe {
+    glx_current(dpy, [draw, read], ctx, || unsafe {
         gl().glXMakeCurrentReadSGI(dpy, draw, read, ctx)
     })
 }
@@ -134,10 +146,29 @@ pub(crate) unsafe fn glXCreateWindow(dpy: Ptr, config: Ptr, win: c_ulong, attrib
 }
 
 pub(crate) unsafe fn glXDestroyWindow(dpy: Ptr, win: c_ulong) {
-    sheltered(|| windows::gone(dpy, win));
+    sheltered(|| {
+        windows::gone(dpy, win);
+        drawables::gone(Drawable::Glx(dpy, win));
+    });
     // SAFETY: the program's own call.
     guarded(|| unsafe { gl().glXDestroyWindow(dpy, win) });
 }
+
+/// A hook of a command that destroys a drawable which is no window.
+macro_rules! destroy {
+    ($name:ident($drawable:ident)) => {
+        pub(crate) unsafe fn $name(dpy: Ptr, $drawable: c_ulong) {
+            sheltered(|| drawables::gone(Drawable::Glx(dpy, $drawable)));
+            // SAFETY: the program's own call.
+            guarded(|| unsafe { gl().$name(dpy, $drawable) });
+        }
+    };
+}
+
+destroy!(glXDestroyPbuffer(pbuf));
+destroy!(glXDestroyGLXPbufferSGIX(pbuf));
+destroy!(glXDestroyPixmap(pixmap));
+destroy!(glXDestroyGLXPixmap(pixmap));
 
 pub(crate) unsafe fn glXGetProcAddress(name: Ptr) -> Ptr {
     // SAFETY: the program's own string.
@@ -172,20 +203,13 @@ swap_with_damage!(eglSwapBuffersWithDamageKHR);
 swap_with_damage!(eglSwapBuffersWithDamageEXT);
 
 pub(crate) unsafe fn eglMakeCurrent(dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32 {
-    let same = is_current(Provider::Gl, ctx, Drawable::Egl(dpy, draw));
-    if !same {
-        leave_context();
-    }
+    let drawables = (!draw.is_null()).then_some(Pair {
+        draw: Drawable::Egl(dpy, draw),
+        read: Drawable::Egl(dpy, read),
+    });
     // SAFETY: the program's own call.
-    let ok = guarded(|| unsafe { gl().eglMakeCurrent(dpy, draw, read, ctx) });
-    if ok != 0 && !same {
-        made_current(
-            Provider::Gl,
-            ctx,
-            (!draw.is_null()).then_some(Drawable::Egl(dpy, draw)),
-        );
-    }
-    ok
+    let call = || unsafe { gl().eglMakeCurrent(dpy, draw, read, ctx) };
+    make_current(Provider::Gl, ctx, drawables, call, |&ok| ok != 0)
 }
 
 pub(crate) unsafe fn eglDestroyContext(dpy: Ptr, ctx: Ptr) -> u32 {
@@ -195,9 +219,11 @@ pub(crate) unsafe fn eglDestroyContext(dpy: Ptr, ctx: Ptr) -> u32 {
 }
 
 pub(crate) unsafe fn eglReleaseThread() -> u32 {
+    let none = core::ptr::null_mut();
+    leave_context((Provider::Gl, none), None);
     // SAFETY: the program's own call.
     let ok = guarded(|| unsafe { gl().eglReleaseThread() });
-    made_current(Provider::Gl, core::ptr::null_mut(), None);
+    made_current(Provider::Gl, none, None);
     ok
 }
 
@@ -243,9 +269,21 @@ window_surface!(eglCreatePlatformWindowSurface, true);
 window_surface!(eglCreatePlatformWindowSurfaceEXT, true);
 
 pub(crate) unsafe fn eglDestroySurface(dpy: Ptr, surface: Ptr) -> u32 {
-    sheltered(|| windows::egl_gone(dpy, surface));
+    sheltered(|| {
+        windows::egl_gone(dpy, surface);
+        drawables::gone(Drawable::Egl(dpy, surface));
+    });
     // SAFETY: the program's own call.
     guarded(|| unsafe { gl().eglDestroySurface(dpy, surface) })
+}
+
+pub(crate) unsafe fn eglTerminate(dpy: Ptr) -> u32 {
+    // SAFETY: the program's own call.
+    let done = guarded(|| unsafe { gl().eglTerminate(dpy) });
+    if done != 0 {
+        sheltered(|| drawables::terminated(dpy));
+    }
+    done
 }
 
 pub(crate) unsafe fn eglGetProcAddress(name: Ptr) -> Ptr {
@@ -260,19 +298,19 @@ pub(crate) unsafe fn OSMesaMakeCurrent(
     width: i32,
     height: i32,
 ) -> u8 {
-    leave_context();
+    let memory = Drawable::Memory(width as u32, height as u32);
+    let drawables = (!buffer.is_null() && width > 0 && height > 0).then_some(Pair::of(memory));
+    leave_context((Provider::OsMesa, ctx), drawables);
     // SAFETY: the program's own call.
     let ok = guarded(|| unsafe { osmesa().OSMesaMakeCurrent(ctx, buffer, kind, width, height) });
     if ok != 0 {
-        let drawable = (!buffer.is_null() && width > 0 && height > 0)
-            .then_some(Drawable::Memory(width as u32, height as u32));
-        made_current(Provider::OsMesa, ctx, drawable);
+        made_current(Provider::OsMesa, ctx, drawables);
     }
     ok
 }
 
 pub(crate) unsafe fn OSMesaDestroyContext(ctx: Ptr) {
-    leave_context();
+    leave_context((Provider::OsMesa, core::ptr::null_mut()), None);
     destroyed(Provider::OsMesa, ctx);
     // SAFETY: the program's own call.
     guarded(|| unsafe { osmesa().OSMesaDestroyContext(ctx) });

@@ -2,7 +2,7 @@
 
 use super::super::Layer;
 use super::{Images, Request};
-use crate::config::{Output, Projection};
+use crate::config::{Output, Projection, Strategy};
 use crate::gl::{Gl, ProgramName, consts as c};
 use crate::interleave::Sources;
 use crate::plan::class::{Classed, Target, Traits};
@@ -17,16 +17,19 @@ use std::sync::Arc;
 impl Layer {
     /// The user's settings and the driver's capabilities that a decision depends on.
     pub(super) fn settings(&self) -> Settings {
-        let support = &self.session.support;
+        let (support, plain) = (&self.session.support, self.is_plain());
         Settings {
-            strategy: self.session.strategy,
+            strategy: match plain {
+                true => Strategy::Replay,
+                false => self.session.strategy,
+            },
             instanced: support.instanced(),
             geometry: support.geometry(),
             same_depths: self.session.same_depths(),
             views: self.session.config.views,
             shows_depth: self.output() == Output::Rgbd,
-            measures_depths: self.cameras.comfort.looks() && !self.session.live.flat,
-            synthesises: self.synthesis.passes.is_some(),
+            measures_depths: self.cameras.comfort.looks() && !self.session.live.flat && !plain,
+            synthesises: self.synthesis.passes.is_some() && !plain,
         }
     }
 

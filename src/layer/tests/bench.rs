@@ -1,6 +1,6 @@
 //! A whole layer on the fake driver, and a program that calls it as the hooks do.
 
-use super::super::{Layer, Primitives};
+use super::super::{CurrentDrawable, DrawableId, Layer, Primitives};
 use crate::config::Config;
 use crate::gl::consts as c;
 use crate::gl::fake::{Drawn, Fake};
@@ -45,7 +45,11 @@ impl Bench {
     /// On this driver; options as for [`Bench::new`].
     pub(in crate::layer) fn on(fake: Fake, options: &[(&str, &str)]) -> Bench {
         let gl = fake.gl();
-        let layer = Layer::new(&gl, config(options), 64, 48, Arc::default());
+        let drawable = CurrentDrawable {
+            id: DrawableId(1),
+            size: (64, 48),
+        };
+        let layer = Layer::new(&gl, config(options), drawable, Arc::default());
         let layer = layer.expect("a layer");
         fake.forget();
         Bench { fake, gl, layer }
