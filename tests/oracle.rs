@@ -480,10 +480,10 @@ fn join(parts: &Path, out: &Path) {
     std::fs::write(out, all).expect("written");
 }
 
-/// The numbers of views of `make test`: all on GLX, one on the other APIs.
+/// The numbers of views of `make test`: an even and an odd one on GLX, one on the other APIs.
 fn short(api: &str) -> &'static [u32] {
     match api {
-        "glx" => &[1, 2, 5, 8],
+        "glx" => &[2, 5],
         _ => &[5],
     }
 }

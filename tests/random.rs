@@ -312,23 +312,23 @@ fn random_calls_by_instances() {
 
 #[test]
 fn random_calls_by_depth_images() {
-    compare(Api::Egl, "side-by-side", "depth-image", 43_000..43_060);
-    compare(Api::Egl, "layers", "depth-image", 43_060..43_090);
-    compare(Api::OsMesa, "side-by-side", "depth-image", 43_090..43_110);
+    compare(Api::Egl, "side-by-side", "depth-image", 43_000..43_030);
+    compare(Api::Egl, "layers", "depth-image", 43_060..43_080);
+    compare(Api::OsMesa, "side-by-side", "depth-image", 43_090..43_100);
 }
 
 #[test]
 fn random_calls_by_several_true_views() {
-    compare(Api::Egl, "side-by-side", "hybrid", 45_000..45_060);
-    compare(Api::Egl, "layers", "hybrid", 45_060..45_090);
-    compare(Api::OsMesa, "side-by-side", "hybrid", 45_090..45_110);
+    compare(Api::Egl, "side-by-side", "hybrid", 45_000..45_030);
+    compare(Api::Egl, "layers", "hybrid", 45_060..45_080);
+    compare(Api::OsMesa, "side-by-side", "hybrid", 45_090..45_100);
 }
 
 #[test]
 fn random_calls_by_an_occlusion_camera() {
-    compare(Api::Egl, "side-by-side", "occlusion", 44_000..44_060);
-    compare(Api::Egl, "layers", "occlusion", 44_060..44_090);
-    compare(Api::OsMesa, "side-by-side", "occlusion", 44_090..44_110);
+    compare(Api::Egl, "side-by-side", "occlusion", 44_000..44_030);
+    compare(Api::Egl, "layers", "occlusion", 44_060..44_080);
+    compare(Api::OsMesa, "side-by-side", "occlusion", 44_090..44_100);
 }
 
 #[test]

@@ -299,6 +299,18 @@ const OUTSIDE: f64 = 0.0005;
 /// Outside holes no wrong surface is seen; where depths do not suffice, everything is drawn in each view.
 #[test]
 fn hard_scenes_are_right_outside_of_holes() {
+    right_outside_of_holes(4);
+}
+
+#[test]
+#[ignore = "two minutes: make test-long"]
+fn all_hard_scenes_are_right_outside_of_holes() {
+    right_outside_of_holes(1);
+}
+
+/// Checks every scene of which the number is a multiple of `step`.
+#[track_caller]
+fn right_outside_of_holes(step: usize) {
     let mut list = support::bare(demo("hard"));
     let list = support::lines(list.args(["--list", "--api", "egl"]));
     let scenes: Vec<&str> = list
@@ -307,7 +319,7 @@ fn hard_scenes_are_right_outside_of_holes() {
         .collect();
     assert!(scenes.len() > 40, "{list}");
     let cameras = ["--eye-spacing", "0.3", "--focal-depth", "8"];
-    for name in scenes {
+    for name in scenes.into_iter().step_by(step) {
         let scene = ["hard", "--case", name];
         let by = |options: &[&str]| views(&scene, &[&cameras[..], options].concat());
         let (exact, _) = by(&["--strategy", "replay"]);

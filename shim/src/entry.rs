@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1786] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1833] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1656,12 +1656,62 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1786] = [
     AtomicPtr::new(first_glDeleteRenderbuffersEXT as *mut ()),
     AtomicPtr::new(first_glBindBuffer as *mut ()),
     AtomicPtr::new(first_glBindBufferARB as *mut ()),
-    AtomicPtr::new(first_glBufferData as *mut ()),
-    AtomicPtr::new(first_glBufferDataARB as *mut ()),
-    AtomicPtr::new(first_glBufferSubData as *mut ()),
-    AtomicPtr::new(first_glBufferSubDataARB as *mut ()),
+    AtomicPtr::new(first_glBindBufferBase as *mut ()),
+    AtomicPtr::new(first_glBindBufferBaseEXT as *mut ()),
+    AtomicPtr::new(first_glBindBufferBaseNV as *mut ()),
+    AtomicPtr::new(first_glBindBufferRange as *mut ()),
+    AtomicPtr::new(first_glBindBufferRangeEXT as *mut ()),
+    AtomicPtr::new(first_glBindBufferRangeNV as *mut ()),
+    AtomicPtr::new(first_glBindBuffersBase as *mut ()),
+    AtomicPtr::new(first_glBindBuffersRange as *mut ()),
     AtomicPtr::new(first_glDeleteBuffers as *mut ()),
     AtomicPtr::new(first_glDeleteBuffersARB as *mut ()),
+    AtomicPtr::new(first_glBufferData as *mut ()),
+    AtomicPtr::new(first_glBufferDataARB as *mut ()),
+    AtomicPtr::new(first_glNamedBufferData as *mut ()),
+    AtomicPtr::new(first_glBufferStorage as *mut ()),
+    AtomicPtr::new(first_glBufferStorageEXT as *mut ()),
+    AtomicPtr::new(first_glNamedBufferStorage as *mut ()),
+    AtomicPtr::new(first_glNamedBufferStorageEXT as *mut ()),
+    AtomicPtr::new(first_glBufferSubData as *mut ()),
+    AtomicPtr::new(first_glBufferSubDataARB as *mut ()),
+    AtomicPtr::new(first_glNamedBufferSubData as *mut ()),
+    AtomicPtr::new(first_glNamedBufferSubDataEXT as *mut ()),
+    AtomicPtr::new(first_glNamedBufferDataEXT as *mut ()),
+    AtomicPtr::new(first_glMapNamedBufferEXT as *mut ()),
+    AtomicPtr::new(first_glMapNamedBufferRangeEXT as *mut ()),
+    AtomicPtr::new(first_glUnmapNamedBufferEXT as *mut ()),
+    AtomicPtr::new(first_glFlushMappedNamedBufferRangeEXT as *mut ()),
+    AtomicPtr::new(first_glNamedCopyBufferSubDataEXT as *mut ()),
+    AtomicPtr::new(first_glClearNamedBufferDataEXT as *mut ()),
+    AtomicPtr::new(first_glClearNamedBufferSubDataEXT as *mut ()),
+    AtomicPtr::new(first_glCopyBufferSubData as *mut ()),
+    AtomicPtr::new(first_glCopyBufferSubDataNV as *mut ()),
+    AtomicPtr::new(first_glCopyNamedBufferSubData as *mut ()),
+    AtomicPtr::new(first_glInvalidateBufferData as *mut ()),
+    AtomicPtr::new(first_glInvalidateBufferSubData as *mut ()),
+    AtomicPtr::new(first_glClearBufferData as *mut ()),
+    AtomicPtr::new(first_glClearBufferSubData as *mut ()),
+    AtomicPtr::new(first_glClearNamedBufferData as *mut ()),
+    AtomicPtr::new(first_glClearNamedBufferSubData as *mut ()),
+    AtomicPtr::new(first_glMapBuffer as *mut ()),
+    AtomicPtr::new(first_glMapBufferARB as *mut ()),
+    AtomicPtr::new(first_glMapBufferOES as *mut ()),
+    AtomicPtr::new(first_glMapNamedBuffer as *mut ()),
+    AtomicPtr::new(first_glMapBufferRange as *mut ()),
+    AtomicPtr::new(first_glMapBufferRangeEXT as *mut ()),
+    AtomicPtr::new(first_glMapNamedBufferRange as *mut ()),
+    AtomicPtr::new(first_glUnmapBuffer as *mut ()),
+    AtomicPtr::new(first_glUnmapBufferARB as *mut ()),
+    AtomicPtr::new(first_glUnmapBufferOES as *mut ()),
+    AtomicPtr::new(first_glUnmapNamedBuffer as *mut ()),
+    AtomicPtr::new(first_glFlushMappedBufferRange as *mut ()),
+    AtomicPtr::new(first_glFlushMappedBufferRangeAPPLE as *mut ()),
+    AtomicPtr::new(first_glFlushMappedBufferRangeEXT as *mut ()),
+    AtomicPtr::new(first_glFlushMappedNamedBufferRange as *mut ()),
+    AtomicPtr::new(first_glMemoryBarrier as *mut ()),
+    AtomicPtr::new(first_glMemoryBarrierEXT as *mut ()),
+    AtomicPtr::new(first_glMemoryBarrierByRegion as *mut ()),
     AtomicPtr::new(first_glPixelStoref as *mut ()),
     AtomicPtr::new(first_glPixelStorei as *mut ()),
     AtomicPtr::new(first_glPushClientAttrib as *mut ()),
@@ -1791,13 +1841,10 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1786] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1786] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1833] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -3446,12 +3493,62 @@ pub(crate) static HOOK: [Option<crate::Address>; 1786] = [
     Some(crate::Address(hook_glDeleteRenderbuffersEXT as *const ())),
     Some(crate::Address(hook_glBindBuffer as *const ())),
     Some(crate::Address(hook_glBindBufferARB as *const ())),
-    Some(crate::Address(hook_glBufferData as *const ())),
-    Some(crate::Address(hook_glBufferDataARB as *const ())),
-    Some(crate::Address(hook_glBufferSubData as *const ())),
-    Some(crate::Address(hook_glBufferSubDataARB as *const ())),
+    Some(crate::Address(hook_glBindBufferBase as *const ())),
+    Some(crate::Address(hook_glBindBufferBaseEXT as *const ())),
+    Some(crate::Address(hook_glBindBufferBaseNV as *const ())),
+    Some(crate::Address(hook_glBindBufferRange as *const ())),
+    Some(crate::Address(hook_glBindBufferRangeEXT as *const ())),
+    Some(crate::Address(hook_glBindBufferRangeNV as *const ())),
+    Some(crate::Address(hook_glBindBuffersBase as *const ())),
+    Some(crate::Address(hook_glBindBuffersRange as *const ())),
     Some(crate::Address(hook_glDeleteBuffers as *const ())),
     Some(crate::Address(hook_glDeleteBuffersARB as *const ())),
+    Some(crate::Address(hook_glBufferData as *const ())),
+    Some(crate::Address(hook_glBufferDataARB as *const ())),
+    Some(crate::Address(hook_glNamedBufferData as *const ())),
+    Some(crate::Address(hook_glBufferStorage as *const ())),
+    Some(crate::Address(hook_glBufferStorageEXT as *const ())),
+    Some(crate::Address(hook_glNamedBufferStorage as *const ())),
+    Some(crate::Address(hook_glNamedBufferStorageEXT as *const ())),
+    Some(crate::Address(hook_glBufferSubData as *const ())),
+    Some(crate::Address(hook_glBufferSubDataARB as *const ())),
+    Some(crate::Address(hook_glNamedBufferSubData as *const ())),
+    Some(crate::Address(hook_glNamedBufferSubDataEXT as *const ())),
+    Some(crate::Address(hook_glNamedBufferDataEXT as *const ())),
+    Some(crate::Address(hook_glMapNamedBufferEXT as *const ())),
+    Some(crate::Address(hook_glMapNamedBufferRangeEXT as *const ())),
+    Some(crate::Address(hook_glUnmapNamedBufferEXT as *const ())),
+    Some(crate::Address(hook_glFlushMappedNamedBufferRangeEXT as *const ())),
+    Some(crate::Address(hook_glNamedCopyBufferSubDataEXT as *const ())),
+    Some(crate::Address(hook_glClearNamedBufferDataEXT as *const ())),
+    Some(crate::Address(hook_glClearNamedBufferSubDataEXT as *const ())),
+    Some(crate::Address(hook_glCopyBufferSubData as *const ())),
+    Some(crate::Address(hook_glCopyBufferSubDataNV as *const ())),
+    Some(crate::Address(hook_glCopyNamedBufferSubData as *const ())),
+    Some(crate::Address(hook_glInvalidateBufferData as *const ())),
+    Some(crate::Address(hook_glInvalidateBufferSubData as *const ())),
+    Some(crate::Address(hook_glClearBufferData as *const ())),
+    Some(crate::Address(hook_glClearBufferSubData as *const ())),
+    Some(crate::Address(hook_glClearNamedBufferData as *const ())),
+    Some(crate::Address(hook_glClearNamedBufferSubData as *const ())),
+    Some(crate::Address(hook_glMapBuffer as *const ())),
+    Some(crate::Address(hook_glMapBufferARB as *const ())),
+    Some(crate::Address(hook_glMapBufferOES as *const ())),
+    Some(crate::Address(hook_glMapNamedBuffer as *const ())),
+    Some(crate::Address(hook_glMapBufferRange as *const ())),
+    Some(crate::Address(hook_glMapBufferRangeEXT as *const ())),
+    Some(crate::Address(hook_glMapNamedBufferRange as *const ())),
+    Some(crate::Address(hook_glUnmapBuffer as *const ())),
+    Some(crate::Address(hook_glUnmapBufferARB as *const ())),
+    Some(crate::Address(hook_glUnmapBufferOES as *const ())),
+    Some(crate::Address(hook_glUnmapNamedBuffer as *const ())),
+    Some(crate::Address(hook_glFlushMappedBufferRange as *const ())),
+    Some(crate::Address(hook_glFlushMappedBufferRangeAPPLE as *const ())),
+    Some(crate::Address(hook_glFlushMappedBufferRangeEXT as *const ())),
+    Some(crate::Address(hook_glFlushMappedNamedBufferRange as *const ())),
+    Some(crate::Address(hook_glMemoryBarrier as *const ())),
+    Some(crate::Address(hook_glMemoryBarrierEXT as *const ())),
+    Some(crate::Address(hook_glMemoryBarrierByRegion as *const ())),
     Some(crate::Address(hook_glPixelStoref as *const ())),
     Some(crate::Address(hook_glPixelStorei as *const ())),
     Some(crate::Address(hook_glPushClientAttrib as *const ())),
@@ -3581,14 +3678,11 @@ pub(crate) static HOOK: [Option<crate::Address>; 1786] = [
     None,
     None,
     None,
-    None,
-    None,
-    None,
 ];
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1786] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1833] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -5237,12 +5331,62 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1786] = [
     Some(zeros_glDeleteRenderbuffersEXT),
     Some(zeros_glBindBuffer),
     Some(zeros_glBindBufferARB),
-    Some(zeros_glBufferData),
-    Some(zeros_glBufferDataARB),
-    Some(zeros_glBufferSubData),
-    Some(zeros_glBufferSubDataARB),
+    Some(zeros_glBindBufferBase),
+    Some(zeros_glBindBufferBaseEXT),
+    Some(zeros_glBindBufferBaseNV),
+    Some(zeros_glBindBufferRange),
+    Some(zeros_glBindBufferRangeEXT),
+    Some(zeros_glBindBufferRangeNV),
+    Some(zeros_glBindBuffersBase),
+    Some(zeros_glBindBuffersRange),
     Some(zeros_glDeleteBuffers),
     Some(zeros_glDeleteBuffersARB),
+    Some(zeros_glBufferData),
+    Some(zeros_glBufferDataARB),
+    Some(zeros_glNamedBufferData),
+    Some(zeros_glBufferStorage),
+    Some(zeros_glBufferStorageEXT),
+    Some(zeros_glNamedBufferStorage),
+    Some(zeros_glNamedBufferStorageEXT),
+    Some(zeros_glBufferSubData),
+    Some(zeros_glBufferSubDataARB),
+    Some(zeros_glNamedBufferSubData),
+    Some(zeros_glNamedBufferSubDataEXT),
+    Some(zeros_glNamedBufferDataEXT),
+    Some(zeros_glMapNamedBufferEXT),
+    Some(zeros_glMapNamedBufferRangeEXT),
+    Some(zeros_glUnmapNamedBufferEXT),
+    Some(zeros_glFlushMappedNamedBufferRangeEXT),
+    Some(zeros_glNamedCopyBufferSubDataEXT),
+    Some(zeros_glClearNamedBufferDataEXT),
+    Some(zeros_glClearNamedBufferSubDataEXT),
+    Some(zeros_glCopyBufferSubData),
+    Some(zeros_glCopyBufferSubDataNV),
+    Some(zeros_glCopyNamedBufferSubData),
+    Some(zeros_glInvalidateBufferData),
+    Some(zeros_glInvalidateBufferSubData),
+    Some(zeros_glClearBufferData),
+    Some(zeros_glClearBufferSubData),
+    Some(zeros_glClearNamedBufferData),
+    Some(zeros_glClearNamedBufferSubData),
+    Some(zeros_glMapBuffer),
+    Some(zeros_glMapBufferARB),
+    Some(zeros_glMapBufferOES),
+    Some(zeros_glMapNamedBuffer),
+    Some(zeros_glMapBufferRange),
+    Some(zeros_glMapBufferRangeEXT),
+    Some(zeros_glMapNamedBufferRange),
+    Some(zeros_glUnmapBuffer),
+    Some(zeros_glUnmapBufferARB),
+    Some(zeros_glUnmapBufferOES),
+    Some(zeros_glUnmapNamedBuffer),
+    Some(zeros_glFlushMappedBufferRange),
+    Some(zeros_glFlushMappedBufferRangeAPPLE),
+    Some(zeros_glFlushMappedBufferRangeEXT),
+    Some(zeros_glFlushMappedNamedBufferRange),
+    Some(zeros_glMemoryBarrier),
+    Some(zeros_glMemoryBarrierEXT),
+    Some(zeros_glMemoryBarrierByRegion),
     Some(zeros_glPixelStoref),
     Some(zeros_glPixelStorei),
     Some(zeros_glPushClientAttrib),
@@ -5372,42 +5516,39 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1786] = [
     None,
     None,
     None,
-    None,
-    None,
-    None,
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
-    (b"OSMesaCreateContext", 1733, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1735, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1734, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1736, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1737, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1732, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglBindTexImage", 1714, crate::Address(eglBindTexImage as *const ())),
-    (b"eglCopyBuffers", 1711, crate::Address(eglCopyBuffers as *const ())),
-    (b"eglCreateContext", 1716, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1723, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1724, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1722, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1717, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1725, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1719, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1720, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1721, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1727, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1715, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglPostSubBufferNV", 1708, crate::Address(eglPostSubBufferNV as *const ())),
-    (b"eglReleaseThread", 1718, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1705, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersRegion2NOK", 1710, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
-    (b"eglSwapBuffersRegionNOK", 1709, crate::Address(eglSwapBuffersRegionNOK as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1707, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1706, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"eglTerminate", 1726, crate::Address(eglTerminate as *const ())),
-    (b"eglWaitClient", 1713, crate::Address(eglWaitClient as *const ())),
-    (b"eglWaitGL", 1712, crate::Address(eglWaitGL as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1783] = [
+    (b"OSMesaCreateContext", 1783, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1785, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1784, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1786, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1787, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1782, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglBindTexImage", 1764, crate::Address(eglBindTexImage as *const ())),
+    (b"eglCopyBuffers", 1761, crate::Address(eglCopyBuffers as *const ())),
+    (b"eglCreateContext", 1766, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1773, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1774, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1772, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1767, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1775, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1769, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1770, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1771, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1777, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1765, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglPostSubBufferNV", 1758, crate::Address(eglPostSubBufferNV as *const ())),
+    (b"eglReleaseThread", 1768, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1755, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersRegion2NOK", 1760, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
+    (b"eglSwapBuffersRegionNOK", 1759, crate::Address(eglSwapBuffersRegionNOK as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1757, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1756, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"eglTerminate", 1776, crate::Address(eglTerminate as *const ())),
+    (b"eglWaitClient", 1763, crate::Address(eglWaitClient as *const ())),
+    (b"eglWaitGL", 1762, crate::Address(eglWaitGL as *const ())),
     (b"glAccum", 1391, crate::Address(glAccum as *const ())),
     (b"glActiveStencilFaceEXT", 819, crate::Address(glActiveStencilFaceEXT as *const ())),
     (b"glActiveTexture", 555, crate::Address(glActiveTexture as *const ())),
@@ -5428,6 +5569,14 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glBeginTransformFeedbackNV", 712, crate::Address(glBeginTransformFeedbackNV as *const ())),
     (b"glBindBuffer", 1646, crate::Address(glBindBuffer as *const ())),
     (b"glBindBufferARB", 1647, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindBufferBase", 1648, crate::Address(glBindBufferBase as *const ())),
+    (b"glBindBufferBaseEXT", 1649, crate::Address(glBindBufferBaseEXT as *const ())),
+    (b"glBindBufferBaseNV", 1650, crate::Address(glBindBufferBaseNV as *const ())),
+    (b"glBindBufferRange", 1651, crate::Address(glBindBufferRange as *const ())),
+    (b"glBindBufferRangeEXT", 1652, crate::Address(glBindBufferRangeEXT as *const ())),
+    (b"glBindBufferRangeNV", 1653, crate::Address(glBindBufferRangeNV as *const ())),
+    (b"glBindBuffersBase", 1654, crate::Address(glBindBuffersBase as *const ())),
+    (b"glBindBuffersRange", 1655, crate::Address(glBindBuffersRange as *const ())),
     (b"glBindFragmentShaderATI", 623, crate::Address(glBindFragmentShaderATI as *const ())),
     (b"glBindFramebuffer", 1408, crate::Address(glBindFramebuffer as *const ())),
     (b"glBindFramebufferEXT", 1409, crate::Address(glBindFramebufferEXT as *const ())),
@@ -5484,10 +5633,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glBlitFramebufferEXT", 1425, crate::Address(glBlitFramebufferEXT as *const ())),
     (b"glBlitFramebufferNV", 1426, crate::Address(glBlitFramebufferNV as *const ())),
     (b"glBlitNamedFramebuffer", 1427, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1648, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1649, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferSubData", 1650, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1651, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glBufferData", 1658, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1659, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferStorage", 1661, crate::Address(glBufferStorage as *const ())),
+    (b"glBufferStorageEXT", 1662, crate::Address(glBufferStorageEXT as *const ())),
+    (b"glBufferSubData", 1665, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1666, crate::Address(glBufferSubDataARB as *const ())),
     (b"glCallList", 1397, crate::Address(glCallList as *const ())),
     (b"glCallLists", 1398, crate::Address(glCallLists as *const ())),
     (b"glCheckFramebufferStatus", 1484, crate::Address(glCheckFramebufferStatus as *const ())),
@@ -5496,6 +5647,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glClampColorARB", 610, crate::Address(glClampColorARB as *const ())),
     (b"glClear", 1279, crate::Address(glClear as *const ())),
     (b"glClearAccum", 755, crate::Address(glClearAccum as *const ())),
+    (b"glClearBufferData", 1682, crate::Address(glClearBufferData as *const ())),
+    (b"glClearBufferSubData", 1683, crate::Address(glClearBufferSubData as *const ())),
     (b"glClearBufferfi", 1280, crate::Address(glClearBufferfi as *const ())),
     (b"glClearBufferfv", 1281, crate::Address(glClearBufferfv as *const ())),
     (b"glClearBufferiv", 1282, crate::Address(glClearBufferiv as *const ())),
@@ -5508,6 +5661,10 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glClearDepthf", 758, crate::Address(glClearDepthf as *const ())),
     (b"glClearDepthfOES", 759, crate::Address(glClearDepthfOES as *const ())),
     (b"glClearIndex", 760, crate::Address(glClearIndex as *const ())),
+    (b"glClearNamedBufferData", 1684, crate::Address(glClearNamedBufferData as *const ())),
+    (b"glClearNamedBufferDataEXT", 1675, crate::Address(glClearNamedBufferDataEXT as *const ())),
+    (b"glClearNamedBufferSubData", 1685, crate::Address(glClearNamedBufferSubData as *const ())),
+    (b"glClearNamedBufferSubDataEXT", 1676, crate::Address(glClearNamedBufferSubDataEXT as *const ())),
     (b"glClearNamedFramebufferfi", 1431, crate::Address(glClearNamedFramebufferfi as *const ())),
     (b"glClearNamedFramebufferfv", 1428, crate::Address(glClearNamedFramebufferfv as *const ())),
     (b"glClearNamedFramebufferiv", 1429, crate::Address(glClearNamedFramebufferiv as *const ())),
@@ -5517,8 +5674,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glClearTexImageEXT", 880, crate::Address(glClearTexImageEXT as *const ())),
     (b"glClearTexSubImage", 881, crate::Address(glClearTexSubImage as *const ())),
     (b"glClearTexSubImageEXT", 882, crate::Address(glClearTexSubImageEXT as *const ())),
-    (b"glClientActiveTexture", 1660, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1661, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClientActiveTexture", 1710, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1711, crate::Address(glClientActiveTextureARB as *const ())),
     (b"glClipControl", 603, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 604, crate::Address(glClipControlEXT as *const ())),
     (b"glClipPlane", 762, crate::Address(glClipPlane as *const ())),
@@ -5568,7 +5725,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1663, crate::Address(glColorPointer as *const ())),
+    (b"glColorPointer", 1713, crate::Address(glColorPointer as *const ())),
     (b"glCompressedTexImage1D", 840, crate::Address(glCompressedTexImage1D as *const ())),
     (b"glCompressedTexImage1DARB", 841, crate::Address(glCompressedTexImage1DARB as *const ())),
     (b"glCompressedTexImage2D", 842, crate::Address(glCompressedTexImage2D as *const ())),
@@ -5592,6 +5749,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glCompressedTextureSubImage2DEXT", 899, crate::Address(glCompressedTextureSubImage2DEXT as *const ())),
     (b"glCompressedTextureSubImage3D", 873, crate::Address(glCompressedTextureSubImage3D as *const ())),
     (b"glCompressedTextureSubImage3DEXT", 900, crate::Address(glCompressedTextureSubImage3DEXT as *const ())),
+    (b"glCopyBufferSubData", 1677, crate::Address(glCopyBufferSubData as *const ())),
+    (b"glCopyBufferSubDataNV", 1678, crate::Address(glCopyBufferSubDataNV as *const ())),
     (b"glCopyColorSubTable", 1530, crate::Address(glCopyColorSubTable as *const ())),
     (b"glCopyColorSubTableEXT", 1531, crate::Address(glCopyColorSubTableEXT as *const ())),
     (b"glCopyColorTable", 1518, crate::Address(glCopyColorTable as *const ())),
@@ -5608,6 +5767,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glCopyMultiTexSubImage1DEXT", 1527, crate::Address(glCopyMultiTexSubImage1DEXT as *const ())),
     (b"glCopyMultiTexSubImage2DEXT", 1528, crate::Address(glCopyMultiTexSubImage2DEXT as *const ())),
     (b"glCopyMultiTexSubImage3DEXT", 1529, crate::Address(glCopyMultiTexSubImage3DEXT as *const ())),
+    (b"glCopyNamedBufferSubData", 1679, crate::Address(glCopyNamedBufferSubData as *const ())),
     (b"glCopyPixels", 1394, crate::Address(glCopyPixels as *const ())),
     (b"glCopyTexImage1D", 1495, crate::Address(glCopyTexImage1D as *const ())),
     (b"glCopyTexImage1DEXT", 1496, crate::Address(glCopyTexImage1DEXT as *const ())),
@@ -5637,8 +5797,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glDebugMessageCallback", 1595, crate::Address(glDebugMessageCallback as *const ())),
     (b"glDebugMessageCallbackARB", 1596, crate::Address(glDebugMessageCallbackARB as *const ())),
     (b"glDebugMessageCallbackKHR", 1597, crate::Address(glDebugMessageCallbackKHR as *const ())),
-    (b"glDeleteBuffers", 1652, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1653, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteBuffers", 1656, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1657, crate::Address(glDeleteBuffersARB as *const ())),
     (b"glDeleteFramebuffers", 1410, crate::Address(glDeleteFramebuffers as *const ())),
     (b"glDeleteFramebuffersEXT", 1411, crate::Address(glDeleteFramebuffersEXT as *const ())),
     (b"glDeleteLists", 1399, crate::Address(glDeleteLists as *const ())),
@@ -5667,11 +5827,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glDepthRangef", 544, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 545, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 530, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1659, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientState", 1709, crate::Address(glDisableClientState as *const ())),
     (b"glDisableClientStateiEXT", 621, crate::Address(glDisableClientStateiEXT as *const ())),
     (b"glDisableIndexedEXT", 537, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1677, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1678, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexAttribArray", 1727, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1728, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 536, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 538, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 539, crate::Address(glDisableiNV as *const ())),
@@ -5747,14 +5907,14 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glEGLImageTargetTexture2DOES", 867, crate::Address(glEGLImageTargetTexture2DOES as *const ())),
     (b"glEGLImageTargetTextureStorageEXT", 920, crate::Address(glEGLImageTargetTextureStorageEXT as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1668, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1718, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 529, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1658, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientState", 1708, crate::Address(glEnableClientState as *const ())),
     (b"glEnableClientStateiEXT", 622, crate::Address(glEnableClientStateiEXT as *const ())),
     (b"glEnableIndexedEXT", 532, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1675, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1676, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexAttribArray", 1725, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1726, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 531, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 533, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 534, crate::Address(glEnableiNV as *const ())),
@@ -5788,8 +5948,13 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glFeedbackBuffer", 1622, crate::Address(glFeedbackBuffer as *const ())),
     (b"glFinish", 1538, crate::Address(glFinish as *const ())),
     (b"glFlush", 1539, crate::Address(glFlush as *const ())),
-    (b"glFogCoordPointer", 1669, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1670, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glFlushMappedBufferRange", 1697, crate::Address(glFlushMappedBufferRange as *const ())),
+    (b"glFlushMappedBufferRangeAPPLE", 1698, crate::Address(glFlushMappedBufferRangeAPPLE as *const ())),
+    (b"glFlushMappedBufferRangeEXT", 1699, crate::Address(glFlushMappedBufferRangeEXT as *const ())),
+    (b"glFlushMappedNamedBufferRange", 1700, crate::Address(glFlushMappedNamedBufferRange as *const ())),
+    (b"glFlushMappedNamedBufferRangeEXT", 1673, crate::Address(glFlushMappedNamedBufferRangeEXT as *const ())),
+    (b"glFogCoordPointer", 1719, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1720, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -5936,7 +6101,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glGetnTexImageARB", 985, crate::Address(glGetnTexImageARB as *const ())),
     (b"glHint", 599, crate::Address(glHint as *const ())),
     (b"glIndexMask", 771, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1671, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexPointer", 1721, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -5948,7 +6113,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
     (b"glInitNames", 772, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1662, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInterleavedArrays", 1712, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateBufferData", 1680, crate::Address(glInvalidateBufferData as *const ())),
+    (b"glInvalidateBufferSubData", 1681, crate::Address(glInvalidateBufferSubData as *const ())),
     (b"glInvalidateFramebuffer", 1488, crate::Address(glInvalidateFramebuffer as *const ())),
     (b"glInvalidateSubFramebuffer", 1489, crate::Address(glInvalidateSubFramebuffer as *const ())),
     (b"glInvalidateTexImage", 917, crate::Address(glInvalidateTexImage as *const ())),
@@ -5989,10 +6156,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glMap1f", 781, crate::Address(glMap1f as *const ())),
     (b"glMap2d", 782, crate::Address(glMap2d as *const ())),
     (b"glMap2f", 783, crate::Address(glMap2f as *const ())),
+    (b"glMapBuffer", 1686, crate::Address(glMapBuffer as *const ())),
+    (b"glMapBufferARB", 1687, crate::Address(glMapBufferARB as *const ())),
+    (b"glMapBufferOES", 1688, crate::Address(glMapBufferOES as *const ())),
+    (b"glMapBufferRange", 1690, crate::Address(glMapBufferRange as *const ())),
+    (b"glMapBufferRangeEXT", 1691, crate::Address(glMapBufferRangeEXT as *const ())),
     (b"glMapGrid1d", 784, crate::Address(glMapGrid1d as *const ())),
     (b"glMapGrid1f", 785, crate::Address(glMapGrid1f as *const ())),
     (b"glMapGrid2d", 786, crate::Address(glMapGrid2d as *const ())),
     (b"glMapGrid2f", 787, crate::Address(glMapGrid2f as *const ())),
+    (b"glMapNamedBuffer", 1689, crate::Address(glMapNamedBuffer as *const ())),
+    (b"glMapNamedBufferEXT", 1670, crate::Address(glMapNamedBufferEXT as *const ())),
+    (b"glMapNamedBufferRange", 1692, crate::Address(glMapNamedBufferRange as *const ())),
+    (b"glMapNamedBufferRangeEXT", 1671, crate::Address(glMapNamedBufferRangeEXT as *const ())),
     (b"glMaterialf", 246, crate::Address(glMaterialf as *const ())),
     (b"glMaterialfv", 247, crate::Address(glMaterialfv as *const ())),
     (b"glMateriali", 248, crate::Address(glMateriali as *const ())),
@@ -6023,6 +6199,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glMatrixScalefEXT", 491, crate::Address(glMatrixScalefEXT as *const ())),
     (b"glMatrixTranslatedEXT", 492, crate::Address(glMatrixTranslatedEXT as *const ())),
     (b"glMatrixTranslatefEXT", 493, crate::Address(glMatrixTranslatefEXT as *const ())),
+    (b"glMemoryBarrier", 1701, crate::Address(glMemoryBarrier as *const ())),
+    (b"glMemoryBarrierByRegion", 1703, crate::Address(glMemoryBarrierByRegion as *const ())),
+    (b"glMemoryBarrierEXT", 1702, crate::Address(glMemoryBarrierEXT as *const ())),
     (b"glMinSampleShading", 802, crate::Address(glMinSampleShading as *const ())),
     (b"glMinSampleShadingARB", 803, crate::Address(glMinSampleShadingARB as *const ())),
     (b"glMinSampleShadingOES", 804, crate::Address(glMinSampleShadingOES as *const ())),
@@ -6154,6 +6333,13 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glMultiTexParameterfvEXT", 960, crate::Address(glMultiTexParameterfvEXT as *const ())),
     (b"glMultiTexParameteriEXT", 961, crate::Address(glMultiTexParameteriEXT as *const ())),
     (b"glMultiTexParameterivEXT", 962, crate::Address(glMultiTexParameterivEXT as *const ())),
+    (b"glNamedBufferData", 1660, crate::Address(glNamedBufferData as *const ())),
+    (b"glNamedBufferDataEXT", 1669, crate::Address(glNamedBufferDataEXT as *const ())),
+    (b"glNamedBufferStorage", 1663, crate::Address(glNamedBufferStorage as *const ())),
+    (b"glNamedBufferStorageEXT", 1664, crate::Address(glNamedBufferStorageEXT as *const ())),
+    (b"glNamedBufferSubData", 1667, crate::Address(glNamedBufferSubData as *const ())),
+    (b"glNamedBufferSubDataEXT", 1668, crate::Address(glNamedBufferSubDataEXT as *const ())),
+    (b"glNamedCopyBufferSubDataEXT", 1674, crate::Address(glNamedCopyBufferSubDataEXT as *const ())),
     (b"glNamedFramebufferDrawBuffer", 1418, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
     (b"glNamedFramebufferDrawBuffers", 1419, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
     (b"glNamedFramebufferParameteri", 1466, crate::Address(glNamedFramebufferParameteri as *const ())),
@@ -6193,7 +6379,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1672, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1722, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
     (b"glPassThrough", 776, crate::Address(glPassThrough as *const ())),
     (b"glPauseTransformFeedback", 716, crate::Address(glPauseTransformFeedback as *const ())),
@@ -6201,8 +6387,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glPixelMapfv", 788, crate::Address(glPixelMapfv as *const ())),
     (b"glPixelMapuiv", 789, crate::Address(glPixelMapuiv as *const ())),
     (b"glPixelMapusv", 790, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1654, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1655, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelStoref", 1704, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1705, crate::Address(glPixelStorei as *const ())),
     (b"glPixelTransferf", 791, crate::Address(glPixelTransferf as *const ())),
     (b"glPixelTransferi", 792, crate::Address(glPixelTransferi as *const ())),
     (b"glPixelZoom", 793, crate::Address(glPixelZoom as *const ())),
@@ -6226,7 +6412,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glPolygonOffsetClampEXT", 796, crate::Address(glPolygonOffsetClampEXT as *const ())),
     (b"glPolygonStipple", 797, crate::Address(glPolygonStipple as *const ())),
     (b"glPopAttrib", 628, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1657, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPopClientAttrib", 1707, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
     (b"glPopName", 775, crate::Address(glPopName as *const ())),
     (b"glPrimitiveBoundingBox", 824, crate::Address(glPrimitiveBoundingBox as *const ())),
@@ -6390,7 +6576,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glProvokingVertex", 601, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 602, crate::Address(glProvokingVertexEXT as *const ())),
     (b"glPushAttrib", 627, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1656, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushClientAttrib", 1706, crate::Address(glPushClientAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
     (b"glPushName", 774, crate::Address(glPushName as *const ())),
     (b"glRasterPos2d", 629, crate::Address(glRasterPos2d as *const ())),
@@ -6505,8 +6691,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1664, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1665, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSecondaryColorPointer", 1714, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1715, crate::Address(glSecondaryColorPointerEXT as *const ())),
     (b"glSelectBuffer", 1623, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 592, crate::Address(glShadeModel as *const ())),
     (b"glStencilFillPathInstancedNV", 1373, crate::Address(glStencilFillPathInstancedNV as *const ())),
@@ -6573,7 +6759,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1666, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1716, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 595, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 596, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 597, crate::Address(glTexEnvi as *const ())),
@@ -6805,6 +6991,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glUniformMatrix4x3fvNV", 1088, crate::Address(glUniformMatrix4x3fvNV as *const ())),
     (b"glUniformui64NV", 1251, crate::Address(glUniformui64NV as *const ())),
     (b"glUniformui64vNV", 1252, crate::Address(glUniformui64vNV as *const ())),
+    (b"glUnmapBuffer", 1693, crate::Address(glUnmapBuffer as *const ())),
+    (b"glUnmapBufferARB", 1694, crate::Address(glUnmapBufferARB as *const ())),
+    (b"glUnmapBufferOES", 1695, crate::Address(glUnmapBufferOES as *const ())),
+    (b"glUnmapNamedBuffer", 1696, crate::Address(glUnmapNamedBuffer as *const ())),
+    (b"glUnmapNamedBufferEXT", 1672, crate::Address(glUnmapNamedBufferEXT as *const ())),
     (b"glUseProgram", 1275, crate::Address(glUseProgram as *const ())),
     (b"glUseProgramObjectARB", 1276, crate::Address(glUseProgramObjectARB as *const ())),
     (b"glUseProgramStages", 607, crate::Address(glUseProgramStages as *const ())),
@@ -7007,8 +7198,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glVertexAttribP3uiv", 451, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 452, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 453, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1673, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1674, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexAttribPointer", 1723, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1724, crate::Address(glVertexAttribPointerARB as *const ())),
     (b"glVertexBindingDivisor", 996, crate::Address(glVertexBindingDivisor as *const ())),
     (b"glVertexBlendARB", 624, crate::Address(glVertexBlendARB as *const ())),
     (b"glVertexP2ui", 432, crate::Address(glVertexP2ui as *const ())),
@@ -7017,7 +7208,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glVertexP3uiv", 435, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 436, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 437, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1667, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1717, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 504, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 515, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 516, crate::Address(glViewportArrayvNV as *const ())),
@@ -7087,31 +7278,31 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1733] = [
     (b"glWindowPos4sMESA", 707, crate::Address(glWindowPos4sMESA as *const ())),
     (b"glWindowPos4svMESA", 708, crate::Address(glWindowPos4svMESA as *const ())),
     (b"glWindowRectanglesEXT", 526, crate::Address(glWindowRectanglesEXT as *const ())),
-    (b"glXBindTexImageEXT", 1687, crate::Address(glXBindTexImageEXT as *const ())),
-    (b"glXChooseFBConfig", 1680, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1681, crate::Address(glXChooseFBConfigSGIX as *const ())),
-    (b"glXChooseVisual", 1679, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCopySubBufferMESA", 1684, crate::Address(glXCopySubBufferMESA as *const ())),
-    (b"glXCreateContext", 1691, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1693, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1694, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1692, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1696, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1695, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyGLXPbufferSGIX", 1699, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
-    (b"glXDestroyGLXPixmap", 1701, crate::Address(glXDestroyGLXPixmap as *const ())),
-    (b"glXDestroyPbuffer", 1698, crate::Address(glXDestroyPbuffer as *const ())),
-    (b"glXDestroyPixmap", 1700, crate::Address(glXDestroyPixmap as *const ())),
-    (b"glXDestroyWindow", 1697, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1702, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1703, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1689, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1688, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1690, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1682, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1683, crate::Address(glXSwapBuffersMscOML as *const ())),
-    (b"glXUseXFont", 1686, crate::Address(glXUseXFont as *const ())),
-    (b"glXWaitGL", 1685, crate::Address(glXWaitGL as *const ())),
+    (b"glXBindTexImageEXT", 1737, crate::Address(glXBindTexImageEXT as *const ())),
+    (b"glXChooseFBConfig", 1730, crate::Address(glXChooseFBConfig as *const ())),
+    (b"glXChooseFBConfigSGIX", 1731, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseVisual", 1729, crate::Address(glXChooseVisual as *const ())),
+    (b"glXCopySubBufferMESA", 1734, crate::Address(glXCopySubBufferMESA as *const ())),
+    (b"glXCreateContext", 1741, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1743, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1744, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1742, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1746, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1745, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyGLXPbufferSGIX", 1749, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
+    (b"glXDestroyGLXPixmap", 1751, crate::Address(glXDestroyGLXPixmap as *const ())),
+    (b"glXDestroyPbuffer", 1748, crate::Address(glXDestroyPbuffer as *const ())),
+    (b"glXDestroyPixmap", 1750, crate::Address(glXDestroyPixmap as *const ())),
+    (b"glXDestroyWindow", 1747, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1752, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1753, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1739, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1738, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1740, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1732, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1733, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXUseXFont", 1736, crate::Address(glXUseXFont as *const ())),
+    (b"glXWaitGL", 1735, crate::Address(glXWaitGL as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, zeros_glVertex2d, (x: f64, y: f64) -> (), {
@@ -16581,10 +16772,8 @@ export! { 1171, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3f
     unsafe { gl.glProgramUniformMatrix4x3fvEXT(program, location, count, transpose, value) };
 } }
 export! { 1172, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, zeros_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
-    hooks::uniform();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glUniformBlockBinding(program, uniformBlockIndex, uniformBlockBinding) };
+    // SAFETY: the program's own arguments.
+    unsafe { special::glUniformBlockBinding(program, uniformBlockIndex, uniformBlockBinding) }
 } }
 export! { 1173, glProgramUniform1i64ARB, first_glProgramUniform1i64ARB, hook_glProgramUniform1i64ARB, zeros_glProgramUniform1i64ARB, (program: u32, location: i32, x: i64) -> (), {
     hooks::uniform();
@@ -18849,416 +19038,600 @@ export! { 1645, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_g
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
 export! { 1646, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, zeros_glBindBuffer, (target: u32, buffer: u32) -> (), {
-    hooks::before_uncompiled();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glBindBuffer(target, buffer) };
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBuffer(target, buffer) }
 } }
 export! { 1647, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, zeros_glBindBufferARB, (target: u32, buffer: u32) -> (), {
-    hooks::before_uncompiled();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glBindBufferARB(target, buffer) };
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBuffer(target, buffer) }
 } }
-export! { 1648, glBufferData, first_glBufferData, hook_glBufferData, zeros_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
-    hooks::before_uncompiled();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glBufferData(target, size, data, usage) };
+export! { 1648, glBindBufferBase, first_glBindBufferBase, hook_glBindBufferBase, zeros_glBindBufferBase, (target: u32, index: u32, buffer: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1649, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, zeros_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
-    hooks::before_uncompiled();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glBufferDataARB(target, size, data, usage) };
+export! { 1649, glBindBufferBaseEXT, first_glBindBufferBaseEXT, hook_glBindBufferBaseEXT, zeros_glBindBufferBaseEXT, (target: u32, index: u32, buffer: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1650, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, zeros_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
-    hooks::before_uncompiled();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glBufferSubData(target, offset, size, data) };
+export! { 1650, glBindBufferBaseNV, first_glBindBufferBaseNV, hook_glBindBufferBaseNV, zeros_glBindBufferBaseNV, (target: u32, index: u32, buffer: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1651, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, zeros_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
-    hooks::before_uncompiled();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glBufferSubDataARB(target, offset, size, data) };
+export! { 1651, glBindBufferRange, first_glBindBufferRange, hook_glBindBufferRange, zeros_glBindBufferRange, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1652, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, zeros_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
-    hooks::before_uncompiled();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glDeleteBuffers(n, buffers) };
+export! { 1652, glBindBufferRangeEXT, first_glBindBufferRangeEXT, hook_glBindBufferRangeEXT, zeros_glBindBufferRangeEXT, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1653, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, zeros_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
-    hooks::before_uncompiled();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glDeleteBuffersARB(n, buffers) };
+export! { 1653, glBindBufferRangeNV, first_glBindBufferRangeNV, hook_glBindBufferRangeNV, zeros_glBindBufferRangeNV, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1654, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, zeros_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1654, glBindBuffersBase, first_glBindBuffersBase, hook_glBindBuffersBase, zeros_glBindBuffersBase, (target: u32, first: u32, count: i32, buffers: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBuffersBase(target, first, count, buffers) }
+} }
+export! { 1655, glBindBuffersRange, first_glBindBuffersRange, hook_glBindBuffersRange, zeros_glBindBuffersRange, (target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr, sizes: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBindBuffersRange(target, first, count, buffers, offsets, sizes) }
+} }
+export! { 1656, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, zeros_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glDeleteBuffers(n, buffers) }
+} }
+export! { 1657, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, zeros_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glDeleteBuffers(n, buffers) }
+} }
+export! { 1658, glBufferData, first_glBufferData, hook_glBufferData, zeros_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBufferData(target, size, data, usage) }
+} }
+export! { 1659, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, zeros_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBufferData(target, size, data, usage) }
+} }
+export! { 1660, glNamedBufferData, first_glNamedBufferData, hook_glNamedBufferData, zeros_glNamedBufferData, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glNamedBufferData(buffer, size, data, usage) }
+} }
+export! { 1661, glBufferStorage, first_glBufferStorage, hook_glBufferStorage, zeros_glBufferStorage, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBufferStorage(target, size, data, flags) }
+} }
+export! { 1662, glBufferStorageEXT, first_glBufferStorageEXT, hook_glBufferStorageEXT, zeros_glBufferStorageEXT, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBufferStorage(target, size, data, flags) }
+} }
+export! { 1663, glNamedBufferStorage, first_glNamedBufferStorage, hook_glNamedBufferStorage, zeros_glNamedBufferStorage, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glNamedBufferStorage(buffer, size, data, flags) }
+} }
+export! { 1664, glNamedBufferStorageEXT, first_glNamedBufferStorageEXT, hook_glNamedBufferStorageEXT, zeros_glNamedBufferStorageEXT, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glNamedBufferStorage(buffer, size, data, flags) }
+} }
+export! { 1665, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, zeros_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBufferSubData(target, offset, size, data) }
+} }
+export! { 1666, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, zeros_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBufferSubData(target, offset, size, data) }
+} }
+export! { 1667, glNamedBufferSubData, first_glNamedBufferSubData, hook_glNamedBufferSubData, zeros_glNamedBufferSubData, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glNamedBufferSubData(buffer, offset, size, data) }
+} }
+export! { 1668, glNamedBufferSubDataEXT, first_glNamedBufferSubDataEXT, hook_glNamedBufferSubDataEXT, zeros_glNamedBufferSubDataEXT, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glNamedBufferSubData(buffer, offset, size, data) }
+} }
+export! { 1669, glNamedBufferDataEXT, first_glNamedBufferDataEXT, hook_glNamedBufferDataEXT, zeros_glNamedBufferDataEXT, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glNamedBufferDataEXT(buffer, size, data, usage) }
+} }
+export! { 1670, glMapNamedBufferEXT, first_glMapNamedBufferEXT, hook_glMapNamedBufferEXT, zeros_glMapNamedBufferEXT, (buffer: u32, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapNamedBufferEXT(buffer, access) }
+} }
+export! { 1671, glMapNamedBufferRangeEXT, first_glMapNamedBufferRangeEXT, hook_glMapNamedBufferRangeEXT, zeros_glMapNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapNamedBufferRangeEXT(buffer, offset, length, access) }
+} }
+export! { 1672, glUnmapNamedBufferEXT, first_glUnmapNamedBufferEXT, hook_glUnmapNamedBufferEXT, zeros_glUnmapNamedBufferEXT, (buffer: u32) -> u8, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glUnmapNamedBufferEXT(buffer) }
+} }
+export! { 1673, glFlushMappedNamedBufferRangeEXT, first_glFlushMappedNamedBufferRangeEXT, hook_glFlushMappedNamedBufferRangeEXT, zeros_glFlushMappedNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glFlushMappedNamedBufferRangeEXT(buffer, offset, length) }
+} }
+export! { 1674, glNamedCopyBufferSubDataEXT, first_glNamedCopyBufferSubDataEXT, hook_glNamedCopyBufferSubDataEXT, zeros_glNamedCopyBufferSubDataEXT, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glNamedCopyBufferSubDataEXT(readBuffer, writeBuffer, readOffset, writeOffset, size) }
+} }
+export! { 1675, glClearNamedBufferDataEXT, first_glClearNamedBufferDataEXT, hook_glClearNamedBufferDataEXT, zeros_glClearNamedBufferDataEXT, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearNamedBufferDataEXT(buffer, internalformat, format, type_, data) }
+} }
+export! { 1676, glClearNamedBufferSubDataEXT, first_glClearNamedBufferSubDataEXT, hook_glClearNamedBufferSubDataEXT, zeros_glClearNamedBufferSubDataEXT, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearNamedBufferSubDataEXT(buffer, internalformat, offset, size, format, type_, data) }
+} }
+export! { 1677, glCopyBufferSubData, first_glCopyBufferSubData, hook_glCopyBufferSubData, zeros_glCopyBufferSubData, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glCopyBufferSubData(readTarget, writeTarget, readOffset, writeOffset, size) }
+} }
+export! { 1678, glCopyBufferSubDataNV, first_glCopyBufferSubDataNV, hook_glCopyBufferSubDataNV, zeros_glCopyBufferSubDataNV, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glCopyBufferSubData(readTarget, writeTarget, readOffset, writeOffset, size) }
+} }
+export! { 1679, glCopyNamedBufferSubData, first_glCopyNamedBufferSubData, hook_glCopyNamedBufferSubData, zeros_glCopyNamedBufferSubData, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glCopyNamedBufferSubData(readBuffer, writeBuffer, readOffset, writeOffset, size) }
+} }
+export! { 1680, glInvalidateBufferData, first_glInvalidateBufferData, hook_glInvalidateBufferData, zeros_glInvalidateBufferData, (buffer: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glInvalidateBufferData(buffer) }
+} }
+export! { 1681, glInvalidateBufferSubData, first_glInvalidateBufferSubData, hook_glInvalidateBufferSubData, zeros_glInvalidateBufferSubData, (buffer: u32, offset: isize, length: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glInvalidateBufferSubData(buffer, offset, length) }
+} }
+export! { 1682, glClearBufferData, first_glClearBufferData, hook_glClearBufferData, zeros_glClearBufferData, (target: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearBufferData(target, internalformat, format, type_, data) }
+} }
+export! { 1683, glClearBufferSubData, first_glClearBufferSubData, hook_glClearBufferSubData, zeros_glClearBufferSubData, (target: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearBufferSubData(target, internalformat, offset, size, format, type_, data) }
+} }
+export! { 1684, glClearNamedBufferData, first_glClearNamedBufferData, hook_glClearNamedBufferData, zeros_glClearNamedBufferData, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearNamedBufferData(buffer, internalformat, format, type_, data) }
+} }
+export! { 1685, glClearNamedBufferSubData, first_glClearNamedBufferSubData, hook_glClearNamedBufferSubData, zeros_glClearNamedBufferSubData, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearNamedBufferSubData(buffer, internalformat, offset, size, format, type_, data) }
+} }
+export! { 1686, glMapBuffer, first_glMapBuffer, hook_glMapBuffer, zeros_glMapBuffer, (target: u32, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapBuffer(target, access) }
+} }
+export! { 1687, glMapBufferARB, first_glMapBufferARB, hook_glMapBufferARB, zeros_glMapBufferARB, (target: u32, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapBuffer(target, access) }
+} }
+export! { 1688, glMapBufferOES, first_glMapBufferOES, hook_glMapBufferOES, zeros_glMapBufferOES, (target: u32, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapBuffer(target, access) }
+} }
+export! { 1689, glMapNamedBuffer, first_glMapNamedBuffer, hook_glMapNamedBuffer, zeros_glMapNamedBuffer, (buffer: u32, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapNamedBuffer(buffer, access) }
+} }
+export! { 1690, glMapBufferRange, first_glMapBufferRange, hook_glMapBufferRange, zeros_glMapBufferRange, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapBufferRange(target, offset, length, access) }
+} }
+export! { 1691, glMapBufferRangeEXT, first_glMapBufferRangeEXT, hook_glMapBufferRangeEXT, zeros_glMapBufferRangeEXT, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapBufferRange(target, offset, length, access) }
+} }
+export! { 1692, glMapNamedBufferRange, first_glMapNamedBufferRange, hook_glMapNamedBufferRange, zeros_glMapNamedBufferRange, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMapNamedBufferRange(buffer, offset, length, access) }
+} }
+export! { 1693, glUnmapBuffer, first_glUnmapBuffer, hook_glUnmapBuffer, zeros_glUnmapBuffer, (target: u32) -> u8, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glUnmapBuffer(target) }
+} }
+export! { 1694, glUnmapBufferARB, first_glUnmapBufferARB, hook_glUnmapBufferARB, zeros_glUnmapBufferARB, (target: u32) -> u8, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glUnmapBuffer(target) }
+} }
+export! { 1695, glUnmapBufferOES, first_glUnmapBufferOES, hook_glUnmapBufferOES, zeros_glUnmapBufferOES, (target: u32) -> u8, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glUnmapBuffer(target) }
+} }
+export! { 1696, glUnmapNamedBuffer, first_glUnmapNamedBuffer, hook_glUnmapNamedBuffer, zeros_glUnmapNamedBuffer, (buffer: u32) -> u8, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glUnmapNamedBuffer(buffer) }
+} }
+export! { 1697, glFlushMappedBufferRange, first_glFlushMappedBufferRange, hook_glFlushMappedBufferRange, zeros_glFlushMappedBufferRange, (target: u32, offset: isize, length: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glFlushMappedBufferRange(target, offset, length) }
+} }
+export! { 1698, glFlushMappedBufferRangeAPPLE, first_glFlushMappedBufferRangeAPPLE, hook_glFlushMappedBufferRangeAPPLE, zeros_glFlushMappedBufferRangeAPPLE, (target: u32, offset: isize, size: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glFlushMappedBufferRange(target, offset, size) }
+} }
+export! { 1699, glFlushMappedBufferRangeEXT, first_glFlushMappedBufferRangeEXT, hook_glFlushMappedBufferRangeEXT, zeros_glFlushMappedBufferRangeEXT, (target: u32, offset: isize, length: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glFlushMappedBufferRange(target, offset, length) }
+} }
+export! { 1700, glFlushMappedNamedBufferRange, first_glFlushMappedNamedBufferRange, hook_glFlushMappedNamedBufferRange, zeros_glFlushMappedNamedBufferRange, (buffer: u32, offset: isize, length: isize) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glFlushMappedNamedBufferRange(buffer, offset, length) }
+} }
+export! { 1701, glMemoryBarrier, first_glMemoryBarrier, hook_glMemoryBarrier, zeros_glMemoryBarrier, (barriers: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMemoryBarrier(barriers) }
+} }
+export! { 1702, glMemoryBarrierEXT, first_glMemoryBarrierEXT, hook_glMemoryBarrierEXT, zeros_glMemoryBarrierEXT, (barriers: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMemoryBarrier(barriers) }
+} }
+export! { 1703, glMemoryBarrierByRegion, first_glMemoryBarrierByRegion, hook_glMemoryBarrierByRegion, zeros_glMemoryBarrierByRegion, (barriers: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glMemoryBarrierByRegion(barriers) }
+} }
+export! { 1704, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, zeros_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1655, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, zeros_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1705, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, zeros_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1656, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, zeros_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1706, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, zeros_glPushClientAttrib, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1657, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, zeros_glPopClientAttrib, () -> (), {
+export! { 1707, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, zeros_glPopClientAttrib, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1658, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, zeros_glEnableClientState, (array: u32) -> (), {
+export! { 1708, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, zeros_glEnableClientState, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1659, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, zeros_glDisableClientState, (array: u32) -> (), {
+export! { 1709, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, zeros_glDisableClientState, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1660, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, zeros_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1710, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, zeros_glClientActiveTexture, (texture: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1661, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, zeros_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1711, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, zeros_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1662, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, zeros_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1712, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, zeros_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1663, glColorPointer, first_glColorPointer, hook_glColorPointer, zeros_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1713, glColorPointer, first_glColorPointer, hook_glColorPointer, zeros_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1664, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, zeros_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1714, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, zeros_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1665, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, zeros_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1715, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, zeros_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1666, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, zeros_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1716, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, zeros_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1667, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, zeros_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1717, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, zeros_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1668, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, zeros_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1718, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, zeros_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1669, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, zeros_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1719, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, zeros_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1670, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, zeros_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1720, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, zeros_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1671, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, zeros_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1721, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, zeros_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1672, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, zeros_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1722, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, zeros_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1673, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, zeros_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1723, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, zeros_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1674, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, zeros_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1724, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, zeros_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1675, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, zeros_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1725, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, zeros_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1676, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, zeros_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1726, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, zeros_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1677, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, zeros_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1727, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, zeros_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1678, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, zeros_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1728, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, zeros_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1679, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, zeros_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
+export! { 1729, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, zeros_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseVisual(dpy, screen, attribs) }
 } }
-export! { 1680, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, zeros_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1730, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, zeros_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1681, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1731, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1682, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1732, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1683, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1733, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1684, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1734, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopySubBufferMESA(dpy, drawable, x, y, width, height) }
 } }
-export! { 1685, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
+export! { 1735, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXWaitGL() }
 } }
-export! { 1686, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
+export! { 1736, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXUseXFont(font, first, count, base) }
 } }
-export! { 1687, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
+export! { 1737, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXBindTexImageEXT(dpy, drawable, buffer, attribs) }
 } }
-export! { 1688, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1738, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1689, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1739, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1690, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1740, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1691, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1741, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1692, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1742, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1693, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1743, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1694, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1744, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1695, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1745, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1696, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1746, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1697, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1747, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1698, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1748, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPbuffer(dpy, pbuf) }
 } }
-export! { 1699, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1749, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPbufferSGIX(dpy, pbuf) }
 } }
-export! { 1700, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1750, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPixmap(dpy, pixmap) }
 } }
-export! { 1701, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1751, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPixmap(dpy, pixmap) }
 } }
-export! { 1702, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1752, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1703, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1753, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1705, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1755, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1706, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1756, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1707, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1757, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1708, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
+export! { 1758, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglPostSubBufferNV(dpy, surface, x, y, width, height) }
 } }
-export! { 1709, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1759, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegionNOK(dpy, surface, numRects, rects) }
 } }
-export! { 1710, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1760, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegion2NOK(dpy, surface, numRects, rects) }
 } }
-export! { 1711, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
+export! { 1761, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCopyBuffers(dpy, surface, target) }
 } }
-export! { 1712, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
+export! { 1762, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitGL() }
 } }
-export! { 1713, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
+export! { 1763, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitClient() }
 } }
-export! { 1714, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
+export! { 1764, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglBindTexImage(dpy, surface, buffer) }
 } }
-export! { 1715, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1765, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1716, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1766, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1717, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1767, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1718, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
+export! { 1768, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1719, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1769, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1720, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1770, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1721, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1771, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1722, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1772, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1723, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1773, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1724, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1774, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1725, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1775, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1726, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
+export! { 1776, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglTerminate(dpy) }
 } }
-export! { 1727, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1777, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1732, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1782, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1733, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1783, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1734, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1784, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1735, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1785, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1736, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1786, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1737, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1787, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

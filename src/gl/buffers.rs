@@ -121,3 +121,49 @@ impl Gl {
         Held::Buffer.count(-1);
     }
 }
+
+/// Memory of a buffer that the program has mapped.
+#[derive(Debug)]
+pub struct Mapping {
+    address: usize,
+    length: usize,
+    /// It stays mapped while the buffer is used (GL_MAP_PERSISTENT_BIT).
+    pub stays: bool,
+    /// Only what the program flushes is written (GL_MAP_FLUSH_EXPLICIT_BIT).
+    pub flushed_by_name: bool,
+}
+
+impl Mapping {
+    /// Notes a mapping of so many bytes.
+    ///
+    /// # Safety
+    /// The memory stays mapped for as long as the value lives. Where the program may only write, the driver says that reading is undefined;
+    /// pages that can be written can be read on all processors that there are drivers for, slowly at worst.
+    pub unsafe fn new(address: *const u8, length: usize, access: u32) -> Mapping {
+        Mapping {
+            address: address as usize,
+            length,
+            stays: access & c::MAP_PERSISTENT_BIT != 0,
+            flushed_by_name: access & c::MAP_FLUSH_EXPLICIT_BIT != 0,
+        }
+    }
+
+    /// Bytes of it.
+    pub fn length(&self) -> usize {
+        self.length
+    }
+
+    /// Copies bytes from `at` on. False, and nothing is copied, where they are not all in the mapping.
+    pub fn read(&self, at: usize, to: &mut [u8]) -> bool {
+        let end = at.checked_add(to.len());
+        if end.is_none_or(|end| end > self.length) {
+            return false;
+        }
+        for (offset, byte) in to.iter_mut().enumerate() {
+            let from = (self.address + at + offset) as *const u8;
+            // SAFETY: in the mapping, which is still there (contract). The program may write at the same time, so each byte is read once.
+            *byte = unsafe { from.read_volatile() };
+        }
+        true
+    }
+}

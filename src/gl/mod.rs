@@ -26,7 +26,7 @@ mod table;
 mod textures;
 
 pub use api::Gl;
-pub use buffers::Fence;
+pub use buffers::{Fence, Mapping};
 pub use framebuffers::{Attachment, Object, Storage};
 pub use held::{Count, Held};
 pub use images::ImageUnit;
@@ -37,7 +37,7 @@ pub use object_names::{
     TextureName, VertexArrayName,
 };
 pub use pixel_store::PixelStore;
-pub use programs::Active;
+pub use programs::{Active, BlockPlace};
 pub use real::{Ptr, Real};
 pub use table::{COUNT, NAMES, slot};
 pub use textures::{Level, is_multisampled};

@@ -28,6 +28,17 @@ impl Active {
     }
 }
 
+/// Where a uniform matrix of a block lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlockPlace {
+    /// Index of the block in its program.
+    pub block: u32,
+    /// Bytes from the beginning of the block.
+    pub offset: usize,
+    /// Its rows lie behind each other, rather than its columns.
+    pub row_major: bool,
+}
+
 /// What a uniform's values are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Base {
@@ -359,9 +370,8 @@ impl Gl {
         v
     }
 
-    /// Where an active uniform lies that is in a block: index of the block, offset in bytes. None for others and for matrices whose
-    /// rows lie behind each other.
-    pub fn place_in_block(&self, program: ProgramName, at: u32) -> Option<(u32, u32)> {
+    /// Where an active uniform matrix lies that is in a block. None for others.
+    pub fn place_in_block(&self, program: ProgramName, at: u32) -> Option<BlockPlace> {
         let ask = |name| {
             let mut v = 0i32;
             // SAFETY: one index, one integer.
@@ -376,30 +386,28 @@ impl Gl {
             };
             v
         };
-        let block = u32::try_from(ask(c::UNIFORM_BLOCK_INDEX)).ok()?;
-        let offset = u32::try_from(ask(c::UNIFORM_OFFSET)).ok()?;
-        (ask(c::UNIFORM_IS_ROW_MAJOR) == 0).then_some((block, offset))
+        Some(BlockPlace {
+            block: u32::try_from(ask(c::UNIFORM_BLOCK_INDEX)).ok()?,
+            offset: usize::try_from(ask(c::UNIFORM_OFFSET)).ok()?,
+            row_major: ask(c::UNIFORM_IS_ROW_MAJOR) != 0,
+        })
     }
 
-    /// A column-major matrix of single precision in the buffer that a block of a program is bound to. Waits for the driver.
-    pub fn block_matrix(
-        &self,
-        program: ProgramName,
-        (block, offset): (u32, u32),
-    ) -> Option<[f32; 16]> {
-        let binding = *self.block_bindings(program).get(block as usize)?;
+    /// The buffer that is bound to a binding point of uniform blocks, and the byte at which the blocks begin.
+    pub fn uniform_binding(&self, binding: u32) -> (BufferName, usize) {
         let [buffer] = self.get_integers_indexed::<1>(c::UNIFORM_BUFFER_BINDING, binding);
         let [start] = self.get_integers_indexed::<1>(c::UNIFORM_BUFFER_START, binding);
-        if buffer <= 0 {
-            return None;
-        }
-        let at = usize::try_from(start).ok()? + offset as usize;
+        (BufferName(buffer.max(0) as u32), start.max(0) as usize)
+    }
+
+    /// 16 numbers of single precision in a buffer, from a byte on. Waits for the driver, and may raise an error.
+    pub fn buffer_matrix(&self, buffer: BufferName, at: usize) -> [f32; 16] {
         let before = BufferName(self.get_integer(c::COPY_READ_BUFFER) as u32);
-        self.bind_buffer(c::COPY_READ_BUFFER, BufferName(buffer as u32));
+        self.bind_buffer(c::COPY_READ_BUFFER, buffer);
         let mut v = [0f32; 16];
         self.get_buffer_floats(c::COPY_READ_BUFFER, at, &mut v);
         self.bind_buffer(c::COPY_READ_BUFFER, before);
-        Some(v)
+        v
     }
 
     /// The binding points of a program's uniform blocks, by index.

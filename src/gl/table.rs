@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1786;
+pub const COUNT: usize = 1833;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1656,144 +1656,191 @@ pub mod slot {
     pub const glDeleteRenderbuffersEXT: usize = 1645;
     pub const glBindBuffer: usize = 1646;
     pub const glBindBufferARB: usize = 1647;
-    pub const glBufferData: usize = 1648;
-    pub const glBufferDataARB: usize = 1649;
-    pub const glBufferSubData: usize = 1650;
-    pub const glBufferSubDataARB: usize = 1651;
-    pub const glDeleteBuffers: usize = 1652;
-    pub const glDeleteBuffersARB: usize = 1653;
-    pub const glPixelStoref: usize = 1654;
-    pub const glPixelStorei: usize = 1655;
-    pub const glPushClientAttrib: usize = 1656;
-    pub const glPopClientAttrib: usize = 1657;
-    pub const glEnableClientState: usize = 1658;
-    pub const glDisableClientState: usize = 1659;
-    pub const glClientActiveTexture: usize = 1660;
-    pub const glClientActiveTextureARB: usize = 1661;
-    pub const glInterleavedArrays: usize = 1662;
-    pub const glColorPointer: usize = 1663;
-    pub const glSecondaryColorPointer: usize = 1664;
-    pub const glSecondaryColorPointerEXT: usize = 1665;
-    pub const glTexCoordPointer: usize = 1666;
-    pub const glVertexPointer: usize = 1667;
-    pub const glEdgeFlagPointer: usize = 1668;
-    pub const glFogCoordPointer: usize = 1669;
-    pub const glFogCoordPointerEXT: usize = 1670;
-    pub const glIndexPointer: usize = 1671;
-    pub const glNormalPointer: usize = 1672;
-    pub const glVertexAttribPointer: usize = 1673;
-    pub const glVertexAttribPointerARB: usize = 1674;
-    pub const glEnableVertexAttribArray: usize = 1675;
-    pub const glEnableVertexAttribArrayARB: usize = 1676;
-    pub const glDisableVertexAttribArray: usize = 1677;
-    pub const glDisableVertexAttribArrayARB: usize = 1678;
-    pub const glXChooseVisual: usize = 1679;
-    pub const glXChooseFBConfig: usize = 1680;
-    pub const glXChooseFBConfigSGIX: usize = 1681;
-    pub const glXSwapBuffers: usize = 1682;
-    pub const glXSwapBuffersMscOML: usize = 1683;
-    pub const glXCopySubBufferMESA: usize = 1684;
-    pub const glXWaitGL: usize = 1685;
-    pub const glXUseXFont: usize = 1686;
-    pub const glXBindTexImageEXT: usize = 1687;
-    pub const glXMakeCurrent: usize = 1688;
-    pub const glXMakeContextCurrent: usize = 1689;
-    pub const glXMakeCurrentReadSGI: usize = 1690;
-    pub const glXCreateContext: usize = 1691;
-    pub const glXCreateNewContext: usize = 1692;
-    pub const glXCreateContextAttribsARB: usize = 1693;
-    pub const glXCreateContextWithConfigSGIX: usize = 1694;
-    pub const glXDestroyContext: usize = 1695;
-    pub const glXCreateWindow: usize = 1696;
-    pub const glXDestroyWindow: usize = 1697;
-    pub const glXDestroyPbuffer: usize = 1698;
-    pub const glXDestroyGLXPbufferSGIX: usize = 1699;
-    pub const glXDestroyPixmap: usize = 1700;
-    pub const glXDestroyGLXPixmap: usize = 1701;
-    pub const glXGetProcAddress: usize = 1702;
-    pub const glXGetProcAddressARB: usize = 1703;
-    pub const glXQueryDrawable: usize = 1704;
-    pub const eglSwapBuffers: usize = 1705;
-    pub const eglSwapBuffersWithDamageKHR: usize = 1706;
-    pub const eglSwapBuffersWithDamageEXT: usize = 1707;
-    pub const eglPostSubBufferNV: usize = 1708;
-    pub const eglSwapBuffersRegionNOK: usize = 1709;
-    pub const eglSwapBuffersRegion2NOK: usize = 1710;
-    pub const eglCopyBuffers: usize = 1711;
-    pub const eglWaitGL: usize = 1712;
-    pub const eglWaitClient: usize = 1713;
-    pub const eglBindTexImage: usize = 1714;
-    pub const eglMakeCurrent: usize = 1715;
-    pub const eglCreateContext: usize = 1716;
-    pub const eglDestroyContext: usize = 1717;
-    pub const eglReleaseThread: usize = 1718;
-    pub const eglGetDisplay: usize = 1719;
-    pub const eglGetPlatformDisplay: usize = 1720;
-    pub const eglGetPlatformDisplayEXT: usize = 1721;
-    pub const eglCreateWindowSurface: usize = 1722;
-    pub const eglCreatePlatformWindowSurface: usize = 1723;
-    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1724;
-    pub const eglDestroySurface: usize = 1725;
-    pub const eglTerminate: usize = 1726;
-    pub const eglGetProcAddress: usize = 1727;
-    pub const eglQuerySurface: usize = 1728;
-    pub const eglQueryContext: usize = 1729;
-    pub const eglGetCurrentContext: usize = 1730;
-    pub const glXGetCurrentContext: usize = 1731;
-    pub const OSMesaMakeCurrent: usize = 1732;
-    pub const OSMesaCreateContext: usize = 1733;
-    pub const OSMesaCreateContextExt: usize = 1734;
-    pub const OSMesaCreateContextAttribs: usize = 1735;
-    pub const OSMesaDestroyContext: usize = 1736;
-    pub const OSMesaGetProcAddress: usize = 1737;
-    pub const glGetTextureParameteriv: usize = 1738;
-    pub const glMapBufferRange: usize = 1739;
-    pub const glUnmapBuffer: usize = 1740;
-    pub const glGetString: usize = 1741;
-    pub const glGetStringi: usize = 1742;
-    pub const glGetFloati_v: usize = 1743;
-    pub const glGenQueries: usize = 1744;
-    pub const glGetRenderbufferParameteriv: usize = 1745;
-    pub const glCreateShader: usize = 1746;
-    pub const glShaderSource: usize = 1747;
-    pub const glCompileShader: usize = 1748;
-    pub const glGetShaderiv: usize = 1749;
-    pub const glGetShaderInfoLog: usize = 1750;
-    pub const glCreateProgram: usize = 1751;
-    pub const glAttachShader: usize = 1752;
-    pub const glGetProgramInfoLog: usize = 1753;
-    pub const glDeleteShader: usize = 1754;
-    pub const glGetUniformLocation: usize = 1755;
-    pub const glIsProgram: usize = 1756;
-    pub const glGetShaderSource: usize = 1757;
-    pub const glGetAttachedShaders: usize = 1758;
-    pub const glGetActiveUniform: usize = 1759;
-    pub const glGetActiveAttrib: usize = 1760;
-    pub const glGetAttribLocation: usize = 1761;
-    pub const glGetFragDataLocation: usize = 1762;
-    pub const glBindFragDataLocation: usize = 1763;
-    pub const glGetUniformdv: usize = 1764;
-    pub const glGetUniformuiv: usize = 1765;
-    pub const glGetActiveUniformBlockiv: usize = 1766;
-    pub const glGetActiveUniformsiv: usize = 1767;
-    pub const glGetActiveUniformBlockName: usize = 1768;
-    pub const glGetProgramInterfaceiv: usize = 1769;
-    pub const glGetProgramResourceName: usize = 1770;
-    pub const glFenceSync: usize = 1771;
-    pub const glClientWaitSync: usize = 1772;
-    pub const glDeleteSync: usize = 1773;
-    pub const glGetBufferSubData: usize = 1774;
-    pub const glGetUniformBlockIndex: usize = 1775;
-    pub const glBindBufferBase: usize = 1776;
-    pub const glBindBufferRange: usize = 1777;
-    pub const glGenBuffers: usize = 1778;
-    pub const glBindAttribLocation: usize = 1779;
-    pub const glProgramParameteri: usize = 1780;
-    pub const glPatchParameteri: usize = 1781;
-    pub const glGenVertexArrays: usize = 1782;
-    pub const glBindVertexArray: usize = 1783;
-    pub const glGenSamplers: usize = 1784;
-    pub const glBindSampler: usize = 1785;
+    pub const glBindBufferBase: usize = 1648;
+    pub const glBindBufferBaseEXT: usize = 1649;
+    pub const glBindBufferBaseNV: usize = 1650;
+    pub const glBindBufferRange: usize = 1651;
+    pub const glBindBufferRangeEXT: usize = 1652;
+    pub const glBindBufferRangeNV: usize = 1653;
+    pub const glBindBuffersBase: usize = 1654;
+    pub const glBindBuffersRange: usize = 1655;
+    pub const glDeleteBuffers: usize = 1656;
+    pub const glDeleteBuffersARB: usize = 1657;
+    pub const glBufferData: usize = 1658;
+    pub const glBufferDataARB: usize = 1659;
+    pub const glNamedBufferData: usize = 1660;
+    pub const glBufferStorage: usize = 1661;
+    pub const glBufferStorageEXT: usize = 1662;
+    pub const glNamedBufferStorage: usize = 1663;
+    pub const glNamedBufferStorageEXT: usize = 1664;
+    pub const glBufferSubData: usize = 1665;
+    pub const glBufferSubDataARB: usize = 1666;
+    pub const glNamedBufferSubData: usize = 1667;
+    pub const glNamedBufferSubDataEXT: usize = 1668;
+    pub const glNamedBufferDataEXT: usize = 1669;
+    pub const glMapNamedBufferEXT: usize = 1670;
+    pub const glMapNamedBufferRangeEXT: usize = 1671;
+    pub const glUnmapNamedBufferEXT: usize = 1672;
+    pub const glFlushMappedNamedBufferRangeEXT: usize = 1673;
+    pub const glNamedCopyBufferSubDataEXT: usize = 1674;
+    pub const glClearNamedBufferDataEXT: usize = 1675;
+    pub const glClearNamedBufferSubDataEXT: usize = 1676;
+    pub const glCopyBufferSubData: usize = 1677;
+    pub const glCopyBufferSubDataNV: usize = 1678;
+    pub const glCopyNamedBufferSubData: usize = 1679;
+    pub const glInvalidateBufferData: usize = 1680;
+    pub const glInvalidateBufferSubData: usize = 1681;
+    pub const glClearBufferData: usize = 1682;
+    pub const glClearBufferSubData: usize = 1683;
+    pub const glClearNamedBufferData: usize = 1684;
+    pub const glClearNamedBufferSubData: usize = 1685;
+    pub const glMapBuffer: usize = 1686;
+    pub const glMapBufferARB: usize = 1687;
+    pub const glMapBufferOES: usize = 1688;
+    pub const glMapNamedBuffer: usize = 1689;
+    pub const glMapBufferRange: usize = 1690;
+    pub const glMapBufferRangeEXT: usize = 1691;
+    pub const glMapNamedBufferRange: usize = 1692;
+    pub const glUnmapBuffer: usize = 1693;
+    pub const glUnmapBufferARB: usize = 1694;
+    pub const glUnmapBufferOES: usize = 1695;
+    pub const glUnmapNamedBuffer: usize = 1696;
+    pub const glFlushMappedBufferRange: usize = 1697;
+    pub const glFlushMappedBufferRangeAPPLE: usize = 1698;
+    pub const glFlushMappedBufferRangeEXT: usize = 1699;
+    pub const glFlushMappedNamedBufferRange: usize = 1700;
+    pub const glMemoryBarrier: usize = 1701;
+    pub const glMemoryBarrierEXT: usize = 1702;
+    pub const glMemoryBarrierByRegion: usize = 1703;
+    pub const glPixelStoref: usize = 1704;
+    pub const glPixelStorei: usize = 1705;
+    pub const glPushClientAttrib: usize = 1706;
+    pub const glPopClientAttrib: usize = 1707;
+    pub const glEnableClientState: usize = 1708;
+    pub const glDisableClientState: usize = 1709;
+    pub const glClientActiveTexture: usize = 1710;
+    pub const glClientActiveTextureARB: usize = 1711;
+    pub const glInterleavedArrays: usize = 1712;
+    pub const glColorPointer: usize = 1713;
+    pub const glSecondaryColorPointer: usize = 1714;
+    pub const glSecondaryColorPointerEXT: usize = 1715;
+    pub const glTexCoordPointer: usize = 1716;
+    pub const glVertexPointer: usize = 1717;
+    pub const glEdgeFlagPointer: usize = 1718;
+    pub const glFogCoordPointer: usize = 1719;
+    pub const glFogCoordPointerEXT: usize = 1720;
+    pub const glIndexPointer: usize = 1721;
+    pub const glNormalPointer: usize = 1722;
+    pub const glVertexAttribPointer: usize = 1723;
+    pub const glVertexAttribPointerARB: usize = 1724;
+    pub const glEnableVertexAttribArray: usize = 1725;
+    pub const glEnableVertexAttribArrayARB: usize = 1726;
+    pub const glDisableVertexAttribArray: usize = 1727;
+    pub const glDisableVertexAttribArrayARB: usize = 1728;
+    pub const glXChooseVisual: usize = 1729;
+    pub const glXChooseFBConfig: usize = 1730;
+    pub const glXChooseFBConfigSGIX: usize = 1731;
+    pub const glXSwapBuffers: usize = 1732;
+    pub const glXSwapBuffersMscOML: usize = 1733;
+    pub const glXCopySubBufferMESA: usize = 1734;
+    pub const glXWaitGL: usize = 1735;
+    pub const glXUseXFont: usize = 1736;
+    pub const glXBindTexImageEXT: usize = 1737;
+    pub const glXMakeCurrent: usize = 1738;
+    pub const glXMakeContextCurrent: usize = 1739;
+    pub const glXMakeCurrentReadSGI: usize = 1740;
+    pub const glXCreateContext: usize = 1741;
+    pub const glXCreateNewContext: usize = 1742;
+    pub const glXCreateContextAttribsARB: usize = 1743;
+    pub const glXCreateContextWithConfigSGIX: usize = 1744;
+    pub const glXDestroyContext: usize = 1745;
+    pub const glXCreateWindow: usize = 1746;
+    pub const glXDestroyWindow: usize = 1747;
+    pub const glXDestroyPbuffer: usize = 1748;
+    pub const glXDestroyGLXPbufferSGIX: usize = 1749;
+    pub const glXDestroyPixmap: usize = 1750;
+    pub const glXDestroyGLXPixmap: usize = 1751;
+    pub const glXGetProcAddress: usize = 1752;
+    pub const glXGetProcAddressARB: usize = 1753;
+    pub const glXQueryDrawable: usize = 1754;
+    pub const eglSwapBuffers: usize = 1755;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1756;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1757;
+    pub const eglPostSubBufferNV: usize = 1758;
+    pub const eglSwapBuffersRegionNOK: usize = 1759;
+    pub const eglSwapBuffersRegion2NOK: usize = 1760;
+    pub const eglCopyBuffers: usize = 1761;
+    pub const eglWaitGL: usize = 1762;
+    pub const eglWaitClient: usize = 1763;
+    pub const eglBindTexImage: usize = 1764;
+    pub const eglMakeCurrent: usize = 1765;
+    pub const eglCreateContext: usize = 1766;
+    pub const eglDestroyContext: usize = 1767;
+    pub const eglReleaseThread: usize = 1768;
+    pub const eglGetDisplay: usize = 1769;
+    pub const eglGetPlatformDisplay: usize = 1770;
+    pub const eglGetPlatformDisplayEXT: usize = 1771;
+    pub const eglCreateWindowSurface: usize = 1772;
+    pub const eglCreatePlatformWindowSurface: usize = 1773;
+    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1774;
+    pub const eglDestroySurface: usize = 1775;
+    pub const eglTerminate: usize = 1776;
+    pub const eglGetProcAddress: usize = 1777;
+    pub const eglQuerySurface: usize = 1778;
+    pub const eglQueryContext: usize = 1779;
+    pub const eglGetCurrentContext: usize = 1780;
+    pub const glXGetCurrentContext: usize = 1781;
+    pub const OSMesaMakeCurrent: usize = 1782;
+    pub const OSMesaCreateContext: usize = 1783;
+    pub const OSMesaCreateContextExt: usize = 1784;
+    pub const OSMesaCreateContextAttribs: usize = 1785;
+    pub const OSMesaDestroyContext: usize = 1786;
+    pub const OSMesaGetProcAddress: usize = 1787;
+    pub const glGetTextureParameteriv: usize = 1788;
+    pub const glGetString: usize = 1789;
+    pub const glGetStringi: usize = 1790;
+    pub const glGetFloati_v: usize = 1791;
+    pub const glGenQueries: usize = 1792;
+    pub const glGetRenderbufferParameteriv: usize = 1793;
+    pub const glCreateShader: usize = 1794;
+    pub const glShaderSource: usize = 1795;
+    pub const glCompileShader: usize = 1796;
+    pub const glGetShaderiv: usize = 1797;
+    pub const glGetShaderInfoLog: usize = 1798;
+    pub const glCreateProgram: usize = 1799;
+    pub const glAttachShader: usize = 1800;
+    pub const glGetProgramInfoLog: usize = 1801;
+    pub const glDeleteShader: usize = 1802;
+    pub const glGetUniformLocation: usize = 1803;
+    pub const glIsProgram: usize = 1804;
+    pub const glGetShaderSource: usize = 1805;
+    pub const glGetAttachedShaders: usize = 1806;
+    pub const glGetActiveUniform: usize = 1807;
+    pub const glGetActiveAttrib: usize = 1808;
+    pub const glGetAttribLocation: usize = 1809;
+    pub const glGetFragDataLocation: usize = 1810;
+    pub const glBindFragDataLocation: usize = 1811;
+    pub const glGetUniformdv: usize = 1812;
+    pub const glGetUniformuiv: usize = 1813;
+    pub const glGetActiveUniformBlockiv: usize = 1814;
+    pub const glGetActiveUniformsiv: usize = 1815;
+    pub const glGetActiveUniformBlockName: usize = 1816;
+    pub const glGetProgramInterfaceiv: usize = 1817;
+    pub const glGetProgramResourceName: usize = 1818;
+    pub const glFenceSync: usize = 1819;
+    pub const glClientWaitSync: usize = 1820;
+    pub const glDeleteSync: usize = 1821;
+    pub const glGetBufferSubData: usize = 1822;
+    pub const glGetBufferParameteriv: usize = 1823;
+    pub const glGetUniformBlockIndex: usize = 1824;
+    pub const glGenBuffers: usize = 1825;
+    pub const glBindAttribLocation: usize = 1826;
+    pub const glProgramParameteri: usize = 1827;
+    pub const glPatchParameteri: usize = 1828;
+    pub const glGenVertexArrays: usize = 1829;
+    pub const glBindVertexArray: usize = 1830;
+    pub const glGenSamplers: usize = 1831;
+    pub const glBindSampler: usize = 1832;
 }
 
 /// Name of each command.
@@ -3446,12 +3493,62 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glDeleteRenderbuffersEXT",
     c"glBindBuffer",
     c"glBindBufferARB",
-    c"glBufferData",
-    c"glBufferDataARB",
-    c"glBufferSubData",
-    c"glBufferSubDataARB",
+    c"glBindBufferBase",
+    c"glBindBufferBaseEXT",
+    c"glBindBufferBaseNV",
+    c"glBindBufferRange",
+    c"glBindBufferRangeEXT",
+    c"glBindBufferRangeNV",
+    c"glBindBuffersBase",
+    c"glBindBuffersRange",
     c"glDeleteBuffers",
     c"glDeleteBuffersARB",
+    c"glBufferData",
+    c"glBufferDataARB",
+    c"glNamedBufferData",
+    c"glBufferStorage",
+    c"glBufferStorageEXT",
+    c"glNamedBufferStorage",
+    c"glNamedBufferStorageEXT",
+    c"glBufferSubData",
+    c"glBufferSubDataARB",
+    c"glNamedBufferSubData",
+    c"glNamedBufferSubDataEXT",
+    c"glNamedBufferDataEXT",
+    c"glMapNamedBufferEXT",
+    c"glMapNamedBufferRangeEXT",
+    c"glUnmapNamedBufferEXT",
+    c"glFlushMappedNamedBufferRangeEXT",
+    c"glNamedCopyBufferSubDataEXT",
+    c"glClearNamedBufferDataEXT",
+    c"glClearNamedBufferSubDataEXT",
+    c"glCopyBufferSubData",
+    c"glCopyBufferSubDataNV",
+    c"glCopyNamedBufferSubData",
+    c"glInvalidateBufferData",
+    c"glInvalidateBufferSubData",
+    c"glClearBufferData",
+    c"glClearBufferSubData",
+    c"glClearNamedBufferData",
+    c"glClearNamedBufferSubData",
+    c"glMapBuffer",
+    c"glMapBufferARB",
+    c"glMapBufferOES",
+    c"glMapNamedBuffer",
+    c"glMapBufferRange",
+    c"glMapBufferRangeEXT",
+    c"glMapNamedBufferRange",
+    c"glUnmapBuffer",
+    c"glUnmapBufferARB",
+    c"glUnmapBufferOES",
+    c"glUnmapNamedBuffer",
+    c"glFlushMappedBufferRange",
+    c"glFlushMappedBufferRangeAPPLE",
+    c"glFlushMappedBufferRangeEXT",
+    c"glFlushMappedNamedBufferRange",
+    c"glMemoryBarrier",
+    c"glMemoryBarrierEXT",
+    c"glMemoryBarrierByRegion",
     c"glPixelStoref",
     c"glPixelStorei",
     c"glPushClientAttrib",
@@ -3537,8 +3634,6 @@ pub static NAMES: [&CStr; COUNT] = [
     c"OSMesaDestroyContext",
     c"OSMesaGetProcAddress",
     c"glGetTextureParameteriv",
-    c"glMapBufferRange",
-    c"glUnmapBuffer",
     c"glGetString",
     c"glGetStringi",
     c"glGetFloati_v",
@@ -3573,9 +3668,8 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glClientWaitSync",
     c"glDeleteSync",
     c"glGetBufferSubData",
+    c"glGetBufferParameteriv",
     c"glGetUniformBlockIndex",
-    c"glBindBufferBase",
-    c"glBindBufferRange",
     c"glGenBuffers",
     c"glBindAttribLocation",
     c"glProgramParameteri",
@@ -5235,12 +5329,62 @@ real_functions! {
     glDeleteRenderbuffersEXT(n: i32, renderbuffers: Ptr);
     glBindBuffer(target: u32, buffer: u32);
     glBindBufferARB(target: u32, buffer: u32);
-    glBufferData(target: u32, size: isize, data: Ptr, usage: u32);
-    glBufferDataARB(target: u32, size: isize, data: Ptr, usage: u32);
-    glBufferSubData(target: u32, offset: isize, size: isize, data: Ptr);
-    glBufferSubDataARB(target: u32, offset: isize, size: isize, data: Ptr);
+    glBindBufferBase(target: u32, index: u32, buffer: u32);
+    glBindBufferBaseEXT(target: u32, index: u32, buffer: u32);
+    glBindBufferBaseNV(target: u32, index: u32, buffer: u32);
+    glBindBufferRange(target: u32, index: u32, buffer: u32, offset: isize, size: isize);
+    glBindBufferRangeEXT(target: u32, index: u32, buffer: u32, offset: isize, size: isize);
+    glBindBufferRangeNV(target: u32, index: u32, buffer: u32, offset: isize, size: isize);
+    glBindBuffersBase(target: u32, first: u32, count: i32, buffers: Ptr);
+    glBindBuffersRange(target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr, sizes: Ptr);
     glDeleteBuffers(n: i32, buffers: Ptr);
     glDeleteBuffersARB(n: i32, buffers: Ptr);
+    glBufferData(target: u32, size: isize, data: Ptr, usage: u32);
+    glBufferDataARB(target: u32, size: isize, data: Ptr, usage: u32);
+    glNamedBufferData(buffer: u32, size: isize, data: Ptr, usage: u32);
+    glBufferStorage(target: u32, size: isize, data: Ptr, flags: u32);
+    glBufferStorageEXT(target: u32, size: isize, data: Ptr, flags: u32);
+    glNamedBufferStorage(buffer: u32, size: isize, data: Ptr, flags: u32);
+    glNamedBufferStorageEXT(buffer: u32, size: isize, data: Ptr, flags: u32);
+    glBufferSubData(target: u32, offset: isize, size: isize, data: Ptr);
+    glBufferSubDataARB(target: u32, offset: isize, size: isize, data: Ptr);
+    glNamedBufferSubData(buffer: u32, offset: isize, size: isize, data: Ptr);
+    glNamedBufferSubDataEXT(buffer: u32, offset: isize, size: isize, data: Ptr);
+    glNamedBufferDataEXT(buffer: u32, size: isize, data: Ptr, usage: u32);
+    glMapNamedBufferEXT(buffer: u32, access: u32) -> Ptr = core::ptr::null_mut();
+    glMapNamedBufferRangeEXT(buffer: u32, offset: isize, length: isize, access: u32) -> Ptr = core::ptr::null_mut();
+    glUnmapNamedBufferEXT(buffer: u32) -> u8 = 0;
+    glFlushMappedNamedBufferRangeEXT(buffer: u32, offset: isize, length: isize);
+    glNamedCopyBufferSubDataEXT(readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize);
+    glClearNamedBufferDataEXT(buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr);
+    glClearNamedBufferSubDataEXT(buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr);
+    glCopyBufferSubData(readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize);
+    glCopyBufferSubDataNV(readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize);
+    glCopyNamedBufferSubData(readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize);
+    glInvalidateBufferData(buffer: u32);
+    glInvalidateBufferSubData(buffer: u32, offset: isize, length: isize);
+    glClearBufferData(target: u32, internalformat: u32, format: u32, type_: u32, data: Ptr);
+    glClearBufferSubData(target: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr);
+    glClearNamedBufferData(buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr);
+    glClearNamedBufferSubData(buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr);
+    glMapBuffer(target: u32, access: u32) -> Ptr = core::ptr::null_mut();
+    glMapBufferARB(target: u32, access: u32) -> Ptr = core::ptr::null_mut();
+    glMapBufferOES(target: u32, access: u32) -> Ptr = core::ptr::null_mut();
+    glMapNamedBuffer(buffer: u32, access: u32) -> Ptr = core::ptr::null_mut();
+    glMapBufferRange(target: u32, offset: isize, length: isize, access: u32) -> Ptr = core::ptr::null_mut();
+    glMapBufferRangeEXT(target: u32, offset: isize, length: isize, access: u32) -> Ptr = core::ptr::null_mut();
+    glMapNamedBufferRange(buffer: u32, offset: isize, length: isize, access: u32) -> Ptr = core::ptr::null_mut();
+    glUnmapBuffer(target: u32) -> u8 = 0;
+    glUnmapBufferARB(target: u32) -> u8 = 0;
+    glUnmapBufferOES(target: u32) -> u8 = 0;
+    glUnmapNamedBuffer(buffer: u32) -> u8 = 0;
+    glFlushMappedBufferRange(target: u32, offset: isize, length: isize);
+    glFlushMappedBufferRangeAPPLE(target: u32, offset: isize, size: isize);
+    glFlushMappedBufferRangeEXT(target: u32, offset: isize, length: isize);
+    glFlushMappedNamedBufferRange(buffer: u32, offset: isize, length: isize);
+    glMemoryBarrier(barriers: u32);
+    glMemoryBarrierEXT(barriers: u32);
+    glMemoryBarrierByRegion(barriers: u32);
     glPixelStoref(pname: u32, param: f32);
     glPixelStorei(pname: u32, param: i32);
     glPushClientAttrib(mask: u32);
@@ -5326,8 +5470,6 @@ real_functions! {
     OSMesaDestroyContext(ctx: Ptr);
     OSMesaGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
     glGetTextureParameteriv(texture: u32, pname: u32, params: Ptr);
-    glMapBufferRange(target: u32, offset: isize, length: isize, access: u32) -> Ptr = core::ptr::null_mut();
-    glUnmapBuffer(target: u32) -> u8 = 0;
     glGetString(name: u32) -> Ptr = core::ptr::null_mut();
     glGetStringi(name: u32, index: u32) -> Ptr = core::ptr::null_mut();
     glGetFloati_v(target: u32, index: u32, data: Ptr);
@@ -5362,9 +5504,8 @@ real_functions! {
     glClientWaitSync(sync: Ptr, flags: u32, timeout: u64) -> u32 = 0;
     glDeleteSync(sync: Ptr);
     glGetBufferSubData(target: u32, offset: isize, size: isize, data: Ptr);
+    glGetBufferParameteriv(target: u32, pname: u32, params: Ptr);
     glGetUniformBlockIndex(program: u32, uniformBlockName: Ptr) -> u32 = 0;
-    glBindBufferBase(target: u32, index: u32, buffer: u32);
-    glBindBufferRange(target: u32, index: u32, buffer: u32, offset: isize, size: isize);
     glGenBuffers(n: i32, buffers: Ptr);
     glBindAttribLocation(program: u32, index: u32, name: Ptr);
     glProgramParameteri(program: u32, pname: u32, value: i32);

@@ -8,6 +8,7 @@ impl Layer {
     /// glDispatchCompute: dispatches once, or for each view with its textures and images. Buffers are written by every dispatch. A shader
     /// that writes to no image is dispatched once, with the textures and images of the program's own view.
     pub fn compute(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
+        self.shaders_wrote();
         if !self.has_copies() {
             return call();
         }

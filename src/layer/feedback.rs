@@ -24,6 +24,7 @@ impl Layer {
     /// After a command that begins, ends, pauses or resumes transform feedback, or binds another object for it. `begun`: the command was
     /// glBeginTransformFeedback, or else glEndTransformFeedback, as far as the driver cannot be asked.
     pub fn feedback_changed(&mut self, gl: &Gl, begun: Option<bool>) {
+        self.shaders_wrote();
         if !self.session.support.pauses_feedback {
             if let Some(begun) = begun {
                 self.state.primitives.transform_feedback = begun;

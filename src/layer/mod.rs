@@ -4,6 +4,7 @@
 mod accumulate;
 mod auto;
 mod blits;
+mod blocks;
 mod cameras;
 mod canvas;
 mod capture;
@@ -33,6 +34,7 @@ mod programs;
 mod prove;
 mod quad_buffer;
 mod queries;
+mod reads;
 mod recordings;
 mod sampling;
 mod session;
@@ -45,6 +47,7 @@ mod tests;
 mod tracked;
 mod variants;
 
+pub use blocks::BufferIs;
 pub use canvas::{CurrentDrawable, DrawableId};
 pub use control::Pictured;
 pub use draw::Primitives;
@@ -61,6 +64,7 @@ use crate::plan::Rig;
 use crate::plan::decide::Known;
 use crate::report::{Proof, Report};
 use crate::state::{BACK, State, Window};
+use blocks::Blocks;
 use cameras::Cameras;
 use canvas::Canvases;
 use diagnostics::Diagnostics;
@@ -107,6 +111,7 @@ pub struct Layer {
     known: Known,
     frame: Frame,
     canvases: Canvases,
+    blocks: Blocks,
     queries: queries::Queries,
     diagnostics: Diagnostics,
 }
@@ -182,6 +187,7 @@ impl Layer {
             known: Known::new(rig),
             frame: Frame::default(),
             canvases: Canvases::new(drawable.id),
+            blocks: Blocks::default(),
             queries: queries::Queries::default(),
             diagnostics: Diagnostics::new(report),
         };

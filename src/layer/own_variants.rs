@@ -1,10 +1,11 @@
 //! Variants of the program's own shaders, and the uniforms of its programs that the layer follows.
 
+use super::blocks::BlockReader;
 use crate::draw::{Drawn, NoVariant, Variant};
 use crate::gl::{Gl, Held, ImageUnit, ProgramName};
 use crate::plan::camera;
 use crate::plan::decide::Linked as Linking;
-use crate::state::{Matrices, Samplers, link_change, uniform_change};
+use crate::state::{Matrices, Samplers, block_change, link_change, uniform_change};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -55,8 +56,8 @@ struct CameraSearch {
     found: Option<Camera>,
     /// None of its matrices has a perspective now.
     lost: bool,
-    /// [`uniform_change`] at the last search.
-    seen: u64,
+    /// [`uniform_change`] and [`block_change`] at the last search; without matrices in blocks the latter is 0.
+    seen: [u64; 2],
 }
 
 /// Record of one program: its variants, and its uniforms that the layer follows.
@@ -103,7 +104,7 @@ impl ProgramRecord {
             camera: CameraSearch {
                 found: None,
                 lost: true,
-                seen: 0,
+                seen: [0; 2],
             },
             followed: [0; 4],
             layered: [None, None],
@@ -316,14 +317,14 @@ impl OwnVariants {
     }
 
     /// The projection of the camera of a program with a variant, column-major: `Some(None)` where no camera is found, `None` for a program
-    /// without a variant. `before_reading` is called before buffers are read, which may raise errors.
+    /// without a variant. `blocks` reads those in uniform blocks.
     #[allow(clippy::option_option, reason = "a variant, and a camera")]
     pub(super) fn camera(
         &mut self,
         gl: &Gl,
         program: ProgramName,
         aspect: f64,
-        before_reading: impl FnOnce(),
+        blocks: &mut BlockReader,
     ) -> Option<Option<[f32; 16]>> {
         let Some(ProgramRecord {
             how: Ok(Drawn::ByVariant(_)),
@@ -339,27 +340,31 @@ impl OwnVariants {
         else {
             return None;
         };
-        let change = uniform_change();
+        let places = matrices.in_blocks();
+        let change = match places {
+            [] => [uniform_change(), 0],
+            _ => [uniform_change(), block_change()],
+        };
         let changed = std::mem::replace(seen, change) != change;
+        if !changed && (places.is_empty() || !blocks.are_live(program, places)) {
+            return Some(camera.map(|camera| camera.projection));
+        }
+        let in_block = &mut |place| blocks.matrix(program, place);
         // The camera mostly is in the same matrix as before, and has only moved.
         let mut search = camera.is_none();
-        if let (true, Some(found)) = (changed, camera.as_mut())
-            && let Some(matrix) = matrices.value(gl, program, found.at)
+        if let Some(found) = camera.as_mut()
+            && let Some(matrix) = matrices.value(gl, program, found.at, in_block)
         {
             match camera::equivalent(&matrix) {
+                _ if matrix == found.matrix => *lost = false,
                 Some(projection) => {
                     (found.matrix, found.projection, *lost) = (matrix, projection, false);
                 }
                 None => search = true,
             }
         }
-        // Uniform buffers are read until a camera is found. A mapped one cannot be read, and raises an error.
-        let reads = camera.is_none() && matrices.has_blocks();
-        if search && (changed || reads) {
-            if reads {
-                before_reading();
-            }
-            let values = matrices.values(gl, program, reads);
+        if search {
+            let values = matrices.values(gl, program, in_block);
             let found = camera::among(&values, aspect).and_then(|(at, projection)| {
                 let matrix = *values.get(at)?;
                 Some(Camera {

@@ -1,6 +1,7 @@
 //! Programs with shaders of their own: they are drawn with a program variant, which shifts the vertices of each view.
 
 use super::Layer;
+use super::blocks::BlockReader;
 use super::own_variants::ProgramRecord;
 use crate::config::Strategy;
 use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
@@ -109,14 +110,17 @@ impl Layer {
     /// without a variant.
     #[allow(clippy::option_option, reason = "a variant, and a camera")]
     pub(super) fn camera_of(&mut self, gl: &Gl, program: ProgramName) -> Option<Option<[f32; 16]>> {
-        let (aspect, state) = (self.aspect(), &mut self.state);
-        let mut reads = false;
-        let camera = self.variants.own.camera(gl, program, aspect, || {
-            state.keep_errors(gl);
-            reads = true;
-        });
-        if reads {
-            self.drain_own_errors(gl);
+        let aspect = self.aspect();
+        let mut blocks = BlockReader {
+            gl,
+            blocks: &mut self.blocks,
+            group: &self.session.group,
+            state: &mut self.state,
+            reads_back: false,
+        };
+        let camera = self.variants.own.camera(gl, program, aspect, &mut blocks);
+        if blocks.reads_back {
+            self.tell_of_cameras_read_back();
         }
         camera
     }

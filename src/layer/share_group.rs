@@ -1,7 +1,7 @@
 //! What the contexts of a share group have in common.
 
 use crate::offscreen::{Images, SharedImages};
-use crate::state::Lists;
+use crate::state::{Lists, UniformBuffers};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -9,6 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 struct Group {
     lists: Mutex<Lists>,
     images: SharedImages,
+    uniform_buffers: Mutex<UniformBuffers>,
     members: AtomicUsize,
 }
 
@@ -45,6 +46,12 @@ impl Member {
     pub(super) fn lists(&self) -> MutexGuard<'_, Lists> {
         let lists = self.0.lists.lock();
         lists.unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Contents of the program's uniform buffers.
+    pub(super) fn uniform_buffers(&self) -> MutexGuard<'_, UniformBuffers> {
+        let buffers = self.0.uniform_buffers.lock();
+        buffers.unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Textures and renderbuffers that differ between the views.

@@ -5,6 +5,7 @@
 //! Δx = A·κ·(1 − z/ξ), written for homogeneous coordinates:
 //! row0(P_i) = row0(P) + sep_i·row3(P) − sep_i·conv·(0,0,0,1), sep_i = A·e_i/ξ, conv = ξ, e_i = (i − (N−1)/2)·κ.
 
+use super::camera;
 use crate::config::Camera;
 use crate::config::profile::FARTHEST;
 use crate::view::ViewIndex;
@@ -97,11 +98,17 @@ impl Rig {
         if self.camera != Camera::Auto || self.latched.is_some() {
             return;
         }
-        let [near, far] = planes(p);
+        let (_, scale) = lens(p);
+        // A camera may stand in the projection; a projection alone is left as it is, to the bit.
+        let pure = [p[3], p[7], p[15]] == [0.0; 3];
+        let ([near, far], unit) = match camera::equivalent(p).filter(|_| !pure) {
+            Some(equivalent) => (planes(&equivalent), 1.0),
+            None => (planes(p), scale),
+        };
         if near.is_finite() && near > 0.0 {
-            let (_, scale) = lens(p);
-            let focal = self.focal.unwrap_or_else(|| (near * far).sqrt());
-            self.latched = Some((self.auto_step(), focal * scale));
+            let between = || (near * far).sqrt() * unit;
+            let convergence = self.focal.map_or_else(between, |focal| focal * scale);
+            self.latched = Some((self.auto_step(), convergence));
         }
     }
 
@@ -328,6 +335,27 @@ mod tests {
         assert!((once - 8.0).abs() < 1e-4, "{once}");
         assert!((three_times - 3.0 * once).abs() < 1e-3, "{three_times}");
         assert_eq!(separation, same);
+    }
+
+    #[test]
+    fn a_camera_in_the_projection_does_not_move_the_focal_depth() {
+        let p = frustum(-1.0, 1.0, -1.0, 1.0, 0.1, 200.0);
+        let latched = |p: Mat4| {
+            let mut rig = Rig::new(5, Camera::Auto, None);
+            rig.latch(&p.to_cols_array());
+            rig.latched().expect("a perspective projection").1
+        };
+        let alone = latched(p);
+        let turned =
+            Mat4::from_rotation_y(1.2) * Mat4::from_translation(Vec3::new(-10.0, -0.5, -8.5));
+        for view in [
+            turned,
+            Mat4::from_rotation_y(1.5 * std::f32::consts::PI),
+            Mat4::from_scale(Vec3::splat(3.0)),
+        ] {
+            let moved = latched(p * view);
+            assert!((moved - alone).abs() < 0.01 * alone, "{moved}, {alone}");
+        }
     }
 
     #[test]

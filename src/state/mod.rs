@@ -9,6 +9,7 @@ mod lists;
 mod neutral;
 mod rectangles;
 mod shaders;
+mod uniform_buffers;
 
 pub use classification::ClassificationState;
 pub use effect::{Effect, Immediate};
@@ -19,6 +20,10 @@ pub use rectangles::{Indexed, Rectangles};
 pub use shaders::{
     Linked, Matrices, Samplers, ShaderSource, Shaders, link_change, sources, uniform_change,
     uniform_changes,
+};
+
+pub use uniform_buffers::{
+    Found, UniformBuffers, binding_change, binding_changes, block_change, block_changes,
 };
 
 use crate::gl::{Gl, ProgramName, consts as c};

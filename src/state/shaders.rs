@@ -1,6 +1,6 @@
 //! The sources from which the programs of a share group were linked.
 
-use crate::gl::{Gl, ProgramName, consts as c};
+use crate::gl::{BlockPlace, Gl, ProgramName, consts as c};
 use crate::rewrite::Stage;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -114,8 +114,8 @@ impl Shaders {
 pub struct Matrices {
     /// Locations of those that are plain uniforms.
     uniforms: Vec<i32>,
-    /// Block and offset of those in blocks.
-    in_blocks: Vec<(u32, u32)>,
+    /// Those in blocks.
+    in_blocks: Vec<BlockPlace>,
 }
 
 impl Matrices {
@@ -141,26 +141,36 @@ impl Matrices {
             .collect()
     }
 
-    /// Whether some are in buffers, whose changes the layer does not see.
-    pub fn has_blocks(&self) -> bool {
-        !self.in_blocks.is_empty()
+    /// The places of those that are in blocks.
+    pub fn in_blocks(&self) -> &[BlockPlace] {
+        &self.in_blocks
     }
 
-    /// The current value of one of them, numbered as in [`Matrices::values`]; `None` for one in a buffer.
-    pub fn value(&self, gl: &Gl, program: ProgramName, at: usize) -> Option<[f32; 16]> {
-        let location = self.uniforms.get(at)?;
-        Some(gl.uniform_matrix(program, *location))
+    /// The current value of one of them, numbered as in [`Matrices::values`]. `in_block` gives those in blocks, where it can.
+    pub fn value(
+        &self,
+        gl: &Gl,
+        program: ProgramName,
+        at: usize,
+        in_block: &mut dyn FnMut(BlockPlace) -> Option<[f32; 16]>,
+    ) -> Option<[f32; 16]> {
+        match self.uniforms.get(at) {
+            Some(&location) => Some(gl.uniform_matrix(program, location)),
+            None => in_block(*self.in_blocks.get(at - self.uniforms.len())?),
+        }
     }
 
-    /// The current values, column-major. With `blocks` those in buffers follow: reading them waits for the driver and may raise an
-    /// error.
-    pub fn values(&self, gl: &Gl, program: ProgramName, blocks: bool) -> Vec<[f32; 16]> {
+    /// The current values, column-major: those of plain uniforms, and behind them those of `in_block`, 0 where it cannot tell one.
+    pub fn values(
+        &self,
+        gl: &Gl,
+        program: ProgramName,
+        in_block: &mut dyn FnMut(BlockPlace) -> Option<[f32; 16]>,
+    ) -> Vec<[f32; 16]> {
         let uniforms = self.uniforms.iter();
         let mut all: Vec<_> = uniforms.map(|&at| gl.uniform_matrix(program, at)).collect();
-        if blocks {
-            let places = self.in_blocks.iter();
-            all.extend(places.filter_map(|&at| gl.block_matrix(program, at)));
-        }
+        let places = self.in_blocks.iter();
+        all.extend(places.map(|&place| in_block(place).unwrap_or_default()));
         all
     }
 }

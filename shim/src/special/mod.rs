@@ -6,6 +6,7 @@
     reason = "the API's names; the contract of each is the API's"
 )]
 
+mod buffers;
 mod debug;
 mod drawing;
 mod framebuffer;
@@ -16,6 +17,7 @@ mod state;
 mod visuals;
 mod window;
 
+pub(crate) use buffers::*;
 pub(crate) use debug::*;
 pub(crate) use drawing::*;
 pub(crate) use framebuffer::*;

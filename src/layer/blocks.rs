@@ -1,0 +1,194 @@
+//! Uniform blocks of the program's shaders: the buffers that are bound to them, and the matrices that are in those.
+
+use super::{Layer, Member};
+use crate::gl::{BlockPlace, BufferName, Gl, ProgramName, consts as c};
+use crate::state::{Found, State, UniformBuffers, binding_change, block_changes, link_change};
+use std::collections::HashMap;
+use std::sync::MutexGuard;
+
+/// How a command names a buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BufferIs {
+    /// It is bound at this target.
+    Bound(u32),
+    /// By its name.
+    Named(BufferName),
+}
+
+/// Bindings of buffers in a context. A new context has none, so those that are not here are 0.
+#[derive(Debug, Default)]
+pub(super) struct Blocks {
+    /// By target.
+    bound: HashMap<u32, BufferName>,
+    /// Binding points of uniform blocks: the buffer, and the byte at which blocks begin. The driver is asked once for those that were bound
+    /// unseen.
+    points: HashMap<u32, (BufferName, usize)>,
+    /// The binding points of a program's blocks, and the state of links and bindings when the driver was asked for them.
+    programs: HashMap<ProgramName, ([u64; 2], Vec<u32>)>,
+    /// The report says that cameras are read back.
+    told: bool,
+}
+
+/// Reads the matrices of uniform blocks.
+pub(super) struct BlockReader<'a> {
+    pub(super) gl: &'a Gl,
+    pub(super) blocks: &'a mut Blocks,
+    pub(super) group: &'a Member,
+    pub(super) state: &'a mut State,
+    /// The driver had to be asked for a matrix that shaders had written.
+    pub(super) reads_back: bool,
+}
+
+impl Blocks {
+    /// The buffer and byte where a uniform of a block lies.
+    fn place(
+        &mut self,
+        gl: &Gl,
+        program: ProgramName,
+        place: BlockPlace,
+    ) -> Option<(BufferName, usize)> {
+        let now = [link_change(), binding_change()];
+        let known = self.programs.entry(program).or_default();
+        if known.0 != now {
+            *known = (now, gl.block_bindings(program));
+        }
+        let point = *known.1.get(place.block as usize)?;
+        let asked = || gl.uniform_binding(point);
+        let &mut (buffer, start) = self.points.entry(point).or_insert_with(asked);
+        (!buffer.is_zero()).then_some((buffer, start + place.offset))
+    }
+}
+
+impl BlockReader<'_> {
+    /// Whether a matrix of these may change without a call of the program's.
+    pub(super) fn are_live(&mut self, program: ProgramName, places: &[BlockPlace]) -> bool {
+        places.iter().any(|&place| {
+            let found = self.blocks.place(self.gl, program, place);
+            found.is_some_and(|(buffer, _)| self.group.uniform_buffers().is_live(buffer))
+        })
+    }
+
+    /// The current value of a matrix, column-major. None where it cannot be told now.
+    pub(super) fn matrix(&mut self, program: ProgramName, place: BlockPlace) -> Option<[f32; 16]> {
+        let (buffer, at) = self.blocks.place(self.gl, program, place)?;
+        let found = self.group.uniform_buffers().matrix(buffer, at);
+        let numbers = match found {
+            Found::Matrix(numbers) => numbers,
+            Found::Mapped => return None,
+            Found::Unknown => self.ask(buffer, at)?,
+        };
+        Some(match place.row_major {
+            true => std::array::from_fn(|i| numbers[i % 4 * 4 + i / 4]),
+            false => numbers,
+        })
+    }
+
+    fn ask(&mut self, buffer: BufferName, at: usize) -> Option<[f32; 16]> {
+        self.state.keep_errors(self.gl);
+        let numbers = self.gl.buffer_matrix(buffer, at);
+        let mut failed = false;
+        while self.gl.get_error() != c::NO_ERROR {
+            failed = true;
+        }
+        let mut buffers = self.group.uniform_buffers();
+        buffers.follow(buffer);
+        self.reads_back |= buffers.is_written_by_shaders(buffer);
+        if failed {
+            return None;
+        }
+        let bytes: Vec<u8> = numbers.iter().flat_map(|v| v.to_ne_bytes()).collect();
+        buffers.read(buffer, at, &bytes);
+        Some(numbers)
+    }
+}
+
+impl Layer {
+    /// The contents of uniform buffers that are followed.
+    fn buffers(&self) -> MutexGuard<'_, UniformBuffers> {
+        self.session.group.uniform_buffers()
+    }
+
+    /// glBindBuffer.
+    pub fn binds_buffer(&mut self, target: u32, buffer: BufferName) {
+        let before = self.blocks.bound.insert(target, buffer).unwrap_or_default();
+        match target {
+            c::UNIFORM_BUFFER => self.buffers().follow(buffer),
+            // Pixels and results of queries are written while a buffer is bound there.
+            c::PIXEL_PACK_BUFFER | c::QUERY_BUFFER => {
+                let mut buffers = self.buffers();
+                buffers.forget_all(before);
+                buffers.forget_all(buffer);
+            }
+            _ => {}
+        }
+    }
+
+    /// glBindBufferBase, glBindBufferRange and their kin: `start` is the first byte. With `generic` the buffer is bound at the target as well.
+    pub fn binds_buffer_at(
+        &mut self,
+        target: u32,
+        index: u32,
+        (buffer, start): (BufferName, usize),
+        generic: bool,
+    ) {
+        if generic {
+            self.blocks.bound.insert(target, buffer);
+        }
+        match target {
+            c::UNIFORM_BUFFER => {
+                self.buffers().follow(buffer);
+                self.blocks.points.insert(index, (buffer, start));
+                block_changes();
+            }
+            c::SHADER_STORAGE_BUFFER | c::ATOMIC_COUNTER_BUFFER | c::TRANSFORM_FEEDBACK_BUFFER => {
+                self.buffers().bound_to_be_written(buffer);
+            }
+            _ => {}
+        }
+    }
+
+    /// Runs `change` on the contents of a buffer, if they are followed.
+    pub fn change_buffer(
+        &mut self,
+        which: BufferIs,
+        change: impl FnOnce(&mut UniformBuffers, BufferName),
+    ) {
+        let name = self.buffer_name(which);
+        let mut buffers = self.buffers();
+        if buffers.follows(name) {
+            change(&mut buffers, name);
+        }
+    }
+
+    /// The name of a buffer.
+    pub fn buffer_name(&self, which: BufferIs) -> BufferName {
+        match which {
+            BufferIs::Named(name) => name,
+            BufferIs::Bound(target) => self.blocks.bound.get(&target).copied().unwrap_or_default(),
+        }
+    }
+
+    /// glDeleteBuffers, before the driver deletes them. It unbinds them.
+    pub fn deletes_buffers(&mut self, names: &[BufferName]) {
+        for &name in names {
+            self.buffers().deleted(name);
+        }
+        self.blocks.bound.retain(|_, bound| !names.contains(bound));
+        self.blocks
+            .points
+            .retain(|_, (bound, _)| !names.contains(bound));
+        block_changes();
+    }
+
+    /// Shaders may have written to buffers.
+    pub fn shaders_wrote(&mut self) {
+        self.buffers().shaders_wrote();
+    }
+
+    /// The report says once that a camera is read back.
+    pub(super) fn tell_of_cameras_read_back(&mut self) {
+        if !std::mem::replace(&mut self.blocks.told, true) {
+            self.note("shaders write the program's camera, so it is read back from the driver, which waits".into());
+        }
+    }
+}
