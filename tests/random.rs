@@ -295,6 +295,16 @@ fn random_calls_with_front_buffers() {
     compare_without(swaps, Api::Glx, "layers", "replay", 21_030..21_050);
 }
 
+/// A context draws to several drawables and reads from others, in 30 of 100 sequences of this test and of the others.
+#[test]
+#[ignore = "a minute: make test-long"]
+fn random_calls_to_several_drawables() {
+    let [front, swaps] = APART;
+    compare(Api::Egl, "layers", "replay", 63_000..63_300);
+    compare_without(front, Api::Glx, "side-by-side", "replay", 64_000..64_100);
+    compare_without(swaps, Api::Glx, "layers", "replay", 65_000..65_100);
+}
+
 #[test]
 fn random_calls_in_memory() {
     compare(Api::OsMesa, "side-by-side", "replay", 30_000..30_050);

@@ -17404,16 +17404,16 @@ export! { 1280, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, ze
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
 export! { 1281, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, zeros_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
-    // SAFETY: the program's own call.
-    hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfv(buffer, drawbuffer, value) })
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearBufferfv(buffer, drawbuffer, value) }
 } }
 export! { 1282, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, zeros_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
-    // SAFETY: the program's own call.
-    hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferiv(buffer, drawbuffer, value) })
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearBufferiv(buffer, drawbuffer, value) }
 } }
 export! { 1283, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, zeros_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
-    // SAFETY: the program's own call.
-    hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferuiv(buffer, drawbuffer, value) })
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClearBufferuiv(buffer, drawbuffer, value) }
 } }
 export! { 1284, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, zeros_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.

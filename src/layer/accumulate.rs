@@ -1,6 +1,7 @@
 //! glAccum and glClear: the accumulation buffer of framebuffer 0, which the atlas does not have.
 
 use super::Layer;
+use super::canvas::Reading;
 use super::draw::Request;
 use crate::accumulation::{Accumulation, Operation, Region};
 use crate::atlas::ViewSet;
@@ -59,7 +60,9 @@ impl Layer {
         }
         let mask: [i32; 4] = gl.get_integers_indexed(c::COLOR_WRITEMASK, 0);
         let operation = Operation::of(op, value, mask.map(|m| m != 0))
-            .filter(|_| self.state.window.accumulates() && self.reads_from_zero());
+            .filter(|_| self.state.window.accumulates() && self.reads_from_zero())
+            // The driver refuses two drawables.
+            .filter(|_| self.canvases.reading() == Reading::Drawn);
         let Some(operation) = operation else {
             // The driver raises the error.
             return self.with_true_zero(gl, c::DRAW_FRAMEBUFFER, call);

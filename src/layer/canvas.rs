@@ -15,7 +15,7 @@ use crate::display::Placement;
 use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 use crate::plan::Unrepresentable;
 use crate::plan::decide::{self, DepthWatch, Detail, Mono};
-use crate::state::{BACK, Touch, Window};
+use crate::state::{BACK, Begin, Touch, Window};
 use std::mem::swap;
 
 /// Parked canvases of windows that are kept, though nothing in them waits to be shown.
@@ -158,6 +158,12 @@ impl Layer {
         elsewhere: &dyn Fn(DrawableId) -> bool,
         lives: &dyn Fn(DrawableId) -> bool,
     ) {
+        if self.state.list.is_some() {
+            // What is set now would be compiled into the program's list.
+            return self.outside_list(gl, |layer| {
+                layer.switch(gl, [drawable, read], elsewhere, lives)
+            });
+        }
         let as_before = [drawable.id, read.id] == [self.canvases.current; 2]
             && self.canvases.reading == Reading::Drawn
             && drawable.size == self.size();
@@ -238,9 +244,7 @@ impl Layer {
         let (width, height) = drawable.size;
         let before = self.state.window.buffers;
         let mut window = Window::ask(gl, width, height, self.session.support.compatibility);
-        if window.buffers.double_buffered != before.double_buffered {
-            window.choose_buffers();
-        }
+        window.choose_buffers(window.buffers.double_buffered != before.double_buffered);
         let placement = Placement::full_screen(width, height);
         let detail = finest(&self.session.support);
         let grid = sampling::grid(
@@ -330,6 +334,8 @@ impl Layer {
         let buffers = self.state.window.buffers;
         if !buffers.es {
             gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
+            // Some drivers have one for each context, others for each drawable.
+            self.state.framebuffers.read_buffer = gl.get_integer(c::READ_BUFFER) as u32;
             gl.draw_buffer(buffers.default_draw);
             gl.read_buffer(buffers.default_read);
         }
@@ -372,6 +378,7 @@ impl Layer {
     /// The program leaves the drawable, or another thread may show it now: draws the picture of what was drawn so far into the true
     /// framebuffer 0. `handed_over`: another context draws to it next, and gets what the own view shows.
     pub fn leave_drawable(&mut self, gl: &Gl, handed_over: bool) {
+        self.give_read_buffer(gl);
         let wanted = self.frame.is_stale() || handed_over;
         if !wanted || self.is_plain() || self.is_hidden() || !self.may_show() {
             return;
@@ -382,6 +389,23 @@ impl Layer {
             false => layer.present_unfinished(gl, neutral),
         });
         self.frame.pictured();
+    }
+
+    /// Sets the program's read buffer in the true framebuffer 0, from which the next context or drawable may have it.
+    fn give_read_buffer(&mut self, gl: &Gl) {
+        let (name, buffers) = (
+            self.state.framebuffers.read_buffer,
+            self.state.window.buffers,
+        );
+        let kept = name == buffers.default_read || buffers.es || self.is_plain();
+        if kept || self.state.begin != Begin::Outside {
+            return;
+        }
+        self.outside_list(gl, |layer| {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
+            gl.read_buffer(name);
+            layer.rebind(gl);
+        });
     }
 
     /// Whether something was drawn to the current drawable that the true framebuffer 0 does not have.

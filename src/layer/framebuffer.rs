@@ -368,6 +368,15 @@ impl Layer {
         r
     }
 
+    /// Whether the first draw buffer of framebuffer 0, which is bound, names two buffers of the atlas.
+    pub fn draws_to_two_buffers(&self) -> bool {
+        let f = &self.state.framebuffers;
+        f.draw.is_zero()
+            && f.draw_buffers.len() == 1
+            && f.draw_images().len() > 1
+            && !self.is_plain()
+    }
+
     /// Whether framebuffer 0 is bound for drawing.
     pub fn draws_to_zero(&self) -> bool {
         self.state.framebuffers.draw.is_zero()

@@ -50,15 +50,18 @@ impl Window {
         self.buffers.double_buffered && self.samples == 0 && !self.buffers.es
     }
 
-    /// Chooses the buffers that a new context would have. The driver tells those of the first drawable of a context alone.
-    pub fn choose_buffers(&mut self) {
+    /// Chooses the buffer that a new context would read from, and with `draw` the one that it would draw to. The driver tells those of the
+    /// first drawable of a context alone.
+    pub fn choose_buffers(&mut self, draw: bool) {
         let buffers = &mut self.buffers;
         let chosen = match buffers.double_buffered || buffers.names_back {
             true => c::BACK,
             false => c::FRONT,
         };
-        buffers.default_draw = chosen;
         buffers.default_read = chosen;
+        if draw {
+            buffers.default_draw = chosen;
+        }
     }
 
     /// Whether it has an accumulation buffer.

@@ -83,9 +83,10 @@ static void swap(void)
 {
     if (R->begin || R->list)
         return;
+    int shown = R->now->others && chance(50) ? R->now->drawable : R->now->draw;
     if (O.trace)
-        fprintf(R->out, "%d.%d (swap)\n", R->step, R->part);
-    W->swap(R->now->drawable);
+        fprintf(R->out, "%d.%d (swap%s)\n", R->step, R->part, shown == R->now->draw ? "" : " of the first drawable");
+    W->swap(shown);
 }
 
 static void flush(void)

@@ -255,6 +255,14 @@ static void stacks(void)
     }
 }
 
+void dump_drawable(int number)
+{
+    tell(&R->pixels, "drawable %d", number);
+    picture("colour", GL_RGBA, GL_UNSIGNED_BYTE, 4);
+    picture("depth", GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4);
+    picture("stencil", GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1);
+}
+
 void dump_context(void)
 {
     struct context *c = R->now;
@@ -293,9 +301,7 @@ void dump_context(void)
         if (p != GL_ZOOM_X && p != GL_ZOOM_Y)
             glPixelTransferf(p, p == GL_RED_SCALE || p == GL_GREEN_SCALE || p == GL_BLUE_SCALE || p == GL_ALPHA_SCALE || p == GL_DEPTH_SCALE);
     while (glGetError());
-    picture("colour", GL_RGBA, GL_UNSIGNED_BYTE, 4);
-    picture("depth", GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4);
-    picture("stencil", GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1);
+    dump_drawable(0);
     textures();
     errors("the pictures");
 }

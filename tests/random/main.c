@@ -29,7 +29,7 @@ const struct window_api *W = &window_egl;
 static const char *const class_names[CLASSES] = {
     "state", "matrices", "immediate", "in-begin", "arrays", "evaluators", "lists", "pixels", "accum", "clears",
     "textures", "attribs", "modes", "reads", "framebuffers", "buffers", "queries", "swaps", "contexts", "threads", "errors",
-    "front", "copies",
+    "front", "copies", "drawables",
 };
 
 void fail(const char *format, ...)
@@ -173,7 +173,18 @@ void any_call(void)
 static void switch_context(struct context *to)
 {
     R->now = to;
-    W->current(to->handle, to->drawable);
+    W->current(to->handle, to->draw, to->read);
+}
+
+/* Draws to a drawable of the context and reads from one; 0 is its first one. What was pushed comes back before: Mesa 22.3 has a read buffer for
+ * each drawable and another one on the stack. */
+static void switch_drawables(struct context *to, int draw, int read)
+{
+    for (GLint depth = to->others && to == R->now ? bound(GL_ATTRIB_STACK_DEPTH) : 0; depth > 0; depth--)
+        glPopAttrib();
+    to->draw = draw ? to->others + draw - 1 : to->drawable;
+    to->read = read ? to->others + read - 1 : to->drawable;
+    switch_context(to);
 }
 
 /* Changes that no program could notice: a flush, each attribute group and the current colour touched, a culled triangle. */
@@ -222,13 +233,18 @@ static void take_context(struct context *c, int number, struct context *share)
 {
     memset(c, 0, sizeof *c);
     c->share = share;
-    c->drawable = R->thread ? CONTEXTS : number;
+    c->drawable = c->draw = c->read = R->thread ? CONTEXTS : number;
+    /* Not by chance(), so that a seed means the same with and without drawables up to here. */
+    if (W->several && !(O.without >> DRAWABLES & 1) && mix(R->seed + 77) % 100 < 30)
+        c->others = CONTEXTS + 1 + OTHERS * c->drawable;
     c->handle = W->create(share ? share->handle : NULL);
     if (!c->handle)
         fail("no context");
-    switch_context(c);
-    glClearColor(0, 0, 0, 0);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT);
+    for (int i = c->others ? OTHERS : 0; i >= 0; i--) {
+        switch_drawables(c, i, i);
+        glClearColor(0, 0, 0, 0);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT);
+    }
     array_pointers();
     /* Names are the program's own or GL's choice, the same within a share group. */
     if (share) {
@@ -271,6 +287,11 @@ static void sequence(void)
             if (O.trace)
                 fprintf(R->out, "%d.0 (context %d)\n", R->step, to);
             switch_context(&R->contexts[to]);
+        } else if (R->now->others && !R->begin && chance(15)) {
+            int draw = (int)below(OTHERS + 1), read = chance(50) ? draw : (int)below(OTHERS + 1);
+            if (O.trace)
+                fprintf(R->out, "%d.0 (draws to %d, reads from %d)\n", R->step, draw, read);
+            switch_drawables(R->now, draw, read);
         } else {
             any_call();
             if (O.disturb && !R->begin && !R->list)
@@ -279,11 +300,16 @@ static void sequence(void)
     }
     for (int i = 0; i < R->context_count; i++) {
         switch_context(&R->contexts[i]);
+        switch_drawables(&R->contexts[i], 0, 0);
         if (O.verbose)
             fprintf(R->out, "context %d\n", i);
         dump_context();
+        for (int k = 1; R->contexts[i].others && k <= OTHERS; k++) {
+            switch_drawables(&R->contexts[i], k, k);
+            dump_drawable(k);
+        }
     }
-    W->current(NULL, 0);
+    W->current(NULL, 0, 0);
     for (int i = R->context_count - 1; i >= 0; i--)
         W->destroy(R->contexts[i].handle);
     fprintf(R->out, "seed %llu thread %d answers %016llx state %016llx pixels %016llx\n", (unsigned long long)R->seed, R->thread,
@@ -371,7 +397,7 @@ int main(int argc, char **argv)
     }
     prepare_data();
     prepare_pixels();
-    W->open(CONTEXTS + 1);
+    W->open((CONTEXTS + 1) * (1 + OTHERS));
     for (uint64_t s = first; s < first + count; s++)
         seed(s);
     return 0;

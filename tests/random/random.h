@@ -9,18 +9,22 @@
 #include <stdio.h>
 
 enum { WIDTH = 64, HEIGHT = 48, CONTEXTS = 3, TEXTURES = 6, FRAMES = 2, VALUES = 2048, VERTICES = 64 };
+/* Drawables of a context beside its first one. */
+enum { OTHERS = 2 };
 enum { MEMORY = 1 << 20, BUFFER = 8192 };
 
 /* Kinds of calls that can be left out (--without). The order is that of class_names in main.c. */
 enum class {
     STATE, MATRICES, IMMEDIATE, IN_BEGIN, ARRAYS, EVALUATORS, LISTS, PIXELS, ACCUM, CLEARS, TEXTURES_, ATTRIBS, MODES,
-    READS, FRAMEBUFFERS, BUFFERS, QUERIES, SWAPS, CONTEXTS_, THREADS, ERRORS, FRONT, COPIES, CLASSES
+    READS, FRAMEBUFFERS, BUFFERS, QUERIES, SWAPS, CONTEXTS_, THREADS, ERRORS, FRONT, COPIES, DRAWABLES, CLASSES
 };
 
 /* One context of a sequence, and its state as far as the sequence tracks it. */
 struct context {
     void *handle;
-    int drawable;
+    int drawable; /* its first one */
+    int draw, read; /* those that are current with it */
+    int others; /* the first of its other drawables; 0 where it has none */
     struct context *share;
     GLuint textures[TEXTURES], framebuffers[FRAMES], renderbuffer;
     GLfloat feedback[VALUES];
@@ -145,16 +149,18 @@ void *pixel_target(void);
 
 /* ---- dump.c ---- */
 void dump_context(void);
+void dump_drawable(int number); /* after dump_context, the drawable being current */
 
 /* ---- window_*.c ---- */
 struct window_api {
     const char *name;
     void (*open)(int drawables);
     void *(*create)(void *share);
-    void (*current)(void *handle, int drawable); /* null: none */
+    void (*current)(void *handle, int draw, int read); /* null: none */
     void (*destroy)(void *handle);
     void (*swap)(int drawable);
     int windows; /* 0: pbuffers */
+    int several; /* 0: a context cannot go to another drawable */
 };
 extern const struct window_api window_egl, window_glx, window_osmesa;
 extern const struct window_api *W;

@@ -5,7 +5,7 @@
 
 static EGLDisplay display;
 static EGLConfig config;
-static EGLSurface surfaces[8];
+static EGLSurface surfaces[(CONTEXTS + 1) * (1 + OTHERS)];
 
 static void egl_open(int drawables)
 {
@@ -36,14 +36,14 @@ static void *egl_create(void *share)
     return eglCreateContext(display, config, share ? share : EGL_NO_CONTEXT, NULL);
 }
 
-static void egl_current(void *handle, int drawable)
+static void egl_current(void *handle, int draw, int read)
 {
-    EGLSurface surface = handle ? surfaces[drawable] : EGL_NO_SURFACE;
-    if (!eglMakeCurrent(display, surface, surface, handle ? handle : EGL_NO_CONTEXT))
+    EGLSurface to = handle ? surfaces[draw] : EGL_NO_SURFACE, from = handle ? surfaces[read] : EGL_NO_SURFACE;
+    if (!eglMakeCurrent(display, to, from, handle ? handle : EGL_NO_CONTEXT))
         fail("eglMakeCurrent: 0x%x", eglGetError());
 }
 
 static void egl_destroy(void *handle) { eglDestroyContext(display, handle); }
 static void egl_swap(int drawable) { eglSwapBuffers(display, surfaces[drawable]); }
 
-const struct window_api window_egl = {"egl", egl_open, egl_create, egl_current, egl_destroy, egl_swap, 0};
+const struct window_api window_egl = {"egl", egl_open, egl_create, egl_current, egl_destroy, egl_swap, 0, 1};

@@ -5,7 +5,21 @@
 
 static Display *display;
 static XVisualInfo *visual;
-static Window windows[8];
+/* Made by glXCreateWindow: of a window that is its own drawable Mesa forgets what was drawn when a context leaves it. */
+static GLXWindow windows[(CONTEXTS + 1) * (1 + OTHERS)];
+
+static GLXFBConfig config_of(XVisualInfo *of, int screen)
+{
+    int count = 0, id;
+    GLXFBConfig *all = glXGetFBConfigs(display, screen, &count), found = NULL;
+    for (int i = 0; i < count && !found; i++)
+        if (!glXGetFBConfigAttrib(display, all[i], GLX_VISUAL_ID, &id) && (VisualID)id == of->visualid)
+            found = all[i];
+    XFree(all);
+    if (!found)
+        fail("no GLX configuration");
+    return found;
+}
 
 static void glx_open(int drawables)
 {
@@ -25,24 +39,26 @@ static void glx_open(int drawables)
         fail("no GLX visual");
     Window root = RootWindow(display, screen);
     XSetWindowAttributes a = {.colormap = XCreateColormap(display, root, visual->visual, AllocNone)};
+    GLXFBConfig config = config_of(visual, screen);
     for (int i = 0; i < drawables; i++) {
         /* Side by side: pixels under another window are undefined. */
-        windows[i] = XCreateWindow(display, root, i * WIDTH, 0, WIDTH, HEIGHT, 0, visual->depth, InputOutput, visual->visual,
-                                   CWColormap | CWBorderPixel | CWOverrideRedirect, &a);
-        XMapWindow(display, windows[i]);
+        Window window = XCreateWindow(display, root, i % 8 * WIDTH, i / 8 * HEIGHT, WIDTH, HEIGHT, 0, visual->depth, InputOutput, visual->visual,
+                                      CWColormap | CWBorderPixel | CWOverrideRedirect, &a);
+        XMapWindow(display, window);
+        windows[i] = glXCreateWindow(display, config, window, NULL);
     }
     XSync(display, False);
 }
 
 static void *glx_create(void *share) { return glXCreateContext(display, visual, share, True); }
 
-static void glx_current(void *handle, int drawable)
+static void glx_current(void *handle, int draw, int read)
 {
-    if (!glXMakeCurrent(display, handle ? windows[drawable] : None, handle))
-        fail("glXMakeCurrent failed");
+    if (!glXMakeContextCurrent(display, handle ? windows[draw] : None, handle ? windows[read] : None, handle))
+        fail("glXMakeContextCurrent failed");
 }
 
 static void glx_destroy(void *handle) { glXDestroyContext(display, handle); }
 static void glx_swap(int drawable) { glXSwapBuffers(display, windows[drawable]); }
 
-const struct window_api window_glx = {"glx", glx_open, glx_create, glx_current, glx_destroy, glx_swap, 1};
+const struct window_api window_glx = {"glx", glx_open, glx_create, glx_current, glx_destroy, glx_swap, 1, 1};

@@ -3,7 +3,7 @@
 use crate::context::{
     Inside, enter, inside, instead, peek, peek_inside, real, recording, set_inside,
 };
-use crate::hooks::{before_uncompiled, compile, imm};
+use crate::hooks::{self, before_uncompiled, compile, draw, imm};
 use core::slice::from_raw_parts;
 use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Indices, Vertices};
@@ -313,3 +313,24 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
 fn list_base() -> u32 {
     enter(|gl, _| gl.get_integer(LIST_BASE) as u32).unwrap_or(0)
 }
+
+/// A hook of a command that clears one draw buffer. The program's first one may name two buffers (GL_FRONT_AND_BACK), which are two
+/// draw buffers of the atlas.
+macro_rules! clear_buffer {
+    ($($name:ident),*) => {$(
+        pub(crate) unsafe fn $name(buffer: u32, drawbuffer: i32, value: Ptr) {
+            const COLOR: u32 = 0x1800;
+            let first = buffer == COLOR && drawbuffer == 0;
+            let two = first && peek(|l| l.draws_to_two_buffers()) == Some(true);
+            // SAFETY: the program's own call.
+            draw(hooks::Kind::CLEAR, &mut |gl| unsafe {
+                gl.$name(buffer, drawbuffer, value);
+                if two {
+                    gl.$name(buffer, 1, value);
+                }
+            });
+        }
+    )*};
+}
+
+clear_buffer!(glClearBufferfv, glClearBufferiv, glClearBufferuiv);
