@@ -17,6 +17,8 @@ mod program;
 pub mod quilt;
 pub mod reference;
 pub mod shader;
+#[cfg(test)]
+mod shader_tests;
 mod sheet;
 mod sources;
 #[cfg(test)]

@@ -107,6 +107,15 @@ impl Pass {
         Self::Anaglyph,
         Self::Rgbd,
     ];
+
+    /// All passes.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::OUTPUTS
+            .into_iter()
+            .chain([Self::Copy])
+            .chain(Step::ALL.map(Self::Accumulate))
+            .chain(Synthesis::ALL.map(Self::Synthesis))
+    }
 }
 
 impl Synthesis {

@@ -287,7 +287,7 @@ fn entry(pass: Pass) -> &'static str {
 }
 
 /// The WGSL of a pass. WGSL has no includes, so the files are joined.
-fn source(pass: Pass) -> String {
+pub(super) fn source(pass: Pass) -> String {
     match pass {
         Pass::Interleave => [COVER, COMMON, ATLAS, MASK, INTERLEAVE].join("\n"),
         Pass::Texels(_) => [COVER, COMMON, ATLAS, MASK, TEXELS].join("\n"),

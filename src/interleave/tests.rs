@@ -5,7 +5,7 @@ use super::reference::{ReferenceError, anaglyph, arrange, filtered, interleave};
 use super::shader::*;
 use super::*;
 use crate::atlas::{Grid, Tiles, ViewSet};
-use crate::config::{DisocclusionSource, Filter, Glasses, Mixture};
+use crate::config::{Filter, Glasses, Mixture};
 use crate::display::{Display, GUARD, Mask, Placement};
 use crate::view::ViewIndex;
 use image::{GrayImage, Rgb, RgbImage, Rgba, RgbaImage};
@@ -491,57 +491,6 @@ fn dubois_is_as_published() {
             [[-16, -123, -17], [6, 62, -17], [94, 185, 911]]
         )
     );
-}
-
-#[test]
-fn every_pass_of_synthesis_translates_for_every_version() {
-    for pass in Synthesis::ALL {
-        let textures: &[u32] = match pass {
-            Synthesis::BlockBounds => &[DEPTH_UNIT],
-            Synthesis::RowMaxima => &[BLOCK_BOUNDS_UNIT],
-            Synthesis::RayRange => &[RAY_RANGE_UNIT, BLOCK_BOUNDS_UNIT],
-            Synthesis::Steps => &[DEPTH_UNIT],
-            Synthesis::Splats => &[5],
-            Synthesis::DistortionMap => &[2, 5, 6],
-            Synthesis::View(DisocclusionSource::Nothing | DisocclusionSource::Views) => {
-                &[0, 2, 3, 4]
-            }
-            Synthesis::View(DisocclusionSource::Reference) => &[0, 2, 3, 4, 5, 6, 7, 8],
-            Synthesis::Panel {
-                source: DisocclusionSource::Nothing | DisocclusionSource::Views,
-                ..
-            } => &[0, 1, 2, 3, 4],
-            Synthesis::Panel {
-                source: DisocclusionSource::Reference,
-                ..
-            } => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
-        };
-        for version in GlslVersion::SUPPORTED {
-            let got = translate(Pass::Synthesis(pass), Stage::Fragment, version).unwrap();
-            let units: Vec<_> = got.textures.iter().map(|t| t.unit).collect();
-            assert_eq!(units, textures, "{pass:?}");
-        }
-    }
-}
-
-#[test]
-fn every_step_of_the_accumulation_buffer_translates_for_every_version() {
-    for step in Step::ALL {
-        let textures: &[u32] = match step {
-            Step::Fill => &[],
-            Step::Load => &[0, 2],
-            Step::Accumulate => &[0, 1, 2],
-            Step::Copy | Step::Multiply | Step::Add => &[1],
-            Step::Return => &[1, 2],
-        };
-        for version in GlslVersion::SUPPORTED {
-            let got = translate(Pass::Accumulate(step), Stage::Fragment, version).unwrap();
-            let units: Vec<_> = got.textures.iter().map(|t| t.unit).collect();
-            assert_eq!(units, textures, "{step:?}");
-            let places: Vec<_> = got.uniforms.iter().map(|u| (u.first, u.count)).collect();
-            assert_eq!(places, [(0, 4), (4, 4), (8, 4), (12, 1), (13, 1), (14, 1)]);
-        }
-    }
 }
 
 #[test]

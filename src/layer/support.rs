@@ -49,11 +49,11 @@ impl Support {
             && (version < (3, 1)
                 || gl.has_extension("GL_ARB_compatibility")
                 || (version >= (3, 2) && gl.get_integer(c::CONTEXT_PROFILE_MASK) & 2 != 0));
-        // An older context may know newer shading languages, but not all that goes with them.
-        let glsl = match version {
-            _ if es || version >= (3, 1) => crate::interleave::glsl_version(gl),
-            (3, 0) => crate::interleave::glsl_version(gl).min(130),
-            _ => 120,
+        let known = crate::interleave::glsl_version(gl);
+        let glsl = if es {
+            known
+        } else {
+            known.min(glsl_of(version))
         };
         let clip_distances = if compatibility && glsl >= 150 {
             gl.get_integer(c::MAX_CLIP_DISTANCES).max(0).unsigned_abs()
@@ -141,6 +141,16 @@ impl Support {
     }
 }
 
+/// The shading language that belongs to a version of OpenGL, × 100. A context may know a newer one, but not all that goes with that: one of OpenGL
+/// 3.1 has none of the limits of geometry shaders, which GLSL 1.50 has.
+fn glsl_of(version: (u32, u32)) -> u32 {
+    match version {
+        (major, minor) if version >= (3, 3) => major * 100 + minor * 10,
+        (3, minor) => 130 + minor * 10,
+        _ => 120,
+    }
+}
+
 /// The line of JSON that `manyview-probe` prints for one API: the context that it made, or why it could not.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
@@ -214,6 +224,22 @@ mod tests {
         };
         assert_eq!(core.strategies(), ["replay", "instanced"]);
         assert!(core.notes(false).is_empty());
+    }
+
+    #[test]
+    fn a_version_has_its_language() {
+        let versions = [
+            (1, 4),
+            (2, 1),
+            (3, 0),
+            (3, 1),
+            (3, 2),
+            (3, 3),
+            (4, 2),
+            (4, 6),
+        ];
+        let languages = [120, 120, 130, 140, 150, 330, 420, 460];
+        assert_eq!(versions.map(glsl_of), languages);
     }
 
     #[test]

@@ -57,8 +57,15 @@ impl Targets {
             None => {}
         }
         let detail = finest(support);
-        if gl.is_es() && config.view_scale != ViewScale::Fixed(1.0) {
-            report.note("views are drawn at the size of the window, because the program has shaders of its own".into());
+        if config.view_scale != ViewScale::Fixed(1.0) {
+            let cause = match (gl.is_es(), support.viewports) {
+                (true, _) => Some("the program has shaders of its own"),
+                (false, false) => Some("the driver has no GL_ARB_viewport_array"),
+                (false, true) => None,
+            };
+            let note =
+                |cause| format!("views are drawn at the size of the window, because {cause}");
+            cause.map(note).into_iter().for_each(|n| report.note(n));
         }
         let window = &state.window;
         let placement = Placement::full_screen(window.width, window.height);

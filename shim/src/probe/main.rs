@@ -7,12 +7,16 @@
 //!
 //! `manyview-probe rewrite FILE…` rewrites real shaders and gives them to the driver before and after. It prints one line of JSON for each
 //! shader and each program.
+//!
+//! `manyview-probe passes` gives the layer's own passes to the driver, in every version of the shading language that its contexts have. It
+//! prints one line of JSON for each kind of context and version.
 
 mod egl;
 mod glx;
 mod interleave;
 mod library;
 mod osmesa;
+mod passes;
 mod rewrite;
 
 use manyview_core::gl::{Gl, Ptr, Real, consts as c};
@@ -35,9 +39,10 @@ fn main() -> ExitCode {
         "osmesa" => osmesa::context(),
         "interleave" => return interleave::run(),
         "rewrite" => return rewrite::run(),
+        "passes" => return passes::run(),
         _ => {
             eprintln!(
-                "usage: manyview-probe glx|egl|osmesa|interleave [WIDTHxHEIGHT [VIEWS]]|rewrite FILE…"
+                "usage: manyview-probe glx|egl|osmesa|passes|interleave [WIDTHxHEIGHT [VIEWS]]|rewrite FILE…"
             );
             return ExitCode::from(2);
         }

@@ -88,18 +88,27 @@ fn tiles_are_aligned_where_viewports_may_begin_between_pixels() {
 }
 
 #[test]
-fn es_says_that_views_are_not_scaled() {
+fn views_that_are_not_scaled_are_named() {
     let scaled = [
         ("VIEWS", "4"),
         ("STRATEGY", "replay"),
         ("VIEW_SCALE", "0.5"),
     ];
-    let fake = Fake::new().es(3, 2);
-    let (made, notes) = targets(&fake, &scaled);
-    assert_eq!(notes.len(), 1, "{notes:?}");
-    assert!(made.expect("targets").atlas.tiles.grid.is_full());
-    let (_, notes) = targets(&fake, &FOUR);
-    assert_eq!(notes, [""; 0]);
+    let es = || Fake::new().es(3, 2);
+    let old = || Fake::new().version(3, 3).extensions(MESA);
+    let drivers: [(&dyn Fn() -> Fake, _); 2] =
+        [(&es, "shaders of its own"), (&old, "GL_ARB_viewport_array")];
+    for (driver, cause) in drivers {
+        let fake = driver();
+        let (made, notes) = targets(&fake, &scaled);
+        assert!(
+            notes.len() == 1 && notes[0].to_string().contains(cause),
+            "{notes:?}"
+        );
+        assert!(made.expect("targets").atlas.tiles.grid.is_full());
+        let (_, notes) = targets(&fake, &FOUR);
+        assert_eq!(notes, [""; 0]);
+    }
 }
 
 #[test]
