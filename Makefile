@@ -19,7 +19,7 @@ README_SCENE := --frame 40 --eye-spacing 0.3 --focal-depth 8
 # Debian packages that building, the demos and the tests need; then optional packages of some tests.
 PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libosmesa6 libosmesa6-dev libgl-dev libegl-dev \
 	libx11-dev libpng-dev mesa-utils apitrace khronos-api
-OPTIONAL_PACKAGES := faketime piglit
+OPTIONAL_PACKAGES := faketime glslang-tools piglit
 # Programs that test-long and test-full record and repeat.
 LONG_PACKAGES := gltron xscreensaver-gl
 # What 32-bit programs, and building them, need. The architecture i386 is added to dpkg.
@@ -30,6 +30,8 @@ TESTS_32 := answers cases conditions drawables front harm hosts memory oracle ou
 NOT_32 := a_captured_picture_replaces_no_other_file capture_says_that_there_is_no_stereo_window
 # Packages of test-full only.
 FULL_PACKAGES := valgrind
+# Drivers of test-drivers that are not Mesa's own software renderers: lavapipe, under zink.
+DRIVER_PACKAGES := mesa-vulkan-drivers
 # Demo programs that `manyview bench` draws; they are installed with it.
 SCENES := mesh arrays fill room menu field hard
 BENCH := $(TARGET)/bench
@@ -44,7 +46,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-32 test-full build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants shaders man book lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants shaders man book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -99,8 +101,8 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(full|programs|soak)_/)'; \
-	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip full_ --skip programs_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|programs|soak)_/)'; \
+	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
 packages-32: packages ## install the i386 packages that are missing
@@ -120,10 +122,14 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(programs|soak)_/)'; \
-	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip programs_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|programs|soak)_/)'; \
+	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
+
+test-drivers: packages build demos ## run the main tests on old versions and other drivers; writes docs/drivers.md (half an hour)
+	@sh scripts/packages.sh --optional $(DRIVER_PACKAGES)
+	$(CARGO) test --release --test drivers drivers_ -- --ignored --nocapture
 
 programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (two hours)
 	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture
