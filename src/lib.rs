@@ -16,6 +16,8 @@ pub mod config;
 
 pub mod control;
 
+pub mod claim;
+
 pub mod fixed;
 
 pub mod rewrite;

@@ -92,6 +92,8 @@ pub struct Config {
     pub capture: Option<Capture>,
     /// Where the layer tells the launcher how far it is, if the launcher asked.
     pub status: Option<PathBuf>,
+    /// The folder in which the programs of one launch claim paths, if the launcher has made one; see [`crate::claim`].
+    pub launch: Option<PathBuf>,
     /// Former names that somebody used, to be told.
     pub renamings: Vec<Renaming>,
 }

@@ -73,6 +73,8 @@ pub enum OptionId {
     CaptureWhat,
     /// Where the layer tells the launcher how far it is.
     Status,
+    /// Where the programs of a launch claim paths.
+    Launch,
 }
 
 /// How a value that may be a path is made absolute.
@@ -382,6 +384,9 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::variable(OptionId::Status, "MANYVIEW_STATUS", "FILE.json",
         "File in which the layer tells the launcher how many frames it has seen; set by `capture`, and for a proof by `run` and `bench`")
         .path(PathKind::File),
+    OptionSpec::variable(OptionId::Launch, "MANYVIEW_LAUNCH", "FOLDER",
+        "Folder in which the programs of one launch agree which of them writes to a path; set by the commands that start programs")
+        .path(PathKind::File),
     OptionSpec::variable(OptionId::Profiles, "MANYVIEW_PROFILES", "FOLDER",
         "Folder in which profiles are found by name and by program")
         .path(PathKind::File).default("`profiles` beside `libmanyview.so`"),
@@ -505,6 +510,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 31, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 32, "a new option needs a row");
     }
 }

@@ -47,6 +47,7 @@ impl Config {
             keys: changes(settings, OptionId::Keys, views)?,
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
+            launch: path(settings, OptionId::Launch),
             renamings: settings.renamings().to_vec(),
             display,
         })

@@ -3,13 +3,14 @@
 
 use super::error::LaunchError;
 use super::{library, preflight, preload, signals};
-use crate::config::{Config, OPTIONS, Settings};
+use crate::config::{Config, OPTIONS, OptionId, Settings};
 use rustix::process::{Pid, Signal, kill_process};
 use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
+use tempfile::TempDir;
 
 /// A program that has passed every check and can be started.
 #[derive(Debug)]
@@ -19,6 +20,8 @@ pub struct Launch {
     arguments: Vec<OsString>,
     library: PathBuf,
     variables: Vec<(String, String)>,
+    /// Has a folder for each start, in which its processes claim the paths that they write to. None where nothing is written.
+    claims: Option<TempDir>,
     /// The parsed options.
     pub config: Config,
 }
@@ -68,12 +71,22 @@ impl Launch {
             source,
         })?;
         let variables = settings.to_env(&folder);
+        let writes = config.report.is_some()
+            || config.explain.is_some()
+            || config.capture.is_some()
+            || config.status.is_some();
+        let claims = writes.then(tempfile::tempdir).transpose();
+        let claims = claims.map_err(|source| LaunchError::System {
+            doing: "making a temporary folder",
+            source,
+        })?;
         Ok(Self {
             app,
             name: name.clone(),
             arguments: arguments.to_vec(),
             library,
             variables,
+            claims,
             config,
         })
     }
@@ -111,6 +124,11 @@ impl Launch {
             }
         }
         command.envs(self.variables.iter().map(|(name, value)| (name, value)));
+        let claims = self.claims.as_ref().map(tempfile::tempdir_in);
+        // Without the folder, paths are claimed as by programs that were started without the launcher.
+        if let Some(Ok(claims)) = claims {
+            command.env(OptionId::Launch.spec().variable, claims.keep());
+        }
         command.env("LD_PRELOAD", preload_value(&self.library));
         command
     }

@@ -43,13 +43,7 @@ impl Layer {
             &self.session.config.display,
             self.output(),
         );
-        let path = match (wanted.what, form) {
-            (CaptureWhat::Output, Form::Layout(Layout::Quilt { columns, rows })) => {
-                let name = QuiltName::new((columns, rows), (width, height));
-                wanted.path_with(frame, &name.to_string())
-            }
-            _ => wanted.path_for(frame),
-        };
+        let path = self.picture_path(form, wanted, frame);
         let last = self.session.config.views - 1;
         let all: Vec<u32> = (0..self.session.config.views).collect();
         let row = Layout::SideBySide { half: false };
@@ -93,6 +87,24 @@ impl Layer {
         };
         gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         written.map(|()| path)
+    }
+
+    /// The file of a picture: that of this process, where an option asks for it.
+    fn picture_path(&mut self, form: Form<'_>, wanted: &Capture, frame: u64) -> PathBuf {
+        let path = match (wanted.what, form) {
+            (CaptureWhat::Output, Form::Layout(Layout::Quilt { columns, rows })) => {
+                let name = QuiltName::new((columns, rows), self.size());
+                wanted.path_with(frame, &name.to_string())
+            }
+            _ => wanted.path_for(frame),
+        };
+        let config = self.session.config;
+        if config.capture.as_ref() == Some(wanted) {
+            let claims = &mut self.diagnostics.report.claims;
+            return claims.path(config, &wanted.out, path);
+        }
+        // Who asks a running program for a picture means this process.
+        path
     }
 
     /// Writes views in a layout, at the full size of their tiles, whatever the window's size.

@@ -14,6 +14,7 @@ use crate::state::Linked;
 use image::{Rgb, RgbImage};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// After this time pixels are no longer attributed to draws; the list goes on.
@@ -97,7 +98,7 @@ impl Layer {
     fn write_shaders(&mut self, explain: &Explain, explained: &Explained) {
         let hashes = explained.draws.iter().map(|(facts, _)| facts.shader);
         let hashes: BTreeSet<u64> = hashes.filter(|&hash| hash != 0).collect();
-        let folder = explain.shaders();
+        let folder = self.claim(explain, explain.shaders());
         for hash in hashes {
             let Some(linked) = self.linked_as(hash) else {
                 continue;
@@ -117,6 +118,12 @@ impl Layer {
         }
     }
 
+    /// Where this process writes a file of the explanation.
+    fn claim(&mut self, explain: &Explain, file: PathBuf) -> PathBuf {
+        let claims = &mut self.diagnostics.report.claims;
+        claims.path(self.session.config, &explain.out, file)
+    }
+
     /// At the end of the frame: writes the picture, the list and the shaders.
     pub(super) fn finish_explanation(&mut self, gl: &Gl) {
         let Some(explain) = self.explains() else {
@@ -127,7 +134,7 @@ impl Layer {
             return;
         };
         self.write_shaders(explain, &explained);
-        let [picture, list] = explain.files();
+        let [picture, list] = explain.files().map(|file| self.claim(explain, file));
         let written = capture::write(&explained.picture(), &picture)
             .and_then(|()| capture::write_bytes(explained.list(explain.frame).as_bytes(), &list));
         if let Err(e) = written {

@@ -53,14 +53,16 @@ impl Frames {
         if !read.is_zero() {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
         }
+        let claims = &mut self.report.claims;
+        let path = claims.path(self.config, &wanted.out, wanted.path_for(frame));
         let written = match wanted.what {
             CaptureWhat::Depth => capture::write(
                 &capture::read_depth(gl, &neutral, 0, 0, self.width, self.height),
-                &wanted.path_for(frame),
+                &path,
             ),
             _ => capture::write(
                 &capture::read_rgb(gl, &neutral, 0, 0, self.width, self.height),
-                &wanted.path_for(frame),
+                &path,
             ),
         };
         if let Err(e) = written {

@@ -377,12 +377,10 @@ impl Layer {
 
     /// Writes the picture by replay, the difference and the picture that is shown to a file beside the report, and returns its path.
     fn draw_failure(&mut self, exact: &RgbImage, shown: &RgbImage) -> Option<String> {
-        let file = self
-            .session
-            .config
-            .report
-            .as_ref()?
-            .with_extension("proof.png");
+        let config = self.session.config;
+        let report = config.report.as_ref()?;
+        let file = report.with_extension("proof.png");
+        let file = self.diagnostics.report.claims.path(config, report, file);
         match capture::write(&triptych(exact, shown), &file) {
             Ok(()) => Some(file.display().to_string()),
             Err(error) => {

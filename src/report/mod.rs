@@ -11,6 +11,7 @@ pub use counts::Counts;
 pub use disparity::Disparity;
 pub use proof::{Culprit, Difference, Found, Proof, SpeedUp, Summary, Worst};
 
+use crate::claim::Claims;
 use crate::config::{Config, Status, replace};
 use crate::gl::Count;
 use disparity::Disparities;
@@ -35,6 +36,8 @@ pub struct Report {
     pub proof: Option<Proof>,
     names: Names,
     last_write: Option<Instant>,
+    /// Which of the user's paths are this process's.
+    pub claims: Claims,
 }
 
 /// GL names of the layer that are not deleted.
@@ -165,22 +168,24 @@ impl Report {
     }
 
     /// Writes the status. A file that cannot be written must not disturb the program; the launcher has checked the folders.
-    fn write_status(&self, config: &Config, frames: u64) {
+    fn write_status(&mut self, config: &Config, frames: u64) {
         if let Some(path) = &config.status {
+            let path = self.claims.path(config, path, path.clone());
             let proof = self.proof.as_ref().map(Proof::summary);
             let status = Status {
                 frames,
                 notes: self.notes.clone(),
                 proof: proof.and_then(|proof| serde_json::to_value(proof).ok()),
             };
-            let _ = status.write(path);
+            let _ = status.write(&path);
         }
     }
 
     /// Writes the report, and ignores errors likewise.
-    fn write_report(&self, config: &Config) {
+    fn write_report(&mut self, config: &Config) {
         if let Some(path) = &config.report {
-            let _ = replace(path, self.json().as_bytes());
+            let path = self.claims.path(config, path, path.clone());
+            let _ = replace(&path, self.json().as_bytes());
         }
     }
 
