@@ -7,6 +7,8 @@
 
 pub mod view;
 
+pub mod bounded;
+
 pub mod display;
 
 #[cfg(feature = "cli")]

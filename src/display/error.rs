@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::MAX_VIEWS;
+use super::file::MOST_BYTES;
 use std::io;
 
 /// Why a display cannot be had.
@@ -31,6 +32,12 @@ pub enum DisplayError {
         file: String,
         /// From the system.
         source: io::Error,
+    },
+    /// The file has more bytes than a description can have.
+    #[error("display `{file}` is larger than {MOST_BYTES} bytes; give a description of a panel")]
+    Large {
+        /// The description.
+        file: String,
     },
     /// Not TOML, or a field that does not exist.
     #[error("display `{file}`: line {line}: {message}; correct that line of the file")]
@@ -131,7 +138,7 @@ pub enum MaskError {
     /// No pixels, or more than memory should be asked for.
     #[error(
         "a mask of {width}x{height} pixels cannot be made; \
-         give a width and a height from 1 to 32768 with at most 2^28 pixels in all"
+         give a width and a height from 1 to 32768 with at most 2^26 pixels in all, which are two screens of 7680x4320"
     )]
     Size {
         /// Pixels.

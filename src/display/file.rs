@@ -8,9 +8,14 @@ use super::{
     Bias, Display, DisplayError, Facts, GUARD, Integer, Kind, Leia, MAX_VIEWS, Mask, Pattern,
     Rotation, Slanted, calibration,
 };
+use crate::bounded;
+use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 use toml::Value;
+
+/// Bytes of a description; the largest pattern has half as many.
+pub(super) const MOST_BYTES: u64 = 1 << 21;
 
 const KIND: &str = "give the optics, for example kind = \"slanted\"";
 const KINDS: &str = "\"lenticular\", \"huebner\", \"slanted\", \"integer\", \"looking-glass\", \"leia\", \"pattern\" or \"mask\"";
@@ -159,9 +164,10 @@ pub(super) fn from_toml(path: &Path, text: &str) -> Result<Display, DisplayError
 }
 
 fn read(path: &Path) -> Result<String, DisplayError> {
-    std::fs::read_to_string(path).map_err(|source| DisplayError::Read {
-        file: path.display().to_string(),
-        source,
+    let file = path.display().to_string();
+    bounded::text(path, MOST_BYTES).map_err(|source| match source.kind() {
+        ErrorKind::FileTooLarge => DisplayError::Large { file },
+        _ => DisplayError::Read { file, source },
     })
 }
 

@@ -2,18 +2,24 @@
 #![forbid(unsafe_code)]
 
 use super::{MaskError, Placement};
+use crate::bounded;
 use image::codecs::png::{CompressionType, FilterType, PngDecoder, PngEncoder};
-use image::{ExtendedColorType, ImageDecoder, ImageEncoder};
+use image::{ExtendedColorType, ImageDecoder, ImageEncoder, Limits};
 use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::{BufWriter, Cursor, Write};
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Read, Seek, Write};
 use std::path::Path;
 
 /// The value of a subpixel that stays black.
 pub const GUARD: u16 = u16::MAX;
 
 const MAX_SIDE: u32 = 32_768;
-const MAX_PIXELS: u64 = 1 << 28;
+/// 400 MB of views.
+const MAX_PIXELS: u64 = 1 << 26;
+/// Bytes of the head of a PNG, up to its depth and kind of colour.
+const HEAD: usize = 26;
+/// What a PNG may ask for beside its pixels, in bytes.
+const MAX_BESIDE: u64 = 1 << 24;
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// View indices of all subpixels of a picture.
@@ -122,17 +128,22 @@ impl Mask {
     pub fn from_png(path: impl AsRef<Path>) -> Result<Self, MaskError> {
         let path = path.as_ref();
         let file = path.display().to_string();
-        let bytes = match fs::read(path) {
-            Ok(bytes) => bytes,
+        let mut head = [0; HEAD];
+        let mut bytes = match bounded::open(path) {
+            Ok(file) => BufReader::new(file),
             Err(source) => return Err(MaskError::Read { file, source }),
         };
+        let read = bytes
+            .read_exact(&mut head)
+            .and_then(|()| bytes.rewind())
+            .map(|()| head);
         // The decoder would turn palettes and small depths into RGB, so the header is asked itself.
-        match bytes.get(..26) {
-            Some([137, 80, 78, 71, 13, 10, 26, 10, .., 16, 2]) => {}
-            Some([137, 80, 78, 71, 13, 10, 26, 10, .., depth, colour]) => {
+        match read {
+            Ok([137, 80, 78, 71, 13, 10, 26, 10, .., 16, 2]) => {}
+            Ok([137, 80, 78, 71, 13, 10, 26, 10, .., depth, colour]) => {
                 return Err(MaskError::Format {
                     file,
-                    found: describe(*depth, *colour),
+                    found: describe(depth, colour),
                 });
             }
             _ => {
@@ -146,10 +157,12 @@ impl Mask {
             file: file.clone(),
             reason: e.to_string(),
         };
-        let decoder = PngDecoder::new(Cursor::new(&bytes)).map_err(broken)?;
+        let mut limits = Limits::no_limits();
+        limits.max_alloc = Some(MAX_PIXELS * 6 + MAX_BESIDE);
+        let decoder = PngDecoder::with_limits(bytes, limits).map_err(broken)?;
         let (width, height) = decoder.dimensions();
-        let pixels = pixel_count(width, height)?;
-        let mut samples = vec![0; pixels * 6];
+        let mut data = vec![[0; 3]; pixel_count(width, height)?];
+        let samples: &mut [u8] = bytemuck::cast_slice_mut(&mut data);
         if decoder.total_bytes() != samples.len() as u64 {
             // A tRNS chunk makes the decoder add alpha.
             return Err(MaskError::Format {
@@ -157,12 +170,7 @@ impl Mask {
                 found: "RGB with a transparent colour".into(),
             });
         }
-        decoder.read_image(&mut samples).map_err(broken)?;
-        let (pixels, _) = samples.as_chunks::<6>();
-        let data = pixels
-            .iter()
-            .map(|&[r0, r1, g0, g1, b0, b1]| [[r0, r1], [g0, g1], [b0, b1]].map(u16::from_ne_bytes))
-            .collect();
+        decoder.read_image(samples).map_err(broken)?;
         Ok(Self {
             width,
             height,

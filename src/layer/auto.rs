@@ -1,6 +1,7 @@
 //! `--strategy auto`: drives a [`Trial`] with the frames of the program, and keeps the outcome for the next start.
 
 use super::Layer;
+use crate::bounded;
 use crate::config::{Config, Strategy, replace};
 use crate::gl::{Gl, consts as c};
 use crate::plan::Trial;
@@ -21,6 +22,8 @@ pub(super) struct Auto {
 
 /// Number of outcomes at which the file is begun anew.
 const KEPT: usize = 1000;
+/// Bytes of the file of outcomes; a larger one is not ours, and is begun anew.
+const MOST_BYTES: u64 = 1 << 20;
 
 impl Auto {
     /// None where the user has chosen a strategy, or there is one view. Frames that are captured or explained have to be the same in each
@@ -118,7 +121,7 @@ fn file() -> Option<PathBuf> {
 
 /// Strategies by key; empty where the file cannot be read.
 fn read(file: Option<&Path>) -> BTreeMap<String, String> {
-    let text = file.and_then(|file| std::fs::read_to_string(file).ok());
+    let text = file.and_then(|file| bounded::text(file, MOST_BYTES).ok());
     text.and_then(|text| serde_json::from_str(&text).ok())
         .unwrap_or_default()
 }

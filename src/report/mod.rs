@@ -20,6 +20,9 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
+/// Notes that are kept.
+const MOST_NOTES: usize = 100;
+
 /// Counts of one program; written as JSON while it runs.
 #[derive(Debug, Default)]
 pub struct Report {
@@ -85,10 +88,12 @@ impl Report {
         *self.fallbacks.entry(reason.to_string()).or_default() += count;
     }
 
-    /// Adds a note for the user, unless it is there already.
+    /// Adds a note for the user, unless it is there already, or there are too many to be read.
     pub fn note(&mut self, text: String) {
-        if !self.notes.contains(&text) {
-            self.notes.push(text);
+        match self.notes.len() {
+            count if count > MOST_NOTES || self.notes.contains(&text) => {}
+            MOST_NOTES => self.notes.push("further notes are left out".to_owned()),
+            _ => self.notes.push(text),
         }
     }
 
@@ -209,5 +214,20 @@ impl Report {
             notes: &self.notes,
         };
         serde_json::to_string_pretty(&json).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_note_is_kept_once_and_a_hundred_of_them_are_enough() {
+        let mut report = Report::default();
+        for number in (0..1000).chain(0..1000) {
+            report.note(format!("capture of frame {number} has failed"));
+        }
+        assert_eq!(report.notes.len(), MOST_NOTES + 1);
+        assert_eq!(report.notes[MOST_NOTES], "further notes are left out");
     }
 }

@@ -516,6 +516,10 @@ fn messages() {
     ] {
         say(name, Display::load(&at(name)).unwrap_err().to_string());
     }
+    for name in ["long.toml", "long.json"] {
+        fs::write(at(name), vec![b'#'; (1 << 21) + 1]).unwrap();
+        say(name, Display::load(&at(name)).unwrap_err().to_string());
+    }
     let bad = "kind = \"mask\"\nviews = 5\nmask = \"good.png\"";
     fs::write(at("x.toml"), bad).unwrap();
     say(
@@ -556,6 +560,7 @@ fn messages() {
         (0, 4),
         (4, 0),
         (32_769, 1),
+        (8192, 8193),
         (32_768, 32_768),
         (u32::MAX, u32::MAX),
     ] {
