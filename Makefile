@@ -3,6 +3,8 @@
 PREFIX ?= /usr/local
 # Which mutants `make mutants` tries: every tenth, from number 6 on.
 MUTANTS ?= 6/10
+# Seconds for each target of `make fuzz`.
+FUZZ_SECONDS ?= 600
 CARGO ?= cargo
 TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
 BIN := $(TARGET)/release
@@ -46,7 +48,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants shaders man book lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants fuzz shaders man book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -118,13 +120,14 @@ demos-32: packages-32 ## build the demo programs of 32 bits
 test-32: build build-32 demos-32 ## run the tests that preload the layer in programs of 32 bits (installs i386 packages)
 	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast $(TESTS_32:%=--test %) -- $(NOT_32:%=--skip %)
 
-test-full: packages build demos ## run all tests but those of programs, also all of piglit's and valgrind (an hour)
+test-full: packages build demos ## run all tests but those of programs, also all of piglit's, valgrind and fuzz (three hours)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|programs|soak)_/)'; \
 	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
+	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
 	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
 test-drivers: packages build demos ## run the main tests on old versions and other drivers; writes docs/drivers.md (half an hour)
@@ -163,6 +166,9 @@ measured: packages build demos ## take the tables of docs/measured.md again (a q
 mutants: rust ## do the unit tests see changes of the path of a draw? MUTANTS=6/10 (needs cargo-mutants; an hour)
 	@sh scripts/mutants.sh $(MUTANTS) $(TARGET)/mutants
 
+fuzz: rust ## feed random files, requests and shaders to what reads them, each kind for FUZZ_SECONDS=600 (needs cargo-fuzz); target/fuzz
+	@sh scripts/fuzz.sh $(FUZZ_SECONDS) $(TARGET)/fuzz
+
 shaders: packages build ## rewrite real shaders, of programs and of piglit, and compile them before and after (140 MB, ten minutes)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	$(CARGO) test --release --test shaders full_ -- --ignored --nocapture
@@ -180,6 +186,7 @@ book: ## build the manual as HTML in target/book (needs mdbook)
 
 lint: rust ## check format, clippy and documentation
 	$(CARGO) fmt --all --check
+	$(CARGO) fmt --manifest-path fuzz/Cargo.toml --check
 	$(CARGO) clippy --workspace --all-targets $(FAKE_DRIVER) -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --no-deps -p manyview
 

@@ -10,6 +10,8 @@ use std::path::Path;
 
 /// Larger photos are averaged down: the fringes are coarse, and averaging in linear light takes noise away.
 const LARGEST_SIDE: u32 = 2600;
+/// Larger ones than any camera takes are not decoded: they would only take memory.
+const MOST_PIXELS: u64 = 1 << 28;
 /// A channel at or above this value is taken as clipped.
 const CLIPPED: u8 = 253;
 /// Diagonal of the film that EXIF's equivalent focal length is for, mm.
@@ -55,6 +57,11 @@ impl Photo {
         let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
         let reader = reader.map_err(|e| failed(e.to_string()))?;
         let mut decoder = reader.into_decoder().map_err(|e| failed(e.to_string()))?;
+        let (width, height) = decoder.dimensions();
+        if u64::from(width) * u64::from(height) > MOST_PIXELS {
+            let reason = format!("{width}x{height} pixels are more than 2^28; make it smaller");
+            return Err(failed(reason));
+        }
         let orientation = decoder.orientation().map_err(|e| failed(e.to_string()))?;
         let picture = DynamicImage::from_decoder(decoder).map_err(|e| failed(e.to_string()))?;
         let mut picture = picture;
@@ -201,4 +208,22 @@ fn equivalent(bytes: &[u8]) -> Option<f64> {
         .get_uint(0)
         .map(f64::from)
         .filter(|&mm| mm > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_photo_has_as_many_pixels_as_memory_is_asked_for() {
+        let mut bytes = include_bytes!("../../fuzz/seeds/photo/turned.jpg").to_vec();
+        Photo::decode("small.jpg", &bytes).expect("a photo");
+        // The head of the frame (SOF0): its length, the depth of a sample, height and width.
+        let head = bytes.windows(2).position(|two| two == [0xff, 0xc0]);
+        let height = head.expect("a head") + 5;
+        bytes[height..height + 4].fill(0xff);
+        let error = Photo::decode("large.jpg", &bytes).expect_err("too large");
+        let expected = "65535x65535 pixels are more than 2^28; make it smaller";
+        assert!(error.to_string().contains(expected), "{error}");
+    }
 }

@@ -10,6 +10,8 @@ use std::fmt;
 const MARK: &str = "_qs";
 /// Largest number of columns and of rows.
 const MOST: u32 = 256;
+/// Aspects that a name can say with four digits; others are not believed.
+const ASPECTS: std::ops::RangeInclusive<f64> = 0.0001..=100_000.0;
 /// Aspects that are this near each other, as a factor, are the same: tiles are whole pixels.
 const SAME: f64 = 1.05;
 /// And these are not.
@@ -85,7 +87,10 @@ impl QuiltName {
         let (rows, rest) = split_number(rest.strip_prefix('x')?, false);
         let aspect = rest.strip_prefix('a').and_then(|rest| {
             let (aspect, _) = split_number(rest, true);
-            aspect.parse().ok().filter(|aspect: &f64| *aspect > 0.0)
+            aspect
+                .parse()
+                .ok()
+                .filter(|aspect| ASPECTS.contains(aspect))
         });
         Some(Self {
             columns: side(columns)?,
@@ -171,6 +176,8 @@ mod tests {
             ("scene_qs8x6a0.75.png", name(8, 6, Some(0.75))),
             ("scene_qs8x6a1.png", name(8, 6, Some(1.0))),
             ("vtk_qs5x9.png", name(5, 9, None)),
+            ("a_qs5x9a0.00001.png", name(5, 9, None)),
+            ("a_qs5x9a1000000.png", name(5, 9, None)),
             ("SCENE_QS11X6A0.5625.PNG", name(11, 6, Some(0.5625))),
             ("a_qs7x7a1.777 (copy 2).png", name(7, 7, Some(1.777))),
             ("a_qs5x9a1.6_final.v2.png", name(5, 9, Some(1.6))),
