@@ -127,6 +127,7 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|programs|soak)_/)'; \
 	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
+	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
 	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
 	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
@@ -184,11 +185,13 @@ book: ## build the manual as HTML in target/book (needs mdbook)
 		{ echo "mdbook is missing: run cargo install mdbook, then make book again" >&2; exit 1; }
 	mdbook build --dest-dir $(TARGET)/book
 
-lint: rust ## check format, clippy and documentation
+lint: rust ## check format, clippy, documentation, and the crates where cargo-deny is there
 	$(CARGO) fmt --all --check
 	$(CARGO) fmt --manifest-path fuzz/Cargo.toml --check
 	$(CARGO) clippy --workspace --all-targets $(FAKE_DRIVER) -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --no-deps -p manyview
+	@if $(CARGO) deny --version >/dev/null 2>&1; then $(CARGO) deny --workspace check licenses bans sources; \
+	else echo "licences and versions of crates are not checked: run cargo install cargo-deny to have that" >&2; fi
 
 packages: ## install the Debian packages that are missing
 	@sh scripts/packages.sh $(PACKAGES) --optional $(OPTIONAL_PACKAGES)
