@@ -48,7 +48,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants fuzz shaders man book lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -180,6 +180,9 @@ overhead: packages build demos ## measure the layer where it does nothing: switc
 man: build ## write the manual pages to target/man
 	$(BIN)/manyview man --out $(TARGET)/man
 
+notices: rust ## write THIRD-PARTY-NOTICES.txt from the sources of the crates
+	BLESS=1 $(CARGO) test --release --test notices every_crate
+
 book: ## build the manual as HTML in target/book (needs mdbook)
 	@command -v mdbook >/dev/null 2>&1 || \
 		{ echo "mdbook is missing: run cargo install mdbook, then make book again" >&2; exit 1; }
@@ -221,7 +224,7 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	install -d $(DESTDIR)$(PREFIX)/share/man/man1
 	$(BIN)/manyview man --out $(DESTDIR)$(PREFIX)/share/man/man1
 	chmod 644 $(DESTDIR)$(PREFIX)/share/man/man1/manyview*.1
-	install -m 644 README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
+	install -m 644 README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE THIRD-PARTY-NOTICES.txt $(DESTDIR)$(PREFIX)/share/doc/manyview/
 	find docs -type f \( -name '*.md' -o -name '*.png' \) -exec install -D -m 644 {} $(DESTDIR)$(PREFIX)/share/doc/manyview/{} \;
 
 # Debuggers look for .debug/NAME.debug beside a binary that has a debug link, which holds the file's checksum.
