@@ -8,6 +8,9 @@ FUZZ_SECONDS ?= 600
 CARGO ?= cargo
 TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
 BIN := $(TARGET)/release
+# The oldest C library that what `make release` builds runs on (Debian 10, RHEL 8), and where it is put.
+GLIBC := 2.28
+RELEASE := $(TARGET)/release-$(GLIBC)
 DEMOS := $(TARGET)/demos
 # The same of 32 bits.
 RUST_32 := i686-unknown-linux-gnu
@@ -48,7 +51,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants fuzz shaders man notices book lint packages \
+.PHONY: help build release demos demo bench overhead pictures gallery test test-long test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -61,6 +64,10 @@ FAKE_DRIVER := --features manyview-shim/fake-driver
 build: rust ## build the command, the library and the probe
 	$(CARGO) build --release -p manyview
 	$(CARGO) build --release -p manyview-shim
+
+release: rust ## build what runs on systems with glibc 2.28 and later (needs cargo-zigbuild and zig); target/release-2.28
+	@sh scripts/release.sh $(GLIBC) $(RELEASE)
+	MANYVIEW_RELEASE=$(RELEASE) $(CARGO) test --release --test release -- --include-ignored
 
 demos: packages ## build the demo programs
 	$(MAKE) -C examples OUT=$(DEMOS)
@@ -103,8 +110,8 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|programs|soak)_/)'; \
-	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip programs_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|programs|release|soak)_/)'; \
+	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip programs_ --skip release_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
 packages-32: packages ## install the i386 packages that are missing
@@ -124,8 +131,8 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|programs|soak)_/)'; \
-	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip programs_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|programs|release|soak)_/)'; \
+	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip programs_ --skip release_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
 	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
