@@ -10,6 +10,8 @@ pub use super::uniforms::{MaskUniforms, Uniforms};
 use crate::config::DisocclusionSource;
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
+use std::collections::HashMap;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 const COVER: &str = include_str!("../../shaders/cover.wgsl");
 const COMMON: &str = include_str!("../../shaders/common.wgsl");
@@ -174,6 +176,10 @@ pub enum ShaderError {
     },
 }
 
+/// What was translated in this process. Its contexts mostly have the same version, and a translation takes milliseconds.
+static TRANSLATED: LazyLock<Mutex<HashMap<(Pass, Stage, GlslVersion), Translated>>> =
+    LazyLock::new(Mutex::default);
+
 /// Translates one stage of a pass to GLSL. `version` is that of the context; the newest supported one up to it is written.
 pub fn translate(
     pass: Pass,
@@ -181,6 +187,21 @@ pub fn translate(
     version: GlslVersion,
 ) -> Result<Translated, ShaderError> {
     let version = version.for_context().ok_or(ShaderError::Version(version))?;
+    let translated = || TRANSLATED.lock().unwrap_or_else(PoisonError::into_inner);
+    let key = (pass, stage, version);
+    if let Some(known) = translated().get(&key) {
+        return Ok(known.clone());
+    }
+    let new = translate_anew(pass, stage, version)?;
+    translated().insert(key, new.clone());
+    Ok(new)
+}
+
+fn translate_anew(
+    pass: Pass,
+    stage: Stage,
+    version: GlslVersion,
+) -> Result<Translated, ShaderError> {
     let wgsl = |reason: String| ShaderError::Wgsl { pass, reason };
     let glsl_error = |e: glsl::Error| ShaderError::Glsl {
         pass,

@@ -74,8 +74,9 @@ pub(super) fn fit(
         Err(error) => error,
     };
     let size = [window.width, window.height];
-    // Shaders of OpenGL ES programs do not know where the pixels of smaller views are.
-    let smaller = SMALLER.iter().filter(|_| !gl.is_es());
+    // As for views that are scaled because the output shows less of them.
+    let fits = !gl.is_es() && session.support.viewports;
+    let smaller = SMALLER.iter().filter(|_| fits);
     for share in smaller {
         let tile = size.map(|side| ((f64::from(side) * share).round() as u32).max(1));
         if let Ok(atlas) = make(Grid::scaled(tile, size)) {
