@@ -392,8 +392,14 @@ fn with_raw_copies<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
 
 /// Runs `make` with no pixel unpack buffer bound, and then restores the bindings of textures and framebuffers that making an atlas changes.
 fn keep_bindings<R>(gl: &Gl, make: impl FnOnce() -> R) -> R {
-    let saved = Names::TARGETS
-        .map(|(target, binding)| (target, TextureName(gl.get_integer(binding) as u32)));
+    // OpenGL ES has multisample arrays from 3.2 on; desktop OpenGL before 3.2 may have them by an extension.
+    let sampled = gl.since((3, 2), Some((3, 2))) || gl.has_extension("GL_ARB_texture_multisample");
+    let there = |(target, _): &(u32, u32)| sampled || *target == c::TEXTURE_2D_ARRAY;
+    let saved: Vec<(u32, TextureName)> = Names::TARGETS
+        .into_iter()
+        .filter(there)
+        .map(|(target, binding)| (target, TextureName(gl.get_integer(binding) as u32)))
+        .collect();
     let unpack = BufferName(gl.get_integer(c::PIXEL_UNPACK_BUFFER_BINDING) as u32);
     if !unpack.is_zero() {
         gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, BufferName::ZERO);

@@ -112,6 +112,16 @@ fn views_that_are_not_scaled_are_named() {
 }
 
 #[test]
+fn a_context_is_asked_only_for_bindings_that_it_has() {
+    let fake = Fake::new().es(3, 0);
+    let (made, _) = targets(&fake, &FOUR);
+    made.expect("targets");
+    let sampled = |(what, _): &(String, usize)| what.contains("MULTISAMPLE_ARRAY");
+    let asked = fake.asked();
+    assert!(!asked.iter().any(sampled), "{asked:?}");
+}
+
+#[test]
 fn they_know_their_names() {
     let mut bench = Bench::new(&FOUR);
     let [texture, framebuffer] = bench.fake.program(|gl| {
