@@ -176,9 +176,11 @@ pub enum ShaderError {
     },
 }
 
+/// Stages of passes, by what they were translated from and to.
+type Translations = HashMap<(Pass, Stage, GlslVersion), Translated>;
+
 /// What was translated in this process. Its contexts mostly have the same version, and a translation takes milliseconds.
-static TRANSLATED: LazyLock<Mutex<HashMap<(Pass, Stage, GlslVersion), Translated>>> =
-    LazyLock::new(Mutex::default);
+static TRANSLATED: LazyLock<Mutex<Translations>> = LazyLock::new(Mutex::default);
 
 /// Translates one stage of a pass to GLSL. `version` is that of the context; the newest supported one up to it is written.
 pub fn translate(

@@ -61,10 +61,10 @@ fn a_program_that_is_not_known_has_no_variant() {
     for with in USES {
         assert_eq!(enter(&mut bench, program, with), None, "{with:?}");
     }
+    assert_eq!(bench.layer.camera_of(&gl, program), None);
     let own = &mut bench.layer.variants.own;
     assert!(own.layered(program).is_none() && own.projections(program).is_none());
     assert!(own.distorting(program).is_none() && own.is_lost(program));
-    assert_eq!(own.camera(&gl, program, 1.0, || {}), None);
     assert!(!own.is_current(program, || 0));
     assert_eq!(own.units(&gl, program), []);
     own.forget(&gl, program);
@@ -151,24 +151,20 @@ fn the_last_camera_stays_when_no_matrix_has_a_perspective() {
     let mut bench = Bench::new(&FOUR);
     let (program, gl) = (program(&mut bench), bench.gl);
     bench.layer.link_variant(&gl, program);
-    let own = &mut bench.layer.variants.own;
-    assert!(own.is_lost(program), "not found yet");
-    let aspect = 64.0 / 48.0;
-    let camera = |own: &mut OwnVariants| {
-        own.camera(&gl, program, aspect, || {
-            panic!("there are no uniform buffers")
-        })
+    let own = |bench: &Bench| {
+        let own = &bench.layer.variants.own;
+        (own.is_lost(program), own.projections(program))
     };
-    let found = camera(own).expect("a variant");
-    assert!(found.is_some() && !own.is_lost(program));
-    let projections = own.projections(program).expect("a camera");
+    assert!(own(&bench).0, "not found yet");
+    let found = bench.layer.camera_of(&gl, program).expect("a variant");
+    let (lost, projections) = own(&bench);
+    assert!(found.is_some() && !lost);
+    let projections = projections.expect("a camera");
     assert_eq!((projections[0], Some(projections[1])), (PERSPECTIVE, found));
     bench.fake.program(|gl| gl.set_uniform_matrix(0, &FLAT));
     uniform_changes();
-    let own = &mut bench.layer.variants.own;
-    assert_eq!(camera(own), Some(found));
-    assert!(own.is_lost(program));
-    assert_eq!(own.projections(program), Some(projections));
+    assert_eq!(bench.layer.camera_of(&gl, program), Some(found));
+    assert_eq!(own(&bench), (true, Some(projections)));
 }
 
 #[test]
