@@ -385,6 +385,20 @@ fn a_report_waits_for_nobody() {
     assert_eq!(json(&report)["frames"], 4);
 }
 
+/// The layer takes little of the stack of a program that has 64 KiB of it. The driver's compiler of shaders takes most of it.
+#[test]
+fn a_small_stack_is_enough() {
+    let screen = own_screen();
+    for name in ["gears", "immediate", "shade"] {
+        let mut command = layered("sh", &[("VIEWS", "5")]);
+        command
+            .args(["-c", "ulimit -s 64; exec \"$0\" \"$@\""])
+            .arg(demo(name))
+            .args(["--frames", "3"]);
+        succeed(screen.give(&mut command));
+    }
+}
+
 #[test]
 fn a_captured_picture_replaces_no_other_file() {
     let folder = tempdir().expect("a folder");

@@ -141,7 +141,7 @@ pub(crate) fn peek_inside<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
     }
     current(|context| {
         let mut work = context.work.try_borrow_mut().ok()?;
-        work.layer.as_mut().map(f)
+        work.layer.as_deref_mut().map(f)
     })
     .flatten()
 }
@@ -207,7 +207,7 @@ fn with_context<R>(f: impl FnOnce(&Gl, &Context, &mut Work) -> R) -> Option<R> {
         sheltered(|| {
             let mut work = context.work.try_borrow_mut().ok()?;
             let r = f(driver(context), context, &mut work);
-            if !work.watched && work.layer.as_ref().is_some_and(Layer::drawn) {
+            if !work.watched && work.layer.as_ref().is_some_and(|l| l.drawn()) {
                 // What the program does at its end is known to atexit by now.
                 work.watched = true;
                 switch::watch_the_end();
@@ -550,7 +550,9 @@ fn leave_drawable(next: Key, next_drawables: Option<Pair>) {
         let handed_over = next != c.key
             && next_drawables.is_some_and(|d| d.draw == draw || d.read == draw)
             && drawables::drawn_elsewhere(id, next);
-        follow_window(layer, draw, &mut work.seen);
+        if layer.is_ahead() {
+            follow_window(layer, draw, &mut work.seen);
+        }
         layer.leave_drawable(gl, handed_over);
         Some(())
     });
@@ -559,9 +561,15 @@ fn leave_drawable(next: Key, next_drawables: Option<Pair>) {
 /// Makes a call after which another thread may show what was drawn.
 pub(crate) fn show_finished<R>(call: impl FnOnce() -> R) -> R {
     if !draws_to_memory() && registry::threads() > 1 {
-        let this = current(|c| (c.key, c.drawables.get()));
-        this.into_iter()
-            .for_each(|(key, drawables)| leave_drawable(key, drawables));
+        with_context(|gl, c, work| {
+            let _quiet = Quiet::new();
+            let layer = work.layer.as_mut().filter(|l| l.is_ahead())?;
+            let draw = c.draws_to()?;
+            drawables::drawn_by(drawables::id(draw), Some(c.key));
+            follow_window(layer, draw, &mut work.seen);
+            layer.picture_unfinished(gl, false);
+            Some(())
+        });
     }
     show_flushed(call)
 }

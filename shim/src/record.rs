@@ -31,7 +31,7 @@ pub(crate) struct Work {
     pub(crate) seen: Option<Seen>,
     /// Sizes of viewports since the last change of the drawable's size.
     pub(crate) viewports: Viewports,
-    pub(crate) layer: Option<Layer>,
+    pub(crate) layer: Option<Box<Layer>>,
     /// The context cannot be shown in several views; it is not tried again.
     pub(crate) refused: bool,
     /// In place of the layer where frames are only counted and captured.

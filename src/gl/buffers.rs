@@ -153,17 +153,17 @@ impl Mapping {
         self.length
     }
 
-    /// Copies bytes from `at` on. False, and nothing is copied, where they are not all in the mapping.
-    pub fn read(&self, at: usize, to: &mut [u8]) -> bool {
-        let end = at.checked_add(to.len());
-        if end.is_none_or(|end| end > self.length) {
-            return false;
+    /// The numbers of single precision from the byte `at` on. None where they are not all in the mapping, or not at a multiple of four bytes.
+    pub fn numbers(&self, at: usize) -> Option<[f32; 16]> {
+        let end = at.checked_add(size_of::<[f32; 16]>())?;
+        let from = self.address.checked_add(at)?;
+        if end > self.length || !from.is_multiple_of(align_of::<f32>()) {
+            return None;
         }
-        for (offset, byte) in to.iter_mut().enumerate() {
-            let from = (self.address + at + offset) as *const u8;
-            // SAFETY: in the mapping, which is still there (contract). The program may write at the same time, so each byte is read once.
-            *byte = unsafe { from.read_volatile() };
-        }
-        true
+        let numbers = from as *const f32;
+        // SAFETY: in the mapping, which is still there (contract). The program may write at the same time, so each number is read once.
+        Some(std::array::from_fn(|i| unsafe {
+            numbers.add(i).read_volatile()
+        }))
     }
 }

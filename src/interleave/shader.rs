@@ -194,9 +194,23 @@ pub fn translate(
     if let Some(known) = translated().get(&key) {
         return Ok(known.clone());
     }
-    let new = translate_anew(pass, stage, version)?;
+    let new = with_stack(|| translate_anew(pass, stage, version))?;
     translated().insert(key, new.clone());
     Ok(new)
+}
+
+/// Runs `work` in a thread with a stack of its own, where there can be one: naga needs much, and the program's thread may have little.
+fn with_stack<R: Send>(work: impl Fn() -> R + Sync) -> R {
+    const BYTES: usize = 1 << 21;
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(BYTES);
+        let started = thread.spawn_scoped(scope, &work);
+        match started.map(|thread| thread.join()) {
+            Ok(Ok(done)) => done,
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(_) => work(),
+        }
+    })
 }
 
 fn translate_anew(

@@ -3,7 +3,7 @@
 use super::{Layer, Member};
 use crate::gl::{BlockPlace, BufferName, Gl, ProgramName, consts as c};
 use crate::state::{Found, State, UniformBuffers, binding_change, block_changes, link_change};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::sync::MutexGuard;
 
 /// How a command names a buffer.
@@ -19,12 +19,12 @@ pub enum BufferIs {
 #[derive(Debug, Default)]
 pub(super) struct Blocks {
     /// By target.
-    bound: HashMap<u32, BufferName>,
+    bound: FxHashMap<u32, BufferName>,
     /// Binding points of uniform blocks: the buffer, and the byte at which blocks begin. The driver is asked once for those that were bound
     /// unseen.
-    points: HashMap<u32, (BufferName, usize)>,
+    points: FxHashMap<u32, (BufferName, usize)>,
     /// The binding points of a program's blocks, and the state of links and bindings when the driver was asked for them.
-    programs: HashMap<ProgramName, ([u64; 2], Vec<u32>)>,
+    programs: FxHashMap<ProgramName, ([u64; 2], Vec<u32>)>,
     /// The report says that cameras are read back.
     told: bool,
 }
@@ -96,8 +96,7 @@ impl BlockReader<'_> {
         if failed {
             return None;
         }
-        let bytes: Vec<u8> = numbers.iter().flat_map(|v| v.to_ne_bytes()).collect();
-        buffers.read(buffer, at, &bytes);
+        buffers.read(buffer, at, &numbers);
         Some(numbers)
     }
 }

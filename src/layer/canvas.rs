@@ -375,10 +375,15 @@ impl Layer {
         self.queries.resume(gl);
     }
 
-    /// The program leaves the drawable, or another thread may show it now: draws the picture of what was drawn so far into the true
-    /// framebuffer 0. `handed_over`: another context draws to it next, and gets what the own view shows.
+    /// The program leaves the drawable. `handed_over`: another context draws to it next.
     pub fn leave_drawable(&mut self, gl: &Gl, handed_over: bool) {
         self.give_read_buffer(gl);
+        self.picture_unfinished(gl, handed_over);
+    }
+
+    /// Draws the picture of what was drawn so far into the true framebuffer 0, where that does not have it. `handed_over`: another context
+    /// draws to it next, and gets what the own view shows.
+    pub fn picture_unfinished(&mut self, gl: &Gl, handed_over: bool) {
         let wanted = self.frame.is_stale() || handed_over;
         if !wanted || self.is_plain() || self.is_hidden() || !self.may_show() {
             return;

@@ -13,7 +13,7 @@ impl Layer {
 
     /// Gives the program its framebuffer 0 back, with what its own view shows, and deletes all objects of the layer. `fault`: a hook was
     /// interrupted, so that what it had set in the driver is still in force.
-    pub fn dissolve(mut self, gl: &Gl, fault: bool) {
+    pub fn dissolve(mut self: Box<Self>, gl: &Gl, fault: bool) {
         self.state.keep_errors(gl);
         if fault {
             self.put_interrupted_state(gl);

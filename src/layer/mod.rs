@@ -133,7 +133,7 @@ impl Layer {
         config: &'static Config,
         drawable: CurrentDrawable,
         group: Arc<Member>,
-    ) -> Result<Layer, LayerError> {
+    ) -> Result<Box<Layer>, LayerError> {
         let support = Support::ask(gl)?;
         let layer = Self::made(gl, config, drawable, group, support);
         if layer.is_err() {
@@ -151,7 +151,7 @@ impl Layer {
         drawable: CurrentDrawable,
         group: Arc<Member>,
         support: Support,
-    ) -> Result<Layer, LayerError> {
+    ) -> Result<Box<Layer>, LayerError> {
         let (width, height) = drawable.size;
         let window = Window::ask(gl, width, height, support.compatibility);
         let state = State::ask(gl, window, support.compatibility);
@@ -176,7 +176,8 @@ impl Layer {
         let (targets, told) = Targets::new(gl, &session, &state, &mut report)?;
         let camera = session.live.camera;
         let rig = Rig::new(config.views, camera, config.profile.focal_depth);
-        let mut layer = Layer {
+        // The program may have a small stack.
+        let mut layer = Box::new(Layer {
             cameras: Cameras::new(config, &session.live, program.as_deref()),
             session,
             state,
@@ -190,7 +191,7 @@ impl Layer {
             blocks: Blocks::default(),
             queries: queries::Queries::default(),
             diagnostics: Diagnostics::new(report),
-        };
+        });
         told.into_iter().for_each(|told| layer.announce(told));
         layer.drain_own_errors(gl);
         layer.bind_draw(gl, true, true);

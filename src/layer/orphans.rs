@@ -7,7 +7,7 @@ use crate::state::Orphans;
 
 impl Layer {
     /// The context is destroyed: leaves the objects that its share group keeps to the other contexts.
-    pub fn leave(mut self) {
+    pub fn leave(mut self: Box<Self>) {
         let mut lists = self.session.group.lists();
         let mask = Some(self.targets.interleaver.texture()).filter(|t| !t.is_zero());
         let atlases = || self.atlases().chain(self.canvases.atlases());

@@ -5,12 +5,16 @@
 //! unknown until it is read from the driver once.
 
 use crate::gl::{BufferName, Mapping};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The largest part of one buffer that is followed, in bytes from its beginning.
 const LARGEST: usize = 1 << 22;
+
+/// The most places of matrices in one buffer.
+const PLACES: usize = 1024;
 
 /// Bytes of a matrix of single precision.
 const MATRIX: usize = 64;
@@ -64,11 +68,13 @@ struct Contents {
     size: Option<usize>,
     /// Bound where shaders may write to it.
     written_by_shaders: bool,
+    /// Where matrices were asked for. Of what the program writes through a mapping only these are taken, because such memory is slow to read.
+    wanted: BTreeSet<usize>,
 }
 
 /// The uniform buffers of a share group.
 #[derive(Debug, Default)]
-pub struct UniformBuffers(HashMap<BufferName, Contents>);
+pub struct UniformBuffers(FxHashMap<BufferName, Contents>);
 
 impl Contents {
     /// The bytes from `at` on, `length` of them; none beyond the part that is followed.
@@ -101,13 +107,10 @@ impl Contents {
 
     fn matrix(&self, at: usize) -> Found {
         if let Some((mapping, from)) = &self.mapping {
-            let mut bytes = [0; MATRIX];
-            let read = at
-                .checked_sub(*from)
-                .is_some_and(|at| mapping.read(at, &mut bytes));
-            return match read && mapping.stays {
-                true => Found::Matrix(numbers(&bytes)),
-                false => Found::Mapped,
+            let numbers = at.checked_sub(*from).and_then(|at| mapping.numbers(at));
+            return match numbers.filter(|_| mapping.stays) {
+                Some(numbers) => Found::Matrix(numbers),
+                None => Found::Mapped,
             };
         }
         let part = at..at + MATRIX;
@@ -175,10 +178,13 @@ impl UniformBuffers {
         self.changed(buffer, |contents| contents.write(at, data));
     }
 
-    /// Notes what the driver has in a buffer, from a byte on.
-    pub fn read(&mut self, buffer: BufferName, at: usize, data: &[u8]) {
+    /// Notes the matrix that the driver has in a buffer, from a byte on.
+    pub fn read(&mut self, buffer: BufferName, at: usize, matrix: &[f32; 16]) {
         if let Some(contents) = self.0.get_mut(&buffer) {
-            contents.write(at, data);
+            contents.write(at, &bytes(matrix));
+            if contents.wanted.len() < PLACES {
+                contents.wanted.insert(at);
+            }
         }
     }
 
@@ -279,10 +285,14 @@ impl UniformBuffers {
     }
 
     /// The matrix in a buffer, from a byte on.
-    pub fn matrix(&self, buffer: BufferName, at: usize) -> Found {
-        self.0
-            .get(&buffer)
-            .map_or(Found::Unknown, |contents| contents.matrix(at))
+    pub fn matrix(&mut self, buffer: BufferName, at: usize) -> Found {
+        let Some(contents) = self.0.get_mut(&buffer) else {
+            return Found::Unknown;
+        };
+        if contents.wanted.len() < PLACES {
+            contents.wanted.insert(at);
+        }
+        contents.matrix(at)
     }
 
     /// Whether a buffer may change without a call.
@@ -295,15 +305,24 @@ impl UniformBuffers {
     }
 }
 
-/// Copies what the program has written through a mapping that begins at the byte `from` of the buffer. `part` is of the mapping.
+/// Takes the matrices that the program has written through a mapping that begins at the byte `from` of the buffer; the rest is unknown.
+/// `part` is of the mapping.
 fn take(contents: &mut Contents, mapping: &Mapping, from: usize, part: Range<usize>) {
-    let end = part.end.min(mapping.length());
-    let mut data = vec![0; end.saturating_sub(part.start).min(LARGEST)];
-    if mapping.read(part.start, &mut data) {
-        contents.write(from + part.start, &data);
-    } else {
-        contents.forget(from + part.start..from + end);
+    let part = from + part.start..from + part.end.min(mapping.length());
+    contents.forget(part.clone());
+    let wanted: Vec<usize> = contents.wanted.range(part.clone()).copied().collect();
+    for at in wanted.into_iter().filter(|at| at + MATRIX <= part.end) {
+        if let Some(numbers) = mapping.numbers(at - from) {
+            contents.write(at, &bytes(&numbers));
+        }
     }
+}
+
+fn bytes(numbers: &[f32; 16]) -> [u8; MATRIX] {
+    let mut all = [0; MATRIX];
+    let values = numbers.iter().flat_map(|number| number.to_ne_bytes());
+    all.iter_mut().zip(values).for_each(|(to, byte)| *to = byte);
+    all
 }
 
 #[cfg(test)]
@@ -337,7 +356,7 @@ mod tests {
         assert_eq!(all.matrix(ONE, 64), Found::Unknown);
         all.replaced(ONE, 64, None);
         assert_eq!(all.matrix(ONE, 0), Found::Unknown);
-        all.read(ONE, 0, &filled(3.0));
+        all.read(ONE, 0, &[3.0; 16]);
         assert_eq!(all.matrix(ONE, 0), Found::Matrix([3.0; 16]));
         all.deleted(ONE);
         assert!(!all.follows(ONE));

@@ -33,7 +33,7 @@ pub(in crate::layer) fn config(options: &[(&str, &str)]) -> &'static Config {
 pub(in crate::layer) struct Bench {
     pub(in crate::layer) fake: Fake,
     pub(in crate::layer) gl: Gl,
-    pub(in crate::layer) layer: Layer,
+    pub(in crate::layer) layer: Box<Layer>,
 }
 
 impl Bench {
