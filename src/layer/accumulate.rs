@@ -1,8 +1,8 @@
 //! glAccum and glClear: the accumulation buffer of framebuffer 0, which the atlas does not have.
 
 use super::Layer;
-use super::canvas::Reading;
 use super::draw::Request;
+use super::reading::Reading;
 use crate::accumulation::{Accumulation, Operation, Region};
 use crate::atlas::ViewSet;
 use crate::gl::{Gl, TextureName, consts as c};

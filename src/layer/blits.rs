@@ -1,7 +1,7 @@
 //! glBlitFramebuffer between the window and framebuffers of the program's: from each view to the same view.
 
 use super::Layer;
-use super::canvas::Reading;
+use super::reading::Reading;
 use crate::atlas::Tiles;
 use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::plan::Unrepresentable;

@@ -7,6 +7,7 @@
 use super::accumulate::Accumulated;
 use super::fit::{Fitted, fit};
 use super::frame::Frame;
+use super::reading::{DrawableId, Reading};
 use super::targets::finest;
 use super::{Layer, OnScreen, sampling, with_raw_copies};
 use crate::atlas::Atlas;
@@ -20,10 +21,6 @@ use std::mem::swap;
 
 /// Parked canvases of windows that are kept, though nothing in them waits to be shown.
 const KEPT: usize = 4;
-
-/// Which drawable of the process it is. A number is never given to another one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct DrawableId(pub u64);
 
 /// A drawable that is current.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +39,7 @@ impl CurrentDrawable {
     };
 }
 
-/// What a context has drawn to a drawable that is not current.
+/// What a context has drawn to a drawable that is not current. More than 12 fields: all that the owners of the layer know of one drawable.
 #[derive(Debug)]
 struct Canvas {
     id: DrawableId,
@@ -60,17 +57,6 @@ struct Canvas {
     synthesised: bool,
     mono: Mono,
     on_screen: Option<OnScreen>,
-}
-
-/// What framebuffer 0 is read from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Reading {
-    /// The canvas that is drawn to.
-    Drawn,
-    /// The parked canvas of another drawable.
-    Parked(DrawableId),
-    /// The true framebuffer 0: another drawable, which this context has not drawn to, or another one has since.
-    True,
 }
 
 /// The canvases of a context.

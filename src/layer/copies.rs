@@ -3,7 +3,7 @@
 //!
 //! Motion blur, water, heat: the program copies what it has drawn into a texture and draws that over the scene again.
 
-use super::canvas::Reading;
+use super::reading::Reading;
 use super::{Layer, keep_bindings};
 use crate::gl::{FramebufferName, Gl, Object, RenderbufferName, TextureName, consts as c};
 use crate::view::ViewIndex;

@@ -300,7 +300,9 @@ impl Layer {
         {
             self.diagnostics.report.drew(ms, drawn);
         }
-        self.diagnostics.report.memory(self.targets.atlas.bytes);
+        let parked: u64 = self.canvases.atlases().map(|atlas| atlas.bytes).sum();
+        let current = self.targets.atlas.bytes;
+        self.diagnostics.report.memory(current + parked);
         self.diagnostics.report_fallbacks();
         self.count_names();
         self.diagnostics.report.write_if_due(self.session.config);

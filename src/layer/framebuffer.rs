@@ -1,6 +1,6 @@
 //! The program's framebuffer 0: how it is bound, drawn to, read from and queried.
 
-use super::canvas::Reading;
+use super::reading::Reading;
 use super::{Layer, keep_bindings, with_raw_copies};
 use crate::atlas::Atlas;
 use crate::gl::{FramebufferName, Gl, consts as c};

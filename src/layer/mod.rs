@@ -34,6 +34,7 @@ mod programs;
 mod prove;
 mod quad_buffer;
 mod queries;
+mod reading;
 mod reads;
 mod recordings;
 mod sampling;
@@ -48,12 +49,13 @@ mod tracked;
 mod variants;
 
 pub use blocks::BufferIs;
-pub use canvas::{CurrentDrawable, DrawableId};
+pub use canvas::CurrentDrawable;
 pub use control::Pictured;
 pub use draw::Primitives;
 pub use frames::Frames;
 pub use lists::is_scaled;
 pub use queries::Answer;
+pub use reading::DrawableId;
 pub use tracked::Primitive;
 
 use crate::atlas::{Atlas, Names};
@@ -96,8 +98,8 @@ pub enum LayerError {
     Passes(String),
 }
 
-/// One context and its drawables. More than 25 methods: one for each kind of command that a hook reports, and the steps that need several of
-/// the owners below. Each subject has a file of its own.
+/// One context and its drawables. More than 12 fields: the owners of its subjects. More than 25 methods: one for each kind of command that a hook
+/// reports, and the steps that need several of the owners below. Each subject has a file of its own.
 #[derive(Debug)]
 pub struct Layer {
     session: Session,

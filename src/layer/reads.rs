@@ -1,7 +1,7 @@
 //! Reads of framebuffer 0 and copies within it: from copies of single tiles where a read must see nothing beside its tile.
 
-use super::canvas::Reading;
 use super::draw::Request;
+use super::reading::Reading;
 use super::{Layer, keep_bindings};
 use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::plan::Kind;

@@ -1,4 +1,4 @@
-/* Preloaded behind the layer: counts calls that wait for the driver, and writes at the end how often each was called to the file ASKED. */
+/* Preloaded behind the layer: counts reads of buffers. At its end each process adds a line with the number to the file ASKED. */
 #define _GNU_SOURCE
 #include <GL/gl.h>
 #include <dlfcn.h>
@@ -15,7 +15,7 @@ void glGetBufferSubData(GLenum target, GLintptr offset, GLsizeiptr size, void *d
 
 __attribute__((destructor)) static void tell(void)
 {
-    FILE *file = getenv("ASKED") ? fopen(getenv("ASKED"), "w") : NULL;
+    FILE *file = getenv("ASKED") ? fopen(getenv("ASKED"), "a") : NULL;
     if (!file)
         return;
     fprintf(file, "%d\n", reads);

@@ -2,6 +2,7 @@
 
 pub(super) mod bench;
 mod cameras;
+mod canvas;
 mod diagnostics;
 mod frame;
 mod queries;
