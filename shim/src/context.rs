@@ -14,7 +14,7 @@ use crate::provider::Provider;
 use crate::record::{Context, Key, Work};
 use crate::registry;
 use crate::shares;
-use crate::signals::Quiet;
+use crate::signals::{self, Quiet};
 use crate::switch::{self, Mode, say, say_once, turn_off};
 use crate::uncancelled::Uncancelled;
 use core::cell::Cell;
@@ -363,7 +363,8 @@ fn attach(gl: &Gl, key: Key, work: &mut Work, current: [CurrentDrawable; 2]) -> 
     match (switch::mode(), switch::config()) {
         (Mode::Active, Some(config)) => {
             let member = shares::member(key.0, key.1);
-            let layer = Layer::new(gl, config, current[0], member).map_err(|e| e.to_string())?;
+            let layer = signals::held_off(|| Layer::new(gl, config, current[0], member));
+            let layer = layer.map_err(|e| e.to_string())?;
             let layer = work.layer.insert(layer);
             announce(layer);
             switch_to(gl, layer, key, current);

@@ -1,7 +1,7 @@
 //! Which contexts share objects, so that all layers of a share group know its common state.
 
 use crate::provider::Provider;
-use manyview_core::gl::Ptr;
+use manyview_core::gl::{BufferName, Ptr};
 use manyview_core::layer::Member;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -39,6 +39,12 @@ pub(crate) fn created(provider: Provider, handle: Ptr, share: Ptr) {
 pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
     all.retain(|c| (c.provider, c.handle) != (provider, handle));
+}
+
+/// A context without a layer unmaps a buffer of this name, in whatever share group.
+pub(crate) fn unmapped(buffer: BufferName) {
+    let all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
+    all.iter().for_each(|c| c.member.unmapped(buffer));
 }
 
 /// The record of a context in its share group. It is made here for a context whose creation was not seen.

@@ -1,4 +1,4 @@
-//! Holds off the signals that a write may raise, while the layer writes to stderr or to files.
+//! Holds off signals: those that a write may raise, while the layer writes to stderr or to files, and all while a layer is set up.
 
 use core::ptr::null_mut;
 
@@ -41,6 +41,25 @@ impl Drop for Quiet {
         // SAFETY: the mask from before.
         unsafe { libc::pthread_sigmask(libc::SIG_SETMASK, &self.before, null_mut()) };
     }
+}
+
+/// Runs `work` while this thread gets no signal, nor any thread that it starts meanwhile: handlers of the program know only its own threads.
+pub(crate) fn held_off<R>(work: impl FnOnce() -> R) -> R {
+    /// Gives the thread its own mask back, after a panic too.
+    struct Before(libc::sigset_t);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            // SAFETY: the mask from before.
+            unsafe { libc::pthread_sigmask(libc::SIG_SETMASK, &self.0, null_mut()) };
+        }
+    }
+    let (mut all, mut before) = (set(&[]), Before(set(&[])));
+    // SAFETY: sets of ours.
+    unsafe {
+        libc::sigfillset(&mut all);
+        libc::pthread_sigmask(libc::SIG_SETMASK, &all, &mut before.0);
+    }
+    work()
 }
 
 fn set(signals: &[libc::c_int]) -> libc::sigset_t {

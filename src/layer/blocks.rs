@@ -1,7 +1,7 @@
 //! Uniform blocks of the program's shaders: the buffers that are bound to them, and the matrices that are in those.
 
 use super::{Layer, Member};
-use crate::gl::{BlockPlace, BufferName, Gl, ProgramName, consts as c};
+use crate::gl::{BlockPlace, BufferName, Gl, Mapping, ProgramName, consts as c};
 use crate::state::{Found, State, UniformBuffers, binding_change, block_changes, link_change};
 use rustc_hash::FxHashMap;
 use std::sync::MutexGuard;
@@ -156,6 +156,22 @@ impl Layer {
         let mut buffers = self.buffers();
         if buffers.follows(name) {
             change(&mut buffers, name);
+        }
+    }
+
+    /// The program has mapped bytes of a buffer, from `at` on. `mapping` makes the record of so many bytes.
+    pub fn maps_buffer(
+        &mut self,
+        which: BufferIs,
+        at: usize,
+        length: Option<usize>,
+        mapping: impl FnOnce(usize) -> Mapping,
+    ) {
+        let name = self.buffer_name(which);
+        let mut buffers = self.buffers();
+        match length.or_else(|| buffers.size(name)) {
+            Some(length) => buffers.mapped(name, at, mapping(length)),
+            None => buffers.forget_all(name),
         }
     }
 

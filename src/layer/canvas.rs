@@ -104,6 +104,11 @@ impl Canvases {
         self.parked.iter().map(|canvas| &canvas.atlas)
     }
 
+    /// The same, to be changed.
+    pub(super) fn atlases_mut(&mut self) -> impl Iterator<Item = &mut Atlas> {
+        self.parked.iter_mut().map(|canvas| &mut canvas.atlas)
+    }
+
     /// The accumulation buffers of the drawables that are not current.
     pub(super) fn accumulated(&self) -> impl Iterator<Item = &Accumulated> {
         self.parked.iter().map(|canvas| &canvas.accumulated)
@@ -327,7 +332,7 @@ impl Layer {
         }
         self.apply_buffers(gl);
         self.rebind(gl);
-        self.state.touch(Touch::ALL);
+        self.state.touch(Touch::OBJECTS | Touch::DEPTH);
         if gl.is_srgb_enabled() {
             self.enable_srgb(gl);
         }
@@ -375,10 +380,17 @@ impl Layer {
             return;
         }
         self.synthesise_views(gl);
+        if handed_over {
+            self.state.keep_errors(gl);
+        }
         self.in_neutral(gl, |layer, neutral| match handed_over {
             true => layer.show_own_view(gl),
             false => layer.present_unfinished(gl, neutral),
         });
+        if handed_over {
+            // Depths of other formats than the driver's are refused.
+            while gl.get_error() != c::NO_ERROR {}
+        }
         self.frame.pictured();
     }
 

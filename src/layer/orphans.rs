@@ -20,9 +20,12 @@ impl Layer {
         let textures = textures.copied();
         let textures = textures.chain(mask);
         lists.orphans.textures.extend(textures);
-        let (buffer, fence) = self.targets.atlas.give_buffer();
-        lists.orphans.buffers.extend(buffer);
-        lists.orphans.fences.extend(fence);
+        let parked = self.canvases.atlases_mut();
+        for atlas in std::iter::once(&mut self.targets.atlas).chain(parked) {
+            let (buffer, fence) = atlas.give_buffer();
+            lists.orphans.buffers.extend(buffer);
+            lists.orphans.fences.extend(fence);
+        }
         let programs = self
             .targets
             .interleaver

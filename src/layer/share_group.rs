@@ -1,5 +1,6 @@
 //! What the contexts of a share group have in common.
 
+use crate::gl::BufferName;
 use crate::offscreen::{Images, SharedImages};
 use crate::state::{Lists, UniformBuffers};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -52,6 +53,11 @@ impl Member {
     pub(super) fn uniform_buffers(&self) -> MutexGuard<'_, UniformBuffers> {
         let buffers = self.0.uniform_buffers.lock();
         buffers.unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The driver is about to unmap a buffer that may be of this group.
+    pub fn unmapped(&self, buffer: BufferName) {
+        self.uniform_buffers().unmapped_by_driver(buffer);
     }
 
     /// Textures and renderbuffers that differ between the views.

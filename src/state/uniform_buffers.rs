@@ -5,7 +5,7 @@
 //! unknown until it is read from the driver once.
 
 use crate::gl::{BufferName, Mapping};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,6 +15,9 @@ const LARGEST: usize = 1 << 22;
 
 /// The most places of matrices in one buffer.
 const PLACES: usize = 1024;
+
+/// The largest part of a mapping, in bytes, that is taken as a whole.
+const SMALL: usize = 1 << 14;
 
 /// Bytes of a matrix of single precision.
 const MATRIX: usize = 64;
@@ -66,15 +69,18 @@ struct Contents {
     mapping: Option<(Mapping, usize)>,
     /// Bytes of its store; none where it got that before it was followed.
     size: Option<usize>,
-    /// Bound where shaders may write to it.
-    written_by_shaders: bool,
-    /// Where matrices were asked for. Of what the program writes through a mapping only these are taken, because such memory is slow to read.
+    /// Where matrices were asked for. Of much that the program writes through a mapping only these are taken, because such memory is slow to
+    /// read.
     wanted: BTreeSet<usize>,
 }
 
 /// The uniform buffers of a share group.
 #[derive(Debug, Default)]
-pub struct UniformBuffers(FxHashMap<BufferName, Contents>);
+pub struct UniformBuffers {
+    contents: FxHashMap<BufferName, Contents>,
+    /// Buffers that are bound where shaders may write to them, followed or not.
+    written_by_shaders: FxHashSet<BufferName>,
+}
 
 impl Contents {
     /// The bytes from `at` on, `length` of them; none beyond the part that is followed.
@@ -88,6 +94,7 @@ impl Contents {
     }
 
     fn write(&mut self, at: usize, data: &[u8]) {
+        let data = &data[..data.len().min(LARGEST.saturating_sub(at))];
         if let Some(part) = self.part(at, data.len()) {
             self.bytes[part.clone()].copy_from_slice(data);
             self.known[part].fill(true);
@@ -138,18 +145,18 @@ impl UniformBuffers {
     /// The program binds a buffer to uniform blocks: it is followed from now on.
     pub fn follow(&mut self, buffer: BufferName) {
         if !buffer.is_zero() {
-            self.0.entry(buffer).or_default();
+            self.contents.entry(buffer).or_default();
         }
     }
 
     /// Whether a buffer is followed.
     pub fn follows(&self, buffer: BufferName) -> bool {
-        self.0.contains_key(&buffer)
+        self.contents.contains_key(&buffer)
     }
 
     /// Runs `change` on a buffer, if that is followed, and notes the change.
     fn changed(&mut self, buffer: BufferName, change: impl FnOnce(&mut Contents)) {
-        if let Some(contents) = self.0.get_mut(&buffer) {
+        if let Some(contents) = self.contents.get_mut(&buffer) {
             change(contents);
             block_changes();
         }
@@ -170,7 +177,7 @@ impl UniformBuffers {
 
     /// Bytes of a buffer's store, where they are known.
     pub fn size(&self, buffer: BufferName) -> Option<usize> {
-        self.0.get(&buffer)?.size
+        self.contents.get(&buffer)?.size
     }
 
     /// Writes to a buffer, from a byte on.
@@ -180,7 +187,7 @@ impl UniformBuffers {
 
     /// Notes the matrix that the driver has in a buffer, from a byte on.
     pub fn read(&mut self, buffer: BufferName, at: usize, matrix: &[f32; 16]) {
-        if let Some(contents) = self.0.get_mut(&buffer) {
+        if let Some(contents) = self.contents.get_mut(&buffer) {
             contents.write(at, &bytes(matrix));
             if contents.wanted.len() < PLACES {
                 contents.wanted.insert(at);
@@ -205,7 +212,7 @@ impl UniformBuffers {
         (to, to_at): (BufferName, usize),
         length: usize,
     ) {
-        let source = self.0.get(&from).and_then(|contents| {
+        let source = self.contents.get(&from).and_then(|contents| {
             let part = at..at.checked_add(length)?;
             let known = contents.known.get(part.clone())?.iter().all(|&known| known);
             known.then(|| contents.bytes.get(part).map(<[u8]>::to_vec))?
@@ -218,6 +225,10 @@ impl UniformBuffers {
 
     /// The program has mapped bytes of a buffer, from `at` on.
     pub fn mapped(&mut self, buffer: BufferName, at: usize, mapping: Mapping) {
+        if mapping.stays {
+            // It may be bound to blocks later, and no call tells of what is written.
+            self.follow(buffer);
+        }
         self.changed(buffer, |contents| contents.mapping = Some((mapping, at)));
     }
 
@@ -254,17 +265,17 @@ impl UniformBuffers {
 
     /// A buffer is bound where shaders may write to it.
     pub fn bound_to_be_written(&mut self, buffer: BufferName) {
-        if let Some(contents) = self.0.get_mut(&buffer) {
-            contents.written_by_shaders = true;
-        }
+        self.written_by_shaders.insert(buffer);
     }
 
     /// Shaders may have written to the buffers that are bound for that. Returns whether any of them is followed.
     pub fn shaders_wrote(&mut self) -> bool {
         let mut any = false;
-        for contents in self.0.values_mut().filter(|c| c.written_by_shaders) {
-            contents.forget_all();
-            any = true;
+        for buffer in &self.written_by_shaders {
+            if let Some(contents) = self.contents.get_mut(buffer) {
+                contents.forget_all();
+                any = true;
+            }
         }
         if any {
             block_changes();
@@ -274,19 +285,18 @@ impl UniformBuffers {
 
     /// Whether a buffer is bound where shaders may write to it.
     pub fn is_written_by_shaders(&self, buffer: BufferName) -> bool {
-        self.0
-            .get(&buffer)
-            .is_some_and(|contents| contents.written_by_shaders)
+        self.written_by_shaders.contains(&buffer)
     }
 
     /// The program has deleted a buffer.
     pub fn deleted(&mut self, buffer: BufferName) {
-        self.0.remove(&buffer);
+        self.contents.remove(&buffer);
+        self.written_by_shaders.remove(&buffer);
     }
 
     /// The matrix in a buffer, from a byte on.
     pub fn matrix(&mut self, buffer: BufferName, at: usize) -> Found {
-        let Some(contents) = self.0.get_mut(&buffer) else {
+        let Some(contents) = self.contents.get_mut(&buffer) else {
             return Found::Unknown;
         };
         if contents.wanted.len() < PLACES {
@@ -298,20 +308,32 @@ impl UniformBuffers {
     /// Whether a buffer may change without a call.
     pub fn is_live(&self, buffer: BufferName) -> bool {
         let mapping = self
-            .0
+            .contents
             .get(&buffer)
             .and_then(|contents| contents.mapping.as_ref());
         mapping.is_some_and(|(mapping, _)| mapping.stays)
     }
 }
 
-/// Takes the matrices that the program has written through a mapping that begins at the byte `from` of the buffer; the rest is unknown.
-/// `part` is of the mapping.
+/// Takes what the program has written through a mapping that begins at the byte `from` of the buffer: all of a small part, and of a large one
+/// the matrices that were asked for; the rest is unknown. `part` is of the mapping.
 fn take(contents: &mut Contents, mapping: &Mapping, from: usize, part: Range<usize>) {
-    let part = from + part.start..from + part.end.min(mapping.length());
+    let part = from.saturating_add(part.start)..from + part.end.min(mapping.length());
+    if part.start >= part.end {
+        return;
+    }
     contents.forget(part.clone());
-    let wanted: Vec<usize> = contents.wanted.range(part.clone()).copied().collect();
-    for at in wanted.into_iter().filter(|at| at + MATRIX <= part.end) {
+    let last = part.end.saturating_sub(MATRIX);
+    let places: Vec<usize> = if part.len() <= SMALL {
+        part.clone()
+            .step_by(MATRIX)
+            .map(|at| at.min(last))
+            .collect()
+    } else {
+        contents.wanted.range(part.clone()).copied().collect()
+    };
+    let within = |at: &usize| *at >= part.start && at + MATRIX <= part.end;
+    for at in places.into_iter().filter(within) {
         if let Some(numbers) = mapping.numbers(at - from) {
             contents.write(at, &bytes(&numbers));
         }

@@ -2,6 +2,7 @@
 
 use crate::context::{peek, real};
 use crate::hooks::{before_uncompiled, uniform};
+use crate::shares;
 use core::slice::from_raw_parts;
 use manyview_core::gl::{BufferName, Mapping, Ptr, consts as c};
 use manyview_core::layer::BufferIs;
@@ -107,7 +108,9 @@ pub(crate) unsafe fn glDeleteBuffers(n: i32, buffers: Ptr) {
     if count > 0 && !buffers.is_null() {
         // SAFETY: the program's array of names.
         let names = unsafe { from_raw_parts(buffers.cast_const().cast::<BufferName>(), count) };
-        peek(|l| l.deletes_buffers(names));
+        if peek(|l| l.deletes_buffers(names)).is_none() {
+            names.iter().for_each(|&name| shares::unmapped(name));
+        }
     }
     // SAFETY: the program's own call.
     unsafe { real().glDeleteBuffers(n, buffers) };
@@ -118,7 +121,7 @@ pub(crate) unsafe fn glDeleteBuffers(n: i32, buffers: Ptr) {
 /// # Safety
 /// As for [`bytes`].
 unsafe fn replaced(which: BufferIs, size: isize, data: Ptr, call: impl FnOnce()) {
-    // It is unmapped by that.
+    // It is unmapped by that. What another context has mapped to stay cannot get another store.
     change(which, UniformBuffers::unmapped_by_driver);
     call();
     // SAFETY: forwarded.
@@ -135,7 +138,15 @@ unsafe fn written(which: BufferIs, offset: isize, size: isize, data: Ptr, call: 
     call();
     // SAFETY: forwarded.
     if let (Some(data), Ok(at)) = (unsafe { bytes(data, size) }, usize::try_from(offset)) {
-        change(which, |all, name| all.written(name, at, data));
+        change(which, |all, name| {
+            // The driver has refused what does not fit, and has read none of it.
+            if all
+                .size(name)
+                .is_none_or(|size| at.saturating_add(data.len()) <= size)
+            {
+                all.written(name, at, data);
+            }
+        });
     }
 }
 
@@ -227,20 +238,51 @@ forgets! {
 
 /// The program has mapped bytes of a buffer, from `offset` on; without a length, all of it.
 fn mapped(which: BufferIs, offset: isize, length: Option<isize>, access: u32, memory: Ptr) {
-    if memory.is_null() || access & c::MAP_WRITE_BIT == 0 {
+    let (Ok(at), false) = (usize::try_from(offset), memory.is_null()) else {
+        return;
+    };
+    if access & c::MAP_WRITE_BIT == 0 {
         return;
     }
-    change(which, |all, name| {
-        let length = length
-            .and_then(|length| usize::try_from(length).ok())
-            .or_else(|| all.size(name));
-        let (Some(length), Ok(at)) = (length, usize::try_from(offset)) else {
-            return all.forget_all(name);
-        };
-        // SAFETY: the driver has just mapped so many bytes. The hooks of all commands that unmap them take the mapping away first.
-        let mapping = unsafe { Mapping::new(memory.cast_const().cast(), length, access) };
-        all.mapped(name, at, mapping);
+    let length = length.and_then(|length| usize::try_from(length).ok());
+    peek(|l| {
+        l.maps_buffer(which, at, length, |length| {
+            // SAFETY: the driver has just mapped so many bytes. The hooks of all commands that unmap them take the mapping away first, in
+            // contexts without a layer by `unmapped_unseen`.
+            unsafe { Mapping::new(memory.cast_const().cast(), length, access) }
+        });
     });
+}
+
+/// The driver is about to unmap a buffer for a context without a layer.
+#[cold]
+fn unmapped_unseen(which: BufferIs) {
+    let name = match which {
+        BufferIs::Named(name) => name,
+        BufferIs::Bound(target) => {
+            let binding = match target {
+                c::UNIFORM_BUFFER => c::UNIFORM_BUFFER_BINDING,
+                c::PIXEL_PACK_BUFFER => c::PIXEL_PACK_BUFFER_BINDING,
+                // GL_ARRAY_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, GL_SHADER_STORAGE_BUFFER
+                0x8892 => 0x8894,
+                0x8F36 | 0x8F37 => target,
+                c::SHADER_STORAGE_BUFFER => 0x90D3,
+                _ => return,
+            };
+            let mut name = 0i32;
+            // SAFETY: one integer.
+            unsafe { real().glGetIntegerv(binding, (&raw mut name).cast()) };
+            BufferName(name as u32)
+        }
+    };
+    shares::unmapped(name);
+}
+
+/// Takes the mapping of a buffer away, with what was written to it, before the driver unmaps it.
+fn unmaps(which: BufferIs) {
+    if peek(|l| l.change_buffer(which, UniformBuffers::unmapped)).is_none() {
+        unmapped_unseen(which);
+    }
 }
 
 /// Hooks of a command that maps a whole buffer.
@@ -304,7 +346,7 @@ flushes! {
 macro_rules! unmaps {
     ($($name:ident($first:ident: $is:path);)*) => {$(
         pub(crate) unsafe fn $name($first: u32) -> u8 {
-            change($is($first), UniformBuffers::unmapped);
+            unmaps($is($first));
             // SAFETY: the program's own call.
             unsafe { real().$name($first) }
         }
