@@ -4,14 +4,6 @@
 use libfuzzer_sys::fuzz_target;
 use manyview::rewrite::{Amplifier, Options, Stage, Target, VertexLayer, rewrite};
 
-const STAGES: [Stage; 6] = [
-    Stage::Vertex,
-    Stage::TessControl,
-    Stage::TessEvaluation,
-    Stage::Geometry,
-    Stage::Fragment,
-    Stage::Compute,
-];
 const TARGETS: [Target; 4] = [
     Target::Whole,
     Target::Layer(VertexLayer::ArbShaderViewportLayerArray),
@@ -20,14 +12,14 @@ const TARGETS: [Target; 4] = [
 ];
 
 fuzz_target!(|source: &[u8]| {
-    let stage = STAGES[source.len() % STAGES.len()];
+    let stage = Stage::ALL[source.len() % Stage::ALL.len()];
     for amplifier in [Amplifier::Replay, Amplifier::Instanced] {
         for target in TARGETS {
             let options = Options {
                 amplifier,
                 target,
                 views: 5,
-                es: source.len() / STAGES.len() % 2 == 1,
+                es: source.len() / Stage::ALL.len() % 2 == 1,
             };
             let _ = rewrite(source, stage, &options).map_err(|why| why.to_string());
         }

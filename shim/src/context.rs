@@ -24,7 +24,8 @@ use manyview_core::layer::{CurrentDrawable, Frames, Layer};
 /// The state of a thread. It has no destructor, because threads may call GL while they end.
 struct Thread {
     context: Cell<*mut Context>,
-    provider: Cell<Option<Provider>>,
+    /// That of the context that is current, also of one without a record.
+    key: Cell<Option<Key>>,
     inside: Cell<Inside>,
     /// See [`take_owed`].
     owed: Cell<bool>,
@@ -44,20 +45,23 @@ pub(crate) enum Inside {
 
 thread_local! {
     static THREAD: Thread = const {
-        Thread { context: Cell::new(core::ptr::null_mut()), provider: Cell::new(None), inside: Cell::new(Inside::Outside), owed: Cell::new(false) }
+        Thread { context: Cell::new(core::ptr::null_mut()), key: Cell::new(None), inside: Cell::new(Inside::Outside), owed: Cell::new(false) }
     };
 }
 
 /// The driver's functions for this thread: those of the provider that made its context current.
 pub(crate) fn real() -> &'static Real {
-    let provider = THREAD.with(|t| t.provider.get()).unwrap_or_else(|| {
-        if Provider::Gl.loaded() {
-            Provider::Gl
-        } else {
-            Provider::OsMesa
-        }
-    });
+    let provider = match current_key() {
+        Some((provider, _)) => provider,
+        None if Provider::Gl.loaded() => Provider::Gl,
+        None => Provider::OsMesa,
+    };
     provider.real()
+}
+
+/// The context that this thread has current, whether it has a layer or not.
+pub(crate) fn current_key() -> Option<Key> {
+    THREAD.with(|t| t.key.get())
 }
 
 /// Whether the calls of this thread are recorded (between glBegin and glEnd).
@@ -276,11 +280,11 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawables: Option<Pa
     }
     set_inside(Inside::Outside);
     sheltered(release);
-    THREAD.with(|t| t.provider.set((!handle.is_null()).then_some(provider)));
+    let key = (provider, handle);
+    THREAD.with(|t| t.key.set((!handle.is_null()).then_some(key)));
     if handle.is_null() {
         return;
     }
-    let key = (provider, handle);
     let Some(current_ones) = sheltered(|| take(key, drawables)).flatten() else {
         return;
     };

@@ -1,6 +1,7 @@
 //! Which contexts share objects, so that all layers of a share group know its common state.
 
 use crate::provider::Provider;
+use crate::record::Key;
 use manyview_core::gl::{BufferName, Ptr};
 use manyview_core::layer::Member;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -41,10 +42,23 @@ pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
     all.retain(|c| (c.provider, c.handle) != (provider, handle));
 }
 
-/// A context without a layer unmaps a buffer of this name, in whatever share group.
-pub(crate) fn unmapped(buffer: BufferName) {
+/// A context without a layer is about to unmap a buffer.
+pub(crate) fn unmapped(context: Key, buffer: BufferName) {
+    in_group(context, |member| member.unmapped(buffer));
+}
+
+/// A context without a layer is about to delete a buffer.
+pub(crate) fn deleted(context: Key, buffer: BufferName) {
+    in_group(context, |member| member.deleted(buffer));
+}
+
+/// Runs `change` on the record of a context in its share group. A context whose creation was not seen shares with none.
+fn in_group(context: Key, change: impl FnOnce(&Member)) {
     let all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
-    all.iter().for_each(|c| c.member.unmapped(buffer));
+    let mut all = all.iter();
+    if let Some(found) = all.find(|c| (c.provider, c.handle) == context) {
+        change(&found.member);
+    }
 }
 
 /// The record of a context in its share group. It is made here for a context whose creation was not seen.

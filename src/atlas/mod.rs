@@ -280,12 +280,7 @@ impl Atlas {
             rows,
             layered,
             resolve,
-            front: None,
-            singles: Vec::new(),
-            depths: None,
-            pyramid: None,
-            reference: None,
-            bound_row: 0,
+            ..Atlas::plain(window, tiles.views)
         };
         if status != c::FRAMEBUFFER_COMPLETE {
             atlas.delete(gl);

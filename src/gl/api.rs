@@ -152,6 +152,12 @@ impl Gl {
         gl
     }
 
+    /// Empties the queue of errors, and returns how many there were. A lost context answers errors for ever.
+    pub fn drop_errors(&self) -> usize {
+        let dropped = (0..16).take_while(|_| self.get_error() != c::NO_ERROR);
+        dropped.count()
+    }
+
     /// The table behind, for hooks that pass on the program's own arguments.
     pub fn real(&self) -> &'static Real {
         self.real

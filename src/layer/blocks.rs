@@ -8,7 +8,7 @@ use std::sync::MutexGuard;
 
 /// How a command names a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BufferIs {
+pub enum BufferRef {
     /// It is bound at this target.
     Bound(u32),
     /// By its name.
@@ -18,7 +18,7 @@ pub enum BufferIs {
 /// Bindings of buffers in a context. A new context has none, so those that are not here are 0.
 #[derive(Debug, Default)]
 pub(super) struct Blocks {
-    /// By target.
+    /// By target, but for GL_ELEMENT_ARRAY_BUFFER.
     bound: FxHashMap<u32, BufferName>,
     /// Binding points of uniform blocks: the buffer, and the byte at which blocks begin. The driver is asked once for those that were bound
     /// unseen.
@@ -71,7 +71,11 @@ impl BlockReader<'_> {
     /// The current value of a matrix, column-major. None where it cannot be told now.
     pub(super) fn matrix(&mut self, program: ProgramName, place: BlockPlace) -> Option<[f32; 16]> {
         let (buffer, at) = self.blocks.place(self.gl, program, place)?;
-        let found = self.group.uniform_buffers().matrix(buffer, at);
+        let found = {
+            let mut buffers = self.group.uniform_buffers();
+            buffers.follow(buffer);
+            buffers.matrix(buffer, at)
+        };
         let numbers = match found {
             Found::Matrix(numbers) => numbers,
             Found::Mapped => return None,
@@ -86,12 +90,8 @@ impl BlockReader<'_> {
     fn ask(&mut self, buffer: BufferName, at: usize) -> Option<[f32; 16]> {
         self.state.keep_errors(self.gl);
         let numbers = self.gl.buffer_matrix(buffer, at);
-        let mut failed = false;
-        while self.gl.get_error() != c::NO_ERROR {
-            failed = true;
-        }
+        let failed = self.gl.drop_errors() > 0;
         let mut buffers = self.group.uniform_buffers();
-        buffers.follow(buffer);
         self.reads_back |= buffers.is_written_by_shaders(buffer);
         if failed {
             return None;
@@ -109,6 +109,10 @@ impl Layer {
 
     /// glBindBuffer.
     pub fn binds_buffer(&mut self, target: u32, buffer: BufferName) {
+        // The binding belongs to the vertex array object, which is not followed.
+        if target == c::ELEMENT_ARRAY_BUFFER {
+            return;
+        }
         let before = self.blocks.bound.insert(target, buffer).unwrap_or_default();
         match target {
             c::UNIFORM_BUFFER => self.buffers().follow(buffer),
@@ -149,7 +153,7 @@ impl Layer {
     /// Runs `change` on the contents of a buffer, if they are followed.
     pub fn change_buffer(
         &mut self,
-        which: BufferIs,
+        which: BufferRef,
         change: impl FnOnce(&mut UniformBuffers, BufferName),
     ) {
         let name = self.buffer_name(which);
@@ -162,7 +166,7 @@ impl Layer {
     /// The program has mapped bytes of a buffer, from `at` on. `mapping` makes the record of so many bytes.
     pub fn maps_buffer(
         &mut self,
-        which: BufferIs,
+        which: BufferRef,
         at: usize,
         length: Option<usize>,
         mapping: impl FnOnce(usize) -> Mapping,
@@ -175,11 +179,16 @@ impl Layer {
         }
     }
 
+    /// Whether the program has a buffer of the group mapped, as far as that is followed.
+    pub fn has_mappings(&self) -> bool {
+        self.buffers().has_mappings()
+    }
+
     /// The name of a buffer.
-    pub fn buffer_name(&self, which: BufferIs) -> BufferName {
+    pub fn buffer_name(&self, which: BufferRef) -> BufferName {
         match which {
-            BufferIs::Named(name) => name,
-            BufferIs::Bound(target) => self.blocks.bound.get(&target).copied().unwrap_or_default(),
+            BufferRef::Named(name) => name,
+            BufferRef::Bound(target) => self.blocks.bound.get(&target).copied().unwrap_or_default(),
         }
     }
 

@@ -5,14 +5,12 @@
 //! with any context, shows what was drawn.
 
 use super::accumulate::Accumulated;
-use super::fit::{Fitted, fit};
+use super::fit::{Fitted, fit_first};
 use super::frame::Frame;
 use super::reading::{DrawableId, Reading};
-use super::targets::finest;
-use super::{Layer, OnScreen, sampling, with_raw_copies};
+use super::{Layer, OnScreen, with_raw_copies};
 use crate::atlas::Atlas;
 use crate::config::Strategy;
-use crate::display::Placement;
 use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
 use crate::plan::Unrepresentable;
 use crate::plan::decide::{self, DepthWatch, Detail, Mono};
@@ -192,7 +190,7 @@ impl Layer {
             self.import(gl);
         }
         // Where there is no drawable, it has no buffers to choose.
-        while gl.get_error() != c::NO_ERROR {}
+        gl.drop_errors();
     }
 
     /// Reads from another drawable than is drawn to, from now on.
@@ -236,22 +234,15 @@ impl Layer {
         let before = self.state.window.buffers;
         let mut window = Window::ask(gl, width, height, self.session.support.compatibility);
         window.choose_buffers(window.buffers.double_buffered != before.double_buffered);
-        let placement = Placement::full_screen(width, height);
-        let detail = finest(&self.session.support);
-        let grid = sampling::grid(
-            self.session.config,
-            self.session.display(),
-            self.session.live.output,
-            &placement,
-            detail,
-            self.targets.interleaver.on_gpu(),
-        );
-        let fitted = match drawable {
-            CurrentDrawable::NONE => Fitted {
-                atlas: Atlas::plain(&window, self.session.config.views),
-                told: None,
-            },
-            _ => fit(gl, &mut self.targets.names, &self.session, &window, grid),
+        let (detail, fitted) = match drawable {
+            CurrentDrawable::NONE => {
+                let atlas = Atlas::plain(&window, self.session.config.views);
+                (Detail::Full, Fitted { atlas, told: None })
+            }
+            _ => {
+                let (names, on_gpu) = (&mut self.targets.names, self.targets.interleaver.on_gpu());
+                fit_first(gl, names, &self.session, &window, on_gpu)
+            }
         };
         let stuck = fitted.told.is_some();
         fitted.told.into_iter().for_each(|told| self.announce(told));
@@ -359,7 +350,7 @@ impl Layer {
             self.targets.atlas.share_own(gl);
         });
         // Depths of other formats than the driver's are refused.
-        while gl.get_error() != c::NO_ERROR {}
+        gl.drop_errors();
         self.apply_buffers(gl);
         self.rebind(gl);
         self.queries.put_condition(gl);
@@ -389,7 +380,7 @@ impl Layer {
         });
         if handed_over {
             // Depths of other formats than the driver's are refused.
-            while gl.get_error() != c::NO_ERROR {}
+            gl.drop_errors();
         }
         self.frame.pictured();
     }

@@ -31,7 +31,7 @@ impl Layer {
         let group = self.session.group.clone();
         self.leave();
         delete_orphans(gl, &group);
-        while gl.get_error() != c::NO_ERROR {}
+        gl.drop_errors();
     }
 
     /// Sets what a draw changes for a view to what the program has set.

@@ -2,11 +2,12 @@
 
 use super::session::Session;
 use super::support::Support;
-use super::{Layer, keep_bindings, with_raw_copies};
+use super::{Layer, keep_bindings, sampling, with_raw_copies};
 use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Strategy};
-use crate::gl::{Gl, consts as c};
-use crate::plan::decide::Mono;
+use crate::display::Placement;
+use crate::gl::Gl;
+use crate::plan::decide::{Detail, Mono};
 use crate::state::Window;
 
 /// Shares of the window's width and height that views have which are tried where the wanted ones cannot be had.
@@ -53,19 +54,37 @@ pub(super) fn make_atlas(
     keep_bindings(gl, || Atlas::new(gl, names, window, tiles, support.flip))
 }
 
-/// Makes the atlas of a window: with the wanted grid, with smaller views where that fails, or else a plain one.
-pub(super) fn fit(
+/// Makes the first atlas of a window, with the finest detail that the driver allows, which it returns as well. `on_gpu`: the output is made on
+/// the GPU.
+pub(super) fn fit_first(
     gl: &Gl,
     names: &mut Names,
     session: &Session,
     window: &Window,
-    wanted: Grid,
-) -> Fitted {
+    on_gpu: bool,
+) -> (Detail, Fitted) {
+    let detail = match session.support.viewports {
+        true => Detail::SampleAligned,
+        false => Detail::Full,
+    };
+    let grid = sampling::grid(
+        session.config,
+        session.display(),
+        session.live.output,
+        &Placement::full_screen(window.width, window.height),
+        detail,
+        on_gpu,
+    );
+    (detail, fit(gl, names, session, window, grid))
+}
+
+/// Makes the atlas of a window: with the wanted grid, with smaller views where that fails, or else a plain one.
+fn fit(gl: &Gl, names: &mut Names, session: &Session, window: &Window, wanted: Grid) -> Fitted {
     let mut make = |grid| {
         let made = make_atlas(gl, names, session, window, grid);
         if made.is_err() {
             // The program must not see the errors of the attempt.
-            while gl.get_error() != c::NO_ERROR {}
+            gl.drop_errors();
         }
         made
     };
@@ -138,11 +157,11 @@ impl Layer {
     /// what was drawn so far. The caller has kept the program's errors.
     pub(super) fn become_plain(&mut self, gl: &Gl) {
         // Those of the attempt.
-        while gl.get_error() != c::NO_ERROR {}
+        gl.drop_errors();
         self.drop_proof(gl);
         self.leave_mono(gl);
         with_raw_copies(gl, || self.show_own_view(gl));
-        while gl.get_error() != c::NO_ERROR {}
+        gl.drop_errors();
         let atlas = Atlas::plain(&self.state.window, self.session.config.views);
         self.replace_atlas(gl, atlas);
         self.targets.stuck = true;

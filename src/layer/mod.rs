@@ -48,7 +48,7 @@ mod tests;
 mod tracked;
 mod variants;
 
-pub use blocks::BufferIs;
+pub use blocks::BufferRef;
 pub use canvas::CurrentDrawable;
 pub use control::Pictured;
 pub use draw::Primitives;
@@ -140,9 +140,7 @@ impl Layer {
         let layer = Self::made(gl, config, drawable, group, support);
         if layer.is_err() {
             // The program must not see the errors of the attempt.
-            (0..16)
-                .take_while(|_| gl.get_error() != c::NO_ERROR)
-                .count();
+            gl.drop_errors();
         }
         layer
     }
@@ -369,10 +367,7 @@ impl Layer {
 
     /// Takes the errors of the layer's own calls out of the driver's queue, and counts them in the report.
     fn drain_own_errors(&mut self, gl: &Gl) {
-        for _ in 0..16 {
-            if gl.get_error() == c::NO_ERROR {
-                break;
-            }
+        for _ in 0..gl.drop_errors() {
             self.diagnostics.report.error();
         }
     }

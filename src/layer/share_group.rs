@@ -2,7 +2,7 @@
 
 use crate::gl::BufferName;
 use crate::offscreen::{Images, SharedImages};
-use crate::state::{Lists, UniformBuffers};
+use crate::state::{Lists, UniformBuffers, block_changes};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -55,9 +55,17 @@ impl Member {
         buffers.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The driver is about to unmap a buffer that may be of this group.
+    /// A context of the group that has no layer is about to unmap a buffer.
     pub fn unmapped(&self, buffer: BufferName) {
-        self.uniform_buffers().unmapped_by_driver(buffer);
+        let mut buffers = self.uniform_buffers();
+        buffers.unmapped_by_driver(buffer);
+        buffers.forget_all(buffer);
+    }
+
+    /// A context of the group that has no layer is about to delete a buffer.
+    pub fn deleted(&self, buffer: BufferName) {
+        self.uniform_buffers().deleted(buffer);
+        block_changes();
     }
 
     /// Textures and renderbuffers that differ between the views.
@@ -81,6 +89,7 @@ impl Drop for Member {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::state::{Found, block_change};
 
     #[test]
     fn a_context_has_others_while_they_live() {
@@ -93,5 +102,25 @@ mod tests {
         drop(second);
         assert!(!third.has_others());
         assert!(!Member::default().has_others());
+    }
+
+    #[test]
+    fn a_buffer_is_unmapped_and_deleted_in_its_own_group() {
+        const ONE: BufferName = BufferName(1);
+        let (first, other) = (Member::default(), Member::default());
+        for member in [&first, &other] {
+            let mut buffers = member.uniform_buffers();
+            buffers.follow(ONE);
+            buffers.read(ONE, 0, &[1.0; 16]);
+        }
+        let sharing = first.sharing();
+        sharing.unmapped(ONE);
+        assert_eq!(first.uniform_buffers().matrix(ONE, 0), Found::Unknown);
+        let before = block_change();
+        sharing.deleted(ONE);
+        assert!(block_change() > before);
+        assert!(!first.uniform_buffers().follows(ONE));
+        let found = other.uniform_buffers().matrix(ONE, 0);
+        assert_eq!(found, Found::Matrix([1.0; 16]));
     }
 }

@@ -1,26 +1,16 @@
 //! Render targets: the atlas of framebuffer 0, the program's own framebuffers with one image per view, and the pass that shows them.
 
-use super::fit::{Fitted, fit};
+use super::fit::{Fitted, fit_first};
 use super::session::Session;
-use super::support::Support;
-use super::{LayerError, accumulate, framebuffer, sampling};
+use super::{LayerError, accumulate, framebuffer};
 use crate::atlas::{Atlas, Names};
 use crate::config::ViewScale;
-use crate::display::Placement;
 use crate::gl::{FramebufferName, Gl, TextureName};
 use crate::interleave::Interleaver;
 use crate::offscreen::Offscreen;
 use crate::plan::decide::Detail;
 use crate::report::Report;
 use crate::state::State;
-
-/// The detail that the first tiles of a drawable have.
-pub(super) fn finest(support: &Support) -> Detail {
-    match support.viewports {
-        true => Detail::SampleAligned,
-        false => Detail::Full,
-    }
-}
 
 /// The images of a context that differ between the views.
 #[derive(Debug)]
@@ -56,7 +46,6 @@ impl Targets {
             Some(note) => report.note(note),
             None => {}
         }
-        let detail = finest(support);
         if config.view_scale != ViewScale::Fixed(1.0) {
             let cause = match (gl.is_es(), support.viewports) {
                 (true, _) => Some("the program has shaders of its own"),
@@ -67,17 +56,9 @@ impl Targets {
                 |cause| format!("views are drawn at the size of the window, because {cause}");
             cause.map(note).into_iter().for_each(|n| report.note(n));
         }
-        let window = &state.window;
-        let placement = Placement::full_screen(window.width, window.height);
-        let grid = sampling::grid(
-            config,
-            &config.display,
-            session.live.output,
-            &placement,
-            detail,
-            interleaver.on_gpu(),
-        );
-        let Fitted { atlas, told } = fit(gl, &mut names, session, window, grid);
+        let on_gpu = interleaver.on_gpu();
+        let (detail, fitted) = fit_first(gl, &mut names, session, &state.window, on_gpu);
+        let Fitted { atlas, told } = fitted;
         let images = session.group.shared_images();
         let targets = Targets {
             atlas,

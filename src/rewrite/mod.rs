@@ -62,6 +62,18 @@ pub enum Stage {
     Compute,
 }
 
+impl Stage {
+    /// All of them.
+    pub const ALL: [Stage; 6] = [
+        Stage::Vertex,
+        Stage::TessControl,
+        Stage::TessEvaluation,
+        Stage::Geometry,
+        Stage::Fragment,
+        Stage::Compute,
+    ];
+}
+
 /// How one draw becomes several views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Amplifier {

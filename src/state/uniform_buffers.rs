@@ -189,9 +189,6 @@ impl UniformBuffers {
     pub fn read(&mut self, buffer: BufferName, at: usize, matrix: &[f32; 16]) {
         if let Some(contents) = self.contents.get_mut(&buffer) {
             contents.write(at, &bytes(matrix));
-            if contents.wanted.len() < PLACES {
-                contents.wanted.insert(at);
-            }
         }
     }
 
@@ -305,6 +302,11 @@ impl UniformBuffers {
         contents.matrix(at)
     }
 
+    /// Whether any buffer is mapped.
+    pub fn has_mappings(&self) -> bool {
+        self.contents.values().any(|c| c.mapping.is_some())
+    }
+
     /// Whether a buffer may change without a call.
     pub fn is_live(&self, buffer: BufferName) -> bool {
         let mapping = self
@@ -382,6 +384,15 @@ mod tests {
         assert_eq!(all.matrix(ONE, 0), Found::Matrix([3.0; 16]));
         all.deleted(ONE);
         assert!(!all.follows(ONE));
+    }
+
+    #[test]
+    fn places_are_noted_where_matrices_are_asked_for() {
+        let mut all = buffers();
+        all.read(ONE, 0, &[3.0; 16]);
+        assert_eq!(all.matrix(ONE, 64), Found::Unknown);
+        let wanted = all.contents[&ONE].wanted.iter().copied();
+        assert_eq!(wanted.collect::<Vec<_>>(), [64]);
     }
 
     #[test]

@@ -1,15 +1,15 @@
 //! Buffer objects: what the program writes to uniform buffers, in which its cameras may be.
 
-use crate::context::{peek, real};
+use crate::context::{current_key, peek, real};
 use crate::hooks::{before_uncompiled, uniform};
 use crate::shares;
 use core::slice::from_raw_parts;
 use manyview_core::gl::{BufferName, Mapping, Ptr, consts as c};
-use manyview_core::layer::BufferIs;
+use manyview_core::layer::BufferRef;
 use manyview_core::state::{UniformBuffers, binding_changes};
 
 /// Runs `change` on the contents of a buffer, if the layer follows them.
-fn change(which: BufferIs, change: impl FnOnce(&mut UniformBuffers, BufferName)) {
+fn change(which: BufferRef, change: impl FnOnce(&mut UniformBuffers, BufferName)) {
     peek(|l| l.change_buffer(which, change));
 }
 
@@ -108,8 +108,10 @@ pub(crate) unsafe fn glDeleteBuffers(n: i32, buffers: Ptr) {
     if count > 0 && !buffers.is_null() {
         // SAFETY: the program's array of names.
         let names = unsafe { from_raw_parts(buffers.cast_const().cast::<BufferName>(), count) };
-        if peek(|l| l.deletes_buffers(names)).is_none() {
-            names.iter().for_each(|&name| shares::unmapped(name));
+        if peek(|l| l.deletes_buffers(names)).is_none()
+            && let Some(key) = current_key()
+        {
+            names.iter().for_each(|&name| shares::deleted(key, name));
         }
     }
     // SAFETY: the program's own call.
@@ -120,8 +122,12 @@ pub(crate) unsafe fn glDeleteBuffers(n: i32, buffers: Ptr) {
 ///
 /// # Safety
 /// As for [`bytes`].
-unsafe fn replaced(which: BufferIs, size: isize, data: Ptr, call: impl FnOnce()) {
+unsafe fn replaced(which: BufferRef, size: isize, data: Ptr, call: impl FnOnce()) {
     // It is unmapped by that. What another context has mapped to stay cannot get another store.
+    let which = match peek(|l| l.has_mappings()) {
+        Some(true) => found(which),
+        _ => which,
+    };
     change(which, UniformBuffers::unmapped_by_driver);
     call();
     // SAFETY: forwarded.
@@ -134,7 +140,7 @@ unsafe fn replaced(which: BufferIs, size: isize, data: Ptr, call: impl FnOnce())
 ///
 /// # Safety
 /// As for [`bytes`].
-unsafe fn written(which: BufferIs, offset: isize, size: isize, data: Ptr, call: impl FnOnce()) {
+unsafe fn written(which: BufferRef, offset: isize, size: isize, data: Ptr, call: impl FnOnce()) {
     call();
     // SAFETY: forwarded.
     if let (Some(data), Ok(at)) = (unsafe { bytes(data, size) }, usize::try_from(offset)) {
@@ -162,13 +168,48 @@ macro_rules! store {
 }
 
 /// The name of a buffer, as commands give it.
-fn named(name: u32) -> BufferIs {
-    BufferIs::Named(BufferName(name))
+fn named(name: u32) -> BufferRef {
+    BufferRef::Named(BufferName(name))
 }
 
 /// The target at which a buffer is bound.
-fn bound(target: u32) -> BufferIs {
-    BufferIs::Bound(target)
+fn bound(target: u32) -> BufferRef {
+    BufferRef::Bound(target)
+}
+
+/// The buffer that the driver has bound at a target.
+fn asked(target: u32) -> BufferName {
+    let binding = match target {
+        c::ARRAY_BUFFER => c::ARRAY_BUFFER_BINDING,
+        c::ELEMENT_ARRAY_BUFFER => c::ELEMENT_ARRAY_BUFFER_BINDING,
+        c::UNIFORM_BUFFER => c::UNIFORM_BUFFER_BINDING,
+        c::SHADER_STORAGE_BUFFER => c::SHADER_STORAGE_BUFFER_BINDING,
+        c::ATOMIC_COUNTER_BUFFER => c::ATOMIC_COUNTER_BUFFER_BINDING,
+        c::TRANSFORM_FEEDBACK_BUFFER => c::TRANSFORM_FEEDBACK_BUFFER_BINDING,
+        c::DRAW_INDIRECT_BUFFER => c::DRAW_INDIRECT_BUFFER_BINDING,
+        c::DISPATCH_INDIRECT_BUFFER => c::DISPATCH_INDIRECT_BUFFER_BINDING,
+        c::PIXEL_PACK_BUFFER => c::PIXEL_PACK_BUFFER_BINDING,
+        c::PIXEL_UNPACK_BUFFER => c::PIXEL_UNPACK_BUFFER_BINDING,
+        c::QUERY_BUFFER => c::QUERY_BUFFER_BINDING,
+        // The binding has the target's number.
+        c::COPY_READ_BUFFER | c::COPY_WRITE_BUFFER | c::TEXTURE_BUFFER => target,
+        _ => return BufferName::ZERO,
+    };
+    let mut name = 0i32;
+    // SAFETY: one integer.
+    unsafe { real().glGetIntegerv(binding, (&raw mut name).cast()) };
+    BufferName(name as u32)
+}
+
+/// The same buffer by its name where the layer does not know which one is bound: for commands that end or make a mapping. What is written at
+/// that target otherwise is indices.
+fn found(which: BufferRef) -> BufferRef {
+    match which {
+        BufferRef::Bound(c::ELEMENT_ARRAY_BUFFER) => {
+            BufferRef::Named(asked(c::ELEMENT_ARRAY_BUFFER))
+        }
+        known => known,
+    }
 }
 
 store! {
@@ -237,7 +278,7 @@ forgets! {
 }
 
 /// The program has mapped bytes of a buffer, from `offset` on; without a length, all of it.
-fn mapped(which: BufferIs, offset: isize, length: Option<isize>, access: u32, memory: Ptr) {
+fn mapped(which: BufferRef, offset: isize, length: Option<isize>, access: u32, memory: Ptr) {
     let (Ok(at), false) = (usize::try_from(offset), memory.is_null()) else {
         return;
     };
@@ -245,6 +286,7 @@ fn mapped(which: BufferIs, offset: isize, length: Option<isize>, access: u32, me
         return;
     }
     let length = length.and_then(|length| usize::try_from(length).ok());
+    let which = found(which);
     peek(|l| {
         l.maps_buffer(which, at, length, |length| {
             // SAFETY: the driver has just mapped so many bytes. The hooks of all commands that unmap them take the mapping away first, in
@@ -256,30 +298,19 @@ fn mapped(which: BufferIs, offset: isize, length: Option<isize>, access: u32, me
 
 /// The driver is about to unmap a buffer for a context without a layer.
 #[cold]
-fn unmapped_unseen(which: BufferIs) {
+fn unmapped_unseen(which: BufferRef) {
     let name = match which {
-        BufferIs::Named(name) => name,
-        BufferIs::Bound(target) => {
-            let binding = match target {
-                c::UNIFORM_BUFFER => c::UNIFORM_BUFFER_BINDING,
-                c::PIXEL_PACK_BUFFER => c::PIXEL_PACK_BUFFER_BINDING,
-                // GL_ARRAY_BUFFER, GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, GL_SHADER_STORAGE_BUFFER
-                0x8892 => 0x8894,
-                0x8F36 | 0x8F37 => target,
-                c::SHADER_STORAGE_BUFFER => 0x90D3,
-                _ => return,
-            };
-            let mut name = 0i32;
-            // SAFETY: one integer.
-            unsafe { real().glGetIntegerv(binding, (&raw mut name).cast()) };
-            BufferName(name as u32)
-        }
+        BufferRef::Named(name) => name,
+        BufferRef::Bound(target) => asked(target),
     };
-    shares::unmapped(name);
+    if let Some(key) = current_key() {
+        shares::unmapped(key, name);
+    }
 }
 
 /// Takes the mapping of a buffer away, with what was written to it, before the driver unmaps it.
-fn unmaps(which: BufferIs) {
+fn unmaps(which: BufferRef) {
+    let which = found(which);
     if peek(|l| l.change_buffer(which, UniformBuffers::unmapped)).is_none() {
         unmapped_unseen(which);
     }
@@ -289,10 +320,9 @@ fn unmaps(which: BufferIs) {
 macro_rules! maps {
     ($($name:ident($first:ident: $is:path);)*) => {$(
         pub(crate) unsafe fn $name($first: u32, access: u32) -> Ptr {
-            const READ_ONLY: u32 = 0x88B8;
             // SAFETY: the program's own call.
             let memory = unsafe { real().$name($first, access) };
-            let access = if access == READ_ONLY { 0 } else { c::MAP_WRITE_BIT };
+            let access = if access == c::READ_ONLY { 0 } else { c::MAP_WRITE_BIT };
             mapped($is($first), 0, None, access, memory);
             memory
         }
@@ -330,7 +360,7 @@ macro_rules! flushes {
             // SAFETY: the program's own call.
             unsafe { real().$name($first, offset, length) };
             if let (Ok(at), Ok(length)) = (usize::try_from(offset), usize::try_from(length)) {
-                change($is($first), |all, name| all.flushed(name, at, length));
+                change(found($is($first)), |all, name| all.flushed(name, at, length));
             }
         }
     )*};

@@ -100,3 +100,17 @@ fn the_outcome_of_a_picture_is_taken_once() {
         assert!(!picture.is_awaited());
     }
 }
+
+/// As if there were no end of them.
+#[test]
+fn errors_of_a_lost_context_are_dropped_and_counted_for_a_while_only() {
+    const LOST: u32 = 0x0507;
+    let mut bench = Bench::new(&[("VIEWS", "4"), ("STRATEGY", "replay")]);
+    let (gl, before) = (bench.gl, told(&bench.layer.diagnostics, "gl_errors"));
+    assert_eq!((before, gl.drop_errors()), (json!(0), 0));
+    (0..40).for_each(|_| bench.fake.raise(LOST));
+    assert_eq!(gl.drop_errors(), 16);
+    bench.layer.drain_own_errors(&gl);
+    assert_eq!(told(&bench.layer.diagnostics, "gl_errors"), json!(16));
+    assert_eq!(gl.drop_errors(), 8);
+}
