@@ -349,8 +349,8 @@ fn a_camera_in_a_plain_uniform_zooms() {
 }
 
 /// Ways to change a camera in a uniform block that every program uses.
-const WAYS: [&str; 7] = [
-    "subdata", "mapped", "coherent", "copied", "range", "weapon", "compute",
+const WAYS: [&str; 8] = [
+    "subdata", "mapped", "coherent", "before", "copied", "range", "weapon", "compute",
 ];
 
 #[test]
@@ -396,6 +396,7 @@ fn cameras_in_uniform_blocks_are_not_asked_for() {
         ("mapped", 0),
         ("flushed", 0),
         ("coherent", 0),
+        ("before", 0),
         ("copied", 0),
         ("range", 0),
         ("binding", 0),

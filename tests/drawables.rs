@@ -123,6 +123,11 @@ fn a_front_buffer_is_shown_by_a_wait_and_by_another_context() {
 }
 
 #[test]
+fn one_draw_buffer_is_the_front_and_the_back_buffer() {
+    same(&["front-both"]);
+}
+
+#[test]
 fn a_window_without_a_back_buffer_is_shown_by_whatever_flushes() {
     same(&["single-wait", "single-left", "single-next", "single-swap"]);
 }
@@ -322,6 +327,32 @@ fn an_image_for_each_view_is_refused() {
         &[
             ("REFUSE_ONE", "3"),
             ("REFUSE_ONE", "4"),
+            ("REFUSE_FROM", "3"),
+        ],
+    );
+}
+
+/// The picture of the drawable that is read must not come to that which is drawn to.
+#[test]
+fn an_image_of_the_drawable_that_is_read_is_refused() {
+    let mut modes = vec![
+        "pixels",
+        "pixels-small",
+        "then",
+        "read-buffer",
+        "copy-pixels",
+        "copy-texture",
+    ];
+    // Views of half the size; the depths that a blit would take from them are lost.
+    same_before("refuses", &modes, &[("REFUSE_TEXELS", "9000")]);
+    modes.push("blit");
+    same_refused(
+        &modes,
+        &[
+            ("REFUSE_ONE", "3"),
+            ("REFUSE_ONE", "5"),
+            ("REFUSE_FROM", "5"),
+            // The window that is drawn to has no views, so that its true framebuffer 0 has its picture.
             ("REFUSE_FROM", "3"),
         ],
     );

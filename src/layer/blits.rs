@@ -20,15 +20,13 @@ impl Layer {
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
         let parked = matches!(self.canvases.reading(), Reading::Parked(_));
-        if read.is_zero() && !draw.is_zero() && parked {
-            return self.in_read_canvas(gl, |layer| layer.blit(gl, scaled, blit));
-        }
-        if read.is_zero() && !draw.is_zero() {
+        if read.is_zero() && !draw.is_zero() && !parked {
             self.synthesise_views(gl);
         }
         let split = self.targets.offscreen.is_split(gl, read);
         if !draw.is_zero() {
-            let differs = split || (read.is_zero() && self.reads_views() && !self.is_mono());
+            let differs =
+                split || (read.is_zero() && self.reads_views() && (parked || !self.is_mono()));
             return match differs && self.split(gl, draw)
                 || self.targets.offscreen.is_split(gl, draw)
             {
@@ -65,8 +63,8 @@ impl Layer {
         let (draw, read) = (self.state.framebuffers.draw, self.state.framebuffers.read);
         if !read.is_zero() {
             self.split(gl, read);
-        } else if !self.make_singles(gl, false) {
-            return blit(0, 0);
+        } else {
+            self.make_read_singles(gl);
         }
         let tiles = Tiles {
             shown: self.wanted_views(),
@@ -74,7 +72,7 @@ impl Layer {
         };
         for view in tiles.order() {
             if read.is_zero() {
-                self.take_single(gl, view);
+                self.take_read_single(gl, view);
             }
             for (target, name) in [(c::DRAW_FRAMEBUFFER, draw), (c::READ_FRAMEBUFFER, read)] {
                 if !name.is_zero() {
@@ -119,11 +117,11 @@ impl Layer {
     fn read_target(&self, view: ViewIndex) -> (FramebufferName, i32) {
         match self.canvases.reading() {
             Reading::Drawn => self.targets.atlas.target(view),
-            Reading::Parked(_) => self
+            Reading::Parked(_) | Reading::True => self
                 .canvases
                 .read()
+                .filter(|read| !read.is_plain())
                 .map_or((FramebufferName::ZERO, 0), |read| read.target(view)),
-            Reading::True => (FramebufferName::ZERO, 0),
         }
     }
 

@@ -63,6 +63,8 @@ pub(super) struct Canvases {
     /// The drawable whose canvas the layer's fields are.
     current: DrawableId,
     reading: Reading,
+    /// The canvas that is read from lies in the layer's fields, while the true framebuffer 0 that is drawn to is that of another drawable.
+    aside: bool,
     /// Those of others, the one that was left last at the end.
     parked: Vec<Canvas>,
 }
@@ -73,6 +75,7 @@ impl Canvases {
         Canvases {
             current,
             reading: Reading::Drawn,
+            aside: false,
             parked: Vec::new(),
         }
     }
@@ -80,6 +83,12 @@ impl Canvases {
     /// What framebuffer 0 is read from.
     pub(super) fn reading(&self) -> Reading {
         self.reading
+    }
+
+    /// Whether the canvas that is read from lies in the layer's fields in the place of the one that is drawn to. What is drawn to the true
+    /// framebuffer 0 reaches another drawable then.
+    pub(super) fn is_aside(&self) -> bool {
+        self.aside
     }
 
     /// The atlas of the drawable that is read from, where it is a parked one.
@@ -218,9 +227,11 @@ impl Layer {
             return work(self);
         };
         self.canvases.reading = Reading::Drawn;
+        self.canvases.aside = true;
         self.exchange(&mut canvas);
         let done = work(self);
         self.exchange(&mut canvas);
+        self.canvases.aside = false;
         self.canvases.reading = Reading::Parked(id);
         self.canvases.parked.push(canvas);
         self.rebind(gl);
@@ -336,6 +347,9 @@ impl Layer {
         }
         self.state.keep_errors(gl);
         self.hold_everything(gl, Unrepresentable::Contexts);
+        if self.is_plain() {
+            return;
+        }
         self.draw_all_views(gl);
         self.queries.pause(gl);
         self.queries.lift_condition(gl);

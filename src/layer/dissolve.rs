@@ -41,9 +41,9 @@ impl Layer {
         self.state.rectangles.put(gl);
     }
 
-    /// Copies the program's own view to the true framebuffer 0. The scissor test must be off.
+    /// Copies the program's own view to the true framebuffer 0, unless that is another drawable's. The scissor test must be off.
     pub(super) fn show_own_view(&mut self, gl: &Gl) {
-        if !self.is_plain() {
+        if !self.is_plain() && !self.canvases.is_aside() {
             self.reading(gl, BACK, |layer| layer.targets.atlas.export(gl));
         }
     }

@@ -266,6 +266,12 @@ impl Layer {
 
     /// Sets the program's draw and read buffers of framebuffer 0 in each framebuffer object of the atlas.
     pub(super) fn apply_buffers(&mut self, gl: &Gl) {
+        if self.is_plain() && self.canvases.is_aside() {
+            // The draw buffers are those of another drawable.
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
+            gl.read_buffer(self.state.framebuffers.read_buffer);
+            return self.rebind(gl);
+        }
         if self.is_plain() {
             return self.apply_plain_buffers(gl);
         }
@@ -286,10 +292,11 @@ impl Layer {
         if f.uses_front() && !self.targets.atlas.tiles.grid.is_full() {
             self.state.keep_errors(gl);
             // Both call `apply_buffers` again, for the new atlas.
-            return match self.targets.stuck {
-                true => self.become_plain(gl),
-                false => self.hold_everything(gl, Unrepresentable::FrontBuffer),
-            };
+            self.hold_everything(gl, Unrepresentable::FrontBuffer);
+            if self.targets.stuck {
+                self.become_plain(gl);
+            }
+            return;
         }
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw_images(), f.read_image());
@@ -310,22 +317,22 @@ impl Layer {
     /// Sets the program's read buffer in the drawable that is read from, where that is another one than is drawn to. `image` is that of the
     /// atlas. Binds framebuffers for reading.
     fn apply_read_buffer(&self, gl: &Gl, image: u32) {
-        match self.canvases.reading() {
-            Reading::Drawn => {}
-            Reading::True => {
-                gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
-                gl.read_buffer(self.state.framebuffers.read_buffer);
-            }
-            Reading::Parked(_) => {
-                let read = self.canvases.read();
+        let read = self.canvases.read().filter(|read| !read.is_plain());
+        match (self.canvases.reading(), read) {
+            (Reading::Drawn, _) => {}
+            (_, Some(read)) => {
                 let image = match image {
-                    FRONT if read.is_some_and(|read| !read.has_front()) => BACK,
+                    FRONT if !read.has_front() => BACK,
                     image => image,
                 };
-                for target in read.into_iter().flat_map(Atlas::targets) {
+                for target in read.targets() {
                     gl.bind_framebuffer(c::READ_FRAMEBUFFER, target);
                     gl.read_buffer(image);
                 }
+            }
+            (_, None) => {
+                gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
+                gl.read_buffer(self.state.framebuffers.read_buffer);
             }
         }
     }
@@ -401,15 +408,17 @@ impl Layer {
             (c::NUM_PROGRAM_BINARY_FORMATS, _) if self.refuses_binaries() => return Some(0),
             _ => {}
         }
+        // The drawable that is read may have an atlas where the one that is drawn to has none.
+        let reads = self.reads_views() || !self.is_plain();
         match name {
+            c::READ_FRAMEBUFFER_BINDING if reads => Some(f.read.0.into()),
+            c::READ_BUFFER if reads && f.read.is_zero() => Some(f.read_buffer.into()),
             _ if self.is_plain() => None,
             c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.0.into()),
-            c::READ_FRAMEBUFFER_BINDING => Some(f.read.0.into()),
             c::DRAW_BUFFER if zero && !es => Some(buffer(0)),
             c::DRAW_BUFFER0..=c::DRAW_BUFFER15 if zero => {
                 Some(buffer((name - c::DRAW_BUFFER0) as usize))
             }
-            c::READ_BUFFER if f.read.is_zero() => Some(f.read_buffer.into()),
             c::ACCUM_RED_BITS..=c::ACCUM_ALPHA_BITS if zero && !es => {
                 let at = (name - c::ACCUM_RED_BITS) as usize;
                 let bits = self.state.window.accumulation.get(at);

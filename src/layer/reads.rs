@@ -98,21 +98,22 @@ impl Layer {
         made
     }
 
-    /// [`Layer::make_singles`] for the drawable that is read from.
+    /// [`Layer::make_singles`] for the drawable that is read from. False where that is the one that is drawn to, and plain.
     pub(super) fn make_read_singles(&mut self, gl: &Gl) -> bool {
-        self.canvases.reading() == Reading::True
-            || self.in_read_canvas(gl, |layer| layer.make_singles(gl, false))
+        let made = self.canvases.reading() != Reading::True
+            && self.in_read_canvas(gl, |layer| layer.make_singles(gl, false));
+        made || self.canvases.reading() != Reading::Drawn
     }
 
-    /// [`Layer::take_single`] of the drawable that is read from.
+    /// [`Layer::take_single`] of the drawable that is read from; a plain one, or one of which there is no canvas, is the true framebuffer 0.
     pub(super) fn take_read_single(&mut self, gl: &Gl, view: ViewIndex) {
         match self.canvases.reading() {
-            Reading::True => gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO),
-            Reading::Drawn => self.take_single(gl, view),
-            Reading::Parked(_) => {
+            Reading::Drawn if !self.is_plain() => self.take_single(gl, view),
+            Reading::Parked(_) if self.reads_views() => {
                 self.in_read_canvas(gl, |layer| layer.take_single(gl, view));
                 self.canvases.bind_single(gl);
             }
+            _ => gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO),
         }
     }
 

@@ -4,6 +4,7 @@
  *   orphaned             glBufferData without data, and a mapping
  *   mapped flushed       glMapBufferRange; with explicit flushes
  *   persistent coherent  a mapping that stays, with a flush or without any call
+ *   before               the same by a buffer that is mapped and written before it is bound to a block
  *   copied               glCopyBufferSubData
  *   range base           glBindBufferRange at another offset, glBindBufferBase with another buffer
  *   multi                glBindBuffersRange
@@ -111,7 +112,9 @@ static void put(const GLfloat *m)
 static void start(void)
 {
     GLfloat all[SIZE / sizeof(GLfloat)] = {0};
-    const GLbitfield bits = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | (is("coherent") ? GL_MAP_COHERENT_BIT : 0);
+    const int coherent = is("coherent") || is("before");
+    const GLenum first = is("before") ? GL_ARRAY_BUFFER : target();
+    const GLbitfield bits = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | (coherent ? GL_MAP_COHERENT_BIT : 0);
     program = linked(vertex(), fragment, PLACE);
     glGenBuffers(2, buffers);
     for (int i = 0; i < 2; i++) {
@@ -121,13 +124,15 @@ static void start(void)
             flat(all);
         if (is("rows"))
             transpose(all);
-        glBindBuffer(target(), buffers[i]);
-        if (is("persistent") || is("coherent")) {
-            glBufferStorage(target(), SIZE, all, bits);
+        glBindBuffer(first, buffers[i]);
+        if (is("persistent") || coherent) {
+            glBufferStorage(first, SIZE, is("before") ? NULL : all, bits);
             if (!i)
-                mapping = glMapBufferRange(target(), 0, SIZE, bits | (is("coherent") ? 0 : GL_MAP_FLUSH_EXPLICIT_BIT));
+                mapping = glMapBufferRange(first, 0, SIZE, bits | (coherent ? 0 : GL_MAP_FLUSH_EXPLICIT_BIT));
+            if (!i && is("before"))
+                memcpy(mapping, all, SIZE);
         } else {
-            glBufferData(target(), SIZE, all, GL_DYNAMIC_DRAW);
+            glBufferData(first, SIZE, all, GL_DYNAMIC_DRAW);
         }
     }
     if (plain) {
@@ -219,7 +224,7 @@ static void zoom(void)
         map(m, GL_MAP_UNSYNCHRONIZED_BIT);
     } else if (is("mapped") || is("flushed")) {
         map(m, is("flushed") ? GL_MAP_FLUSH_EXPLICIT_BIT : 0);
-    } else if (is("persistent") || is("coherent")) {
+    } else if (is("persistent") || is("coherent") || is("before")) {
         memcpy(mapping, m, sizeof m);
         if (is("persistent"))
             glFlushMappedBufferRange(GL_UNIFORM_BUFFER, 0, MATRIX);

@@ -4,6 +4,7 @@
  *   sub-other      the same of a window that is not current any more
  *   front          glDrawBuffer(GL_FRONT) and glXWaitGL
  *   front-left     the same, and another context is made current
+ *   front-both     glDrawBuffer(GL_FRONT_AND_BACK), glFlush and a swap
  *   single-wait    a window without a back buffer, and glXWaitGL
  *   single-left    the same, and no context is current any more
  *   single-next    the same, and the context is made current with another window
@@ -57,6 +58,37 @@ static void front(int left)
     else
         glXWaitGL();
     shown("front", a);
+}
+
+static void front_both(void)
+{
+    open_display(0);
+    Window a = open_window(0);
+    GLXWindow draws_a = drawn(a);
+    use(draws_a, draws_a, open_context(NULL));
+    glDrawBuffer(GL_FRONT_AND_BACK);
+    clear(RED);
+    middle(WHITE);
+    glReadBuffer(GL_FRONT);
+    pixels("front buffer");
+    glReadBuffer(GL_BACK);
+    pixels("back buffer");
+    glFlush();
+    shown("flushed", a);
+    glDrawBuffer(GL_BACK);
+    middle(BLUE);
+    pixels("back buffer alone");
+    glReadBuffer(GL_FRONT);
+    pixels("front buffer");
+    glFlush();
+    shown("flushed", a);
+    glXSwapBuffers(display, draws_a);
+    shown("swapped", a);
+    glDrawBuffer(GL_FRONT_AND_BACK);
+    clear(GREEN);
+    middle(RED);
+    glXSwapBuffers(display, draws_a);
+    shown("swapped", a);
 }
 
 static void single_blit(void)
@@ -162,6 +194,8 @@ int presents(const char *mode)
         sub(is(mode, "sub-other"));
     else if (is(mode, "front") || is(mode, "front-left"))
         front(is(mode, "front-left"));
+    else if (is(mode, "front-both"))
+        front_both();
     else if (is(mode, "single-blit"))
         single_blit();
     else if (!strncmp(mode, "single-", 7))

@@ -19,7 +19,8 @@
  *   again         a window is destroyed, and the context draws to a new one
  *   destroyed     a window is destroyed while it is current, and the context draws on and then goes to another window
  *   destroyed-own the same with a window that is its own drawable
- *   scenes        one context draws a scene in each of two windows, a part of the one and a part of the other in turn
+ *   scenes        one context draws a scene in each of two windows, a part of the one and a part of the other in turn, and a flat menu
+ *                 in the second one
  *   scenes-apart  the same pictures, drawn one after the other by two contexts */
 #include "drawables.h"
 #include <pthread.h>
@@ -325,6 +326,22 @@ static void part(int number)
     }
 }
 
+/* A flat menu beside the scene. */
+static void menu(int number)
+{
+    int colour = number % 2 ? WHITE : GREEN;
+    glMatrixMode(GL_PROJECTION);
+    glPushMatrix();
+    glLoadIdentity();
+    glOrtho(0, SIZE, 0, SIZE, -1, 1);
+    glDisable(GL_DEPTH_TEST);
+    glColor3ub((GLubyte)(colour >> 16), (GLubyte)(colour >> 8), (GLubyte)colour);
+    glRecti(SIZE / 2 + 8, 4, SIZE - 4, SIZE / 2 + number);
+    glEnable(GL_DEPTH_TEST);
+    glPopMatrix();
+    glMatrixMode(GL_MODELVIEW);
+}
+
 /* All pixels of a window in one number (FNV-1a). */
 static void sum(const char *what, Drawable drawable)
 {
@@ -343,7 +360,7 @@ static void scenes(int apart)
 {
     open_windows(SIZE);
     GLXContext first = open_context(NULL), second = apart ? open_context(NULL) : first;
-    for (int frame = 0; frame < 3; frame++) {
+    for (int frame = 0; frame < 6; frame++) {
         use(draws_a, draws_a, first);
         look();
         clear(GREY);
@@ -362,6 +379,7 @@ static void scenes(int apart)
             use(draws_b, draws_b, second);
         }
         part(frame + 3);
+        menu(frame);
         if (!apart)
             glXSwapBuffers(display, draws_a);
         glXSwapBuffers(display, draws_b);

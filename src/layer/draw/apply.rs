@@ -54,9 +54,20 @@ impl Layer {
     }
 
     /// Gives up a grid that cannot hold what the program draws, for the rest of the run, and makes the atlas anew. `what` continues the note
-    /// "because the program".
+    /// "because the program". Where the driver makes no other atlas, this one stays; the next command that it cannot hold gets the true
+    /// framebuffer 0.
     pub(in crate::layer) fn give_up(&mut self, gl: &Gl, detail: Detail, what: Unrepresentable) {
         self.targets.detail = detail;
+        self.state.keep_errors(gl);
+        if !self.remake(gl) {
+            if self.targets.stuck {
+                return self.become_plain(gl);
+            }
+            self.targets.stuck = true;
+            gl.drop_errors();
+            return;
+        }
+        self.targets.stuck = false;
         let now = match self.grid() {
             grid if grid.is_full() => "at the size of the window",
             _ => "with fewer pixels, but not aligned with the panel's samples",
@@ -64,7 +75,6 @@ impl Layer {
         self.diagnostics
             .report
             .note(format!("views are drawn {now}, because the program {what}"));
-        self.targets.stuck = !self.remake(gl);
     }
 
     /// A clear has begun a scene that is drawn to some views only.

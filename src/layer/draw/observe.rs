@@ -182,10 +182,11 @@ impl Layer {
     }
 
     /// Facts of tiles with other samples than the window's pixels; none where the tiles have those, the draw goes elsewhere, or no other
-    /// atlas can be made.
+    /// atlas can be made. Pixels cannot be drawn to such tiles at all, so for them another one is tried once more.
     fn observe_grid(&self, gl: &Gl, request: &Request) -> Option<GridFacts> {
         let grid = self.targets.atlas.tiles.grid;
-        if grid.is_full() || self.targets.stuck || !self.state.draws_to_window() {
+        let stuck = self.targets.stuck && request.kind != Kind::Pixels;
+        if grid.is_full() || stuck || !self.state.draws_to_window() {
             return None;
         }
         let fixed = self.state.in_use.program.is_zero() && self.state.in_use.pipeline == 0;

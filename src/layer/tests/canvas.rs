@@ -131,3 +131,28 @@ fn the_drawable_that_is_read_is_bound_for_reading() {
         assert_eq!(bound(), expected, "{drawables:?}");
     }
 }
+
+/// The true framebuffer 0 that is drawn to is that of the other one.
+#[test]
+fn a_drawable_that_is_read_and_gets_no_image_leaves_the_other_one_alone() {
+    /// GL_FRAMEBUFFER_UNSUPPORTED.
+    const UNSUPPORTED: u32 = 0x8CDD;
+    let mut bench = Bench::new(&FOUR);
+    let gl = bench.gl;
+    bench.clear();
+    switch(&mut bench, drawable(2), &|_| true);
+    let second = bench.layer.atlas().framebuffer();
+    let drawables = [drawable(2), drawable(1)];
+    bench.layer.switch(&gl, drawables, &|_| false, &|_| true);
+    bench.fake.set_framebuffer_status(UNSUPPORTED);
+    bench.fake.forget();
+    assert!(bench.layer.make_read_singles(&gl));
+    for command in ["glBlitFramebuffer", "glDrawBuffer", "glDrawBuffers"] {
+        assert_eq!(bench.fake.count(command), 0, "{command}");
+    }
+    assert_eq!(bench.layer.atlas().framebuffer(), second);
+    assert!(!bench.layer.reads_views());
+    let bound = [c::DRAW_FRAMEBUFFER_BINDING, c::READ_FRAMEBUFFER_BINDING];
+    let bound = bound.map(|name| gl.get_integer(name) as u32);
+    assert_eq!(bound, [second.0, 0]);
+}
