@@ -33,6 +33,8 @@ PACKAGES_32 := gcc-multilib g++-multilib libgl1:i386 libegl1:i386 libgl1-mesa-dr
 # Tests that preload the layer into programs of this project; not those that start them by `manyview`, which refuses 32-bit programs.
 TESTS_32 := answers cases conditions drawables front harm hosts memory oracle outputs passes passthrough quad random shaded
 NOT_32 := a_captured_picture_replaces_no_other_file capture_says_that_there_is_no_stereo_window
+# Tests that `check-shadow` runs: those that preload the layer into programs of this project and compare what these get.
+TESTS_SHADOW := answers cases conditions drawables front oracle passes quad random shaded
 # Packages of test-full only.
 FULL_PACKAGES := valgrind
 # Drivers of test-drivers that are not Mesa's own software renderers: lavapipe, under zink.
@@ -51,7 +53,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build release demos demo bench overhead pictures gallery test test-long test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants fuzz shaders man notices book lint packages \
+.PHONY: help build release demos demo bench overhead pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -135,8 +137,13 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip programs_ --skip release_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
+	$(MAKE) check-shadow
 	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
 	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
+
+check-shadow: packages build demos ## run tests with a library that compares the state it keeps with the driver's
+	$(CARGO) build --release --target-dir $(TARGET)/check-shadow -p manyview-shim --features check-shadow
+	MANYVIEW_TESTS_LIBRARY=$(TARGET)/check-shadow/release/libmanyview.so $(CARGO) test --release --no-fail-fast $(TESTS_SHADOW:%=--test %) -- --skip full_
 
 test-drivers: packages build demos ## run the main tests on old versions and other drivers; writes docs/drivers.md (half an hour)
 	@sh scripts/packages.sh --optional $(DRIVER_PACKAGES)

@@ -18,6 +18,7 @@ use crate::signals::{self, Quiet};
 use crate::switch::{self, Mode, say, say_once, turn_off};
 use crate::uncancelled::Uncancelled;
 use core::cell::Cell;
+use manyview_core::gl::shadow::no_shadow;
 use manyview_core::gl::{Gl, Ptr, Real};
 use manyview_core::layer::{CurrentDrawable, Frames, Layer};
 
@@ -355,11 +356,16 @@ fn take(key: Key, drawables: Option<Pair>) -> Option<[CurrentDrawable; 2]> {
         None if registry::knows(key) => [CurrentDrawable::NONE; 2],
         None => return None,
     };
-    let Some(context) = registry::take(key, || Context::new(key, drawables)) else {
+    let Some(context) = registry::take(key, || {
+        let shared = shares::member(key.0, key.1).kept();
+        Context::new(key, drawables, shared)
+    }) else {
         say("a context is current on two threads; the second one shows it as it is");
         return None;
     };
     THREAD.with(|t| t.context.set(context));
+    // SAFETY: from `registry::take` on this thread, which has the record until `release`, and that takes the shadow away first.
+    unsafe { (*context).shadow.make_current() };
     Some(current)
 }
 
@@ -386,6 +392,7 @@ fn attach(gl: &Gl, key: Key, work: &mut Work, current: [CurrentDrawable; 2]) -> 
 /// with the context.
 fn release() {
     let context = THREAD.with(|t| t.context.replace(core::ptr::null_mut()));
+    no_shadow();
     if context.is_null() {
         return;
     }

@@ -66,6 +66,17 @@ pub(crate) fn knows(key: Key) -> bool {
     registry.0.iter().any(|e| e.key == key && !e.destroyed)
 }
 
+/// Another context has given state to this one.
+pub(crate) fn changed(key: Key) {
+    let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = registry.0.iter().find(|e| e.key == key && !e.destroyed);
+    if let Some(entry) = known {
+        // SAFETY: records in the list are freed only after they are taken out of it, under the lock; other threads have shared references
+        // alone.
+        unsafe { &*entry.context }.shadow.changed();
+    }
+}
+
 /// The number of threads that have a context.
 pub(crate) fn threads() -> usize {
     let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
@@ -128,13 +139,15 @@ mod tests {
     use super::*;
     use crate::drawable::{Drawable, Pair};
     use crate::provider::Provider;
+    use manyview_core::gl::shadow::Shared;
 
     fn key(handle: usize) -> Key {
         (Provider::Gl, core::ptr::without_provenance_mut(handle))
     }
 
     fn made(key: Key) -> Context {
-        Context::new(key, Some(Pair::of(Drawable::Memory(1, 1))))
+        let drawables = Pair::of(Drawable::Memory(1, 1));
+        Context::new(key, Some(drawables), Shared::default())
     }
 
     fn taken(key: Key) -> Option<usize> {

@@ -58,7 +58,7 @@ impl Programs {
         atlas: &Atlas,
     ) -> Result<Amplified, Reason> {
         let grid = &atlas.tiles.grid;
-        let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
+        let modelview = gl.get_matrix(c::MODELVIEW_MATRIX);
         let (mut key, surroundings) = fixed.for_mode(mode, &modelview, material);
         let geometry = method == Method::Geometry;
         let (primitive, drawn_mode) = if geometry {

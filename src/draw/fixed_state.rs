@@ -327,10 +327,10 @@ fn units(gl: &Gl) -> ([TextureUnit; UNITS], bool) {
             break;
         };
         unit.enabled = true;
-        unit.matrix = gl.get_floats::<16>(c::TEXTURE_MATRIX) != identity;
+        unit.matrix = gl.get_matrix(c::TEXTURE_MATRIX) != identity;
         for (i, generation) in (0u32..).zip(&mut unit.generation) {
             if gl.is_enabled(c::TEXTURE_GEN_S + i) {
-                *generation = Some(match gl.get_tex_gen(c::S + i, c::TEXTURE_GEN_MODE) as u32 {
+                *generation = Some(match gl.get_tex_gen_mode(c::S + i) {
                     c::OBJECT_LINEAR => TexGen::ObjectLinear,
                     c::SPHERE_MAP => TexGen::SphereMap,
                     c::REFLECTION_MAP => TexGen::ReflectionMap,

@@ -174,7 +174,7 @@ impl Programs {
         rays: &Rays,
         call: &mut dyn FnMut(u32),
     ) -> Result<(), Reason> {
-        let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
+        let modelview = gl.get_matrix(c::MODELVIEW_MATRIX);
         let mode = drawing.mode.unwrap_or(c::TRIANGLES);
         let (mut key, surroundings) = fixed.for_mode(mode, &modelview, drawing.material);
         let large = may_be_large(drawing.vertices, atlas);

@@ -465,7 +465,7 @@ impl Stack {
             mode,
             depth_name,
             depth: gl.get_integer(depth_name),
-            top: gl.get_floats(top),
+            top: gl.get_matrix(top),
         })
     }
 

@@ -281,8 +281,12 @@ impl Variant {
         let window = |uniform| place.map_or(-1, |names| ours(names, uniform));
         let mut uniforms = Vec::new();
         for active in gl.active_uniforms(program) {
-            for element in active.elements() {
+            let left = (1..=active.size.max(1) as u32).rev();
+            for (element, left) in active.elements().zip(left) {
                 let [from, to] = [program, name].map(|of| gl.uniform_location(of, &element));
+                if from >= 0 {
+                    gl.keep_uniform(program, from, active.kind, left);
+                }
                 if from >= 0 && to >= 0 {
                     uniforms.push((active.kind, from, to));
                 }
@@ -310,10 +314,15 @@ impl Variant {
         self.name
     }
 
-    /// Copies the values of the program's uniforms and block bindings to the variant, which has to be in use.
-    pub fn copy_uniforms(&self, gl: &Gl, program: ProgramName) {
+    /// Copies the values of the program's uniforms and block bindings to the variant, which has to be in use: of uniforms those that may have
+    /// changed since an earlier call, which has returned `since` (0 for the first).
+    pub fn copy_uniforms(&self, gl: &Gl, program: ProgramName, since: u64) -> u64 {
+        // A change by another thread meanwhile is copied by the next call.
+        let now = gl.uniform_changes(program) + 1;
         for &(kind, from, to) in &self.uniforms {
-            gl.copy_uniform(kind, (program, from), to);
+            if since == 0 || !gl.is_uniform_unchanged(program, from, since - 1) {
+                gl.copy_uniform(kind, (program, from), to);
+            }
         }
         let bindings = gl.block_bindings(program);
         for (binding, block) in bindings.into_iter().zip(&self.blocks) {
@@ -321,6 +330,7 @@ impl Variant {
                 gl.uniform_block_binding(self.name, block, binding);
             }
         }
+        now
     }
 
     /// Sets a matrix, by its location in the program; the variant has to be in use.

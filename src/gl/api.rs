@@ -21,13 +21,6 @@ pub struct Gl {
     _not_send: core::marker::PhantomData<*const ()>,
 }
 
-/// What glGet answers by a list whose length the driver chooses.
-const LISTS: [u32; 3] = [
-    c::COMPRESSED_TEXTURE_FORMATS,
-    c::SHADER_BINARY_FORMATS,
-    c::PROGRAM_BINARY_FORMATS,
-];
-
 macro_rules! plain {
     ($($name:ident = $gl:ident($($a:ident: $t:ty),*) $(-> $r:ty)?;)*) => {
         /// Commands without pointers.
@@ -62,7 +55,6 @@ plain! {
     disable = glDisable(cap: u32);
     enablei = glEnablei(cap: u32, index: u32);
     disablei = glDisablei(cap: u32, index: u32);
-    is_enabledi = glIsEnabledi(cap: u32, index: u32) -> u8;
     color_4f = glColor4f(r: f32, g: f32, b: f32, a: f32);
     normal_3f = glNormal3f(x: f32, y: f32, z: f32);
     multi_tex_coord_4f = glMultiTexCoord4f(unit: u32, s: f32, t: f32, r: f32, q: f32);
@@ -182,76 +174,6 @@ impl Gl {
         unsafe { self.real.glDepthMask(mask) }
     }
 
-    /// glIsEnabled
-    pub fn is_enabled(&self, cap: u32) -> bool {
-        // SAFETY: a context is current.
-        unsafe { self.real.glIsEnabled(cap) != 0 }
-    }
-
-    /// glGetIntegerv of up to 16 values; zeros for what is a list as long as the driver likes.
-    pub fn get_integers<const K: usize>(&self, name: u32) -> [i32; K] {
-        let mut v = [0i32; 16];
-        const { assert!(K <= 16) };
-        if LISTS.contains(&name) {
-            return [0; K];
-        }
-        // SAFETY: room for 16 elements, the size of a matrix; no name has more but those that have just been left out (OpenGL 4.6, tables
-        // 23.2 to 23.81).
-        unsafe { self.real.glGetIntegerv(name, v.as_mut_ptr().cast()) };
-        let mut out = [0; K];
-        out.copy_from_slice(&v[..K]);
-        out
-    }
-
-    /// glGetIntegerv of a single value.
-    pub fn get_integer(&self, name: u32) -> i32 {
-        self.get_integers::<1>(name)[0]
-    }
-
-    /// glGetFloatv of up to 16 values.
-    pub fn get_floats<const K: usize>(&self, name: u32) -> [f32; K] {
-        let mut v = [0f32; 16];
-        const { assert!(K <= 16) };
-        if LISTS.contains(&name) {
-            return [0.0; K];
-        }
-        // SAFETY: as in `get_integers`.
-        unsafe { self.real.glGetFloatv(name, v.as_mut_ptr().cast()) };
-        let mut out = [0.0; K];
-        out.copy_from_slice(&v[..K]);
-        out
-    }
-
-    /// glGetBooleani_v through glGetIntegeri_v, up to 4 values.
-    pub fn get_integers_indexed<const K: usize>(&self, name: u32, index: u32) -> [i32; K] {
-        let mut v = [0i32; 4];
-        const { assert!(K <= 4) };
-        // SAFETY: room for 4 elements.
-        unsafe {
-            self.real
-                .glGetIntegeri_v(name, index, v.as_mut_ptr().cast())
-        };
-        let mut out = [0; K];
-        out.copy_from_slice(&v[..K]);
-        out
-    }
-
-    /// glGetFloati_v, 4 values.
-    pub fn get_floats_indexed(&self, name: u32, index: u32) -> [f32; 4] {
-        let mut v = [0f32; 4];
-        // SAFETY: room for 4 elements.
-        unsafe { self.real.glGetFloati_v(name, index, v.as_mut_ptr().cast()) };
-        v
-    }
-
-    /// glGetLightfv, up to 4 values.
-    pub fn get_light(&self, light: u32, name: u32) -> [f32; 4] {
-        let mut v = [0f32; 4];
-        // SAFETY: room for 4 elements.
-        unsafe { self.real.glGetLightfv(light, name, v.as_mut_ptr().cast()) };
-        v
-    }
-
     /// glGetString, empty when there is none.
     pub fn get_string(&self, name: u32) -> String {
         // SAFETY: a context is current; the driver's string is static.
@@ -267,33 +189,6 @@ impl Gl {
     /// glViewportIndexedf of the first viewport: x, y, width, height in fractions of pixels.
     pub fn viewport_f(&self, [x, y, width, height]: [f32; 4]) {
         self.viewport_indexed_f(0, x, y, width, height);
-    }
-
-    /// Whether the context has an extension, by glGetStringi where there is GL 3, else by the one long string.
-    pub fn has_extension(&self, extension: &str) -> bool {
-        let n = if self.version() >= (3, 0) {
-            self.get_integer(super::consts::NUM_EXTENSIONS)
-        } else {
-            0
-        };
-        if n > 0 {
-            return (0..n as u32).any(|i| {
-                // SAFETY: a context is current; i is below the number of extensions.
-                let name = unsafe { self.real.glGetStringi(super::consts::EXTENSIONS, i) };
-                text(name) == extension
-            });
-        }
-        self.get_string(super::consts::EXTENSIONS)
-            .split(' ')
-            .any(|e| e == extension)
-    }
-
-    /// glGetMaterialfv, up to 4 values.
-    pub fn get_material(&self, face: u32, name: u32) -> [f32; 4] {
-        let mut v = [0f32; 4];
-        // SAFETY: room for 4 elements.
-        unsafe { self.real.glGetMaterialfv(face, name, v.as_mut_ptr().cast()) };
-        v
     }
 
     /// glMaterialfv; 4 values, of which GL_SHININESS uses one.
@@ -587,7 +482,7 @@ impl Gl {
     }
 }
 
-fn text(p: Ptr) -> String {
+pub(super) fn text(p: Ptr) -> String {
     if p.is_null() {
         return String::new();
     }

@@ -20,6 +20,8 @@ mod pixel_store;
 mod pixels;
 mod positions;
 mod programs;
+mod questions;
+pub mod shadow;
 #[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
 #[rustfmt::skip]
 mod table;

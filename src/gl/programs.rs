@@ -2,7 +2,7 @@
 
 use super::consts as c;
 use super::real::Ptr;
-use super::{BufferName, Gl, ProgramName, ShaderName};
+use super::{BufferName, Gl, ProgramName, ShaderName, shadow};
 use std::ffi::{CStr, CString};
 
 /// An active uniform or attribute.
@@ -41,7 +41,7 @@ pub struct BlockPlace {
 
 /// What a uniform's values are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Base {
+pub(super) enum Base {
     Float,
     Double,
     Int,
@@ -49,7 +49,7 @@ enum Base {
 }
 
 /// Columns and rows of a type of uniforms; one column for what is no matrix.
-fn shape(kind: u32) -> Option<(Base, u32, u32)> {
+pub(super) fn shape(kind: u32) -> Option<(Base, u32, u32)> {
     use Base::{Double, Float, Int, Uint};
     Some(match kind {
         c::FLOAT => (Float, 1, 1),
@@ -287,18 +287,35 @@ impl Gl {
             return;
         };
         let (program, at) = from;
+        let real = self.real;
         // Room for the largest, a matrix of 4 x 4 doubles.
         let mut v = [0u64; 16];
         let p: Ptr = v.as_mut_ptr().cast();
-        let real = self.real;
-        // SAFETY: the type says how many values are read and written, at most 16 of 8 bytes.
-        unsafe {
-            match base {
-                Base::Float => real.glGetUniformfv(program.0, at, p),
-                Base::Double => real.glGetUniformdv(program.0, at, p),
-                Base::Int => real.glGetUniformiv(program.0, at, p),
-                Base::Uint => real.glGetUniformuiv(program.0, at, p),
+        match base {
+            // SAFETY: at most 16 of 8 bytes.
+            Base::Double => unsafe { real.glGetUniformdv(program.0, at, p) },
+            _ => {
+                let words = shadow::uniform(program.0, at, || {
+                    let mut v = [0u32; 16];
+                    let p: Ptr = v.as_mut_ptr().cast();
+                    // SAFETY: at most 16 of 4 bytes.
+                    unsafe {
+                        match base {
+                            Base::Int => real.glGetUniformiv(program.0, at, p),
+                            Base::Uint => real.glGetUniformuiv(program.0, at, p),
+                            _ => real.glGetUniformfv(program.0, at, p),
+                        }
+                    };
+                    v
+                });
+                for (two, pair) in v.iter_mut().zip(words.chunks_exact(2)) {
+                    let [a, b] = [pair[0], pair[1]].map(u32::to_ne_bytes);
+                    *two = u64::from_ne_bytes([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]);
+                }
             }
+        }
+        // SAFETY: the type says how many values are read, at most 16 of 8 bytes.
+        unsafe {
             match (base, columns, rows) {
                 (Base::Float, 1, 1) => real.glUniform1fv(to, 1, p),
                 (Base::Float, 1, 2) => real.glUniform2fv(to, 1, p),
@@ -341,13 +358,32 @@ impl Gl {
 
     /// The value of a uniform that is one integer, such as the unit of a sampler.
     pub fn uniform_int(&self, program: ProgramName, location: i32) -> i32 {
-        let mut v = [0i32; 4];
-        // SAFETY: room for the most integers that a location has.
-        unsafe {
-            self.real
-                .glGetUniformiv(program.0, location, v.as_mut_ptr().cast())
-        };
-        v[0]
+        let words = shadow::uniform(program.0, location, || {
+            let mut v = [0u32; 16];
+            // SAFETY: room for the most integers that a location has.
+            unsafe {
+                self.real
+                    .glGetUniformiv(program.0, location, v.as_mut_ptr().cast())
+            };
+            v
+        });
+        words[0] as i32
+    }
+
+    /// Keeps the values of a uniform that calls set, or of an element of an array that has `left` elements from there on. All elements before
+    /// it have to be kept as well.
+    pub fn keep_uniform(&self, program: ProgramName, location: i32, kind: u32, left: u32) {
+        shadow::keep_uniform(program.0, location, kind, left);
+    }
+
+    /// A number that grows with changes of a program's uniforms.
+    pub fn uniform_changes(&self, program: ProgramName) -> u64 {
+        shadow::uniform_changes(program.0)
+    }
+
+    /// Whether a uniform is known not to have changed since [`Gl::uniform_changes`] was this number.
+    pub fn is_uniform_unchanged(&self, program: ProgramName, location: i32, since: u64) -> bool {
+        shadow::is_uniform_unchanged(program.0, location, since)
     }
 
     /// glUniformMatrix4fv, column-major.
@@ -361,13 +397,16 @@ impl Gl {
 
     /// The value of a uniform of type GL_FLOAT_MAT4, column-major.
     pub fn uniform_matrix(&self, program: ProgramName, location: i32) -> [f32; 16] {
-        let mut v = [0f32; 16];
-        // SAFETY: 16 values, as its type says.
-        unsafe {
-            self.real
-                .glGetUniformfv(program.0, location, v.as_mut_ptr().cast())
-        };
-        v
+        let words = shadow::uniform(program.0, location, || {
+            let mut v = [0u32; 16];
+            // SAFETY: 16 values, as its type says.
+            unsafe {
+                self.real
+                    .glGetUniformfv(program.0, location, v.as_mut_ptr().cast())
+            };
+            v
+        });
+        words.map(f32::from_bits)
     }
 
     /// Where an active uniform matrix lies that is in a block. None for others.
@@ -412,23 +451,25 @@ impl Gl {
 
     /// The binding points of a program's uniform blocks, by index.
     pub fn block_bindings(&self, program: ProgramName) -> Vec<u32> {
-        let count = self
-            .program_parameter(program, c::ACTIVE_UNIFORM_BLOCKS)
-            .max(0) as u32;
-        let binding = |at| {
-            let mut v = 0i32;
-            // SAFETY: one integer.
-            unsafe {
-                self.real.glGetActiveUniformBlockiv(
-                    program.0,
-                    at,
-                    c::UNIFORM_BLOCK_BINDING,
-                    (&raw mut v).cast(),
-                )
+        shadow::block_bindings(program.0, || {
+            let count = self
+                .program_parameter(program, c::ACTIVE_UNIFORM_BLOCKS)
+                .max(0) as u32;
+            let binding = |at| {
+                let mut v = 0i32;
+                // SAFETY: one integer.
+                unsafe {
+                    self.real.glGetActiveUniformBlockiv(
+                        program.0,
+                        at,
+                        c::UNIFORM_BLOCK_BINDING,
+                        (&raw mut v).cast(),
+                    )
+                };
+                v as u32
             };
-            v as u32
-        };
-        (0..count).map(binding).collect()
+            (0..count).map(binding).collect()
+        })
     }
 
     /// The index of a block of another program in this one.

@@ -55,7 +55,7 @@ impl Real {
 }
 
 macro_rules! real_functions {
-    ($($name:ident($($a:ident: $t:ty),*) $(-> $r:ty = $zero:expr)?;)*) => {
+    ($($name:ident($($a:ident: $t:ty),*) $(-> $r:ty = $zero:expr)? $(, $how:ident $note:ident($($n:ident),*))?;)*) => {
         /// The driver's own functions. A command that the provider lacks does nothing and answers zero.
         impl Real {
             $(
@@ -70,7 +70,10 @@ macro_rules! real_functions {
                 pub unsafe fn $name(&self, $($a: $t),*) $(-> $r)? {
                     let Some(p) = self.get(slot::$name) else { return $($zero)? };
                     // SAFETY: the provider's symbol of this name has this signature (Khronos registry).
-                    unsafe { core::mem::transmute::<Ptr, unsafe extern "C-unwind" fn($($t),*) $(-> $r)?>(p)($($a),*) }
+                    let answer = unsafe { core::mem::transmute::<Ptr, unsafe extern "C-unwind" fn($($t),*) $(-> $r)?>(p)($($a),*) };
+                    // SAFETY: the arguments of the command.
+                    $(super::shadow::$how(|s| unsafe { s.$note($($n),*) });)?
+                    answer
                 }
             )*
         }

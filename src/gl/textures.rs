@@ -467,25 +467,6 @@ impl Gl {
         unsafe { self.real.glGenerateMipmap(target) };
     }
 
-    /// glGetTexGeniv of one value; `coord` is GL_S to GL_Q.
-    pub fn get_tex_gen(&self, coord: u32, name: u32) -> i32 {
-        let mut v = [0i32; 4];
-        // SAFETY: room for 4 elements.
-        unsafe { self.real.glGetTexGeniv(coord, name, v.as_mut_ptr().cast()) };
-        v[0]
-    }
-
-    /// glGetTexEnviv of one value of GL_TEXTURE_ENV.
-    pub fn get_tex_env(&self, name: u32) -> i32 {
-        let mut v = [0i32; 4];
-        // SAFETY: room for 4 elements.
-        unsafe {
-            self.real
-                .glGetTexEnviv(c::TEXTURE_ENV, name, v.as_mut_ptr().cast())
-        };
-        v[0]
-    }
-
     /// glTexImage3D of an array texture without data.
     pub fn tex_storage_3d(&self, internal: u32, w: i32, h: i32, d: i32, format: u32, kind: u32) {
         // SAFETY: no data.

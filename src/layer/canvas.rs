@@ -334,7 +334,8 @@ impl Layer {
         }
         self.apply_buffers(gl);
         self.rebind(gl);
-        self.state.touch(Touch::OBJECTS | Touch::DEPTH);
+        self.state
+            .touch(Touch::BUFFERS | Touch::OBJECTS | Touch::DEPTH);
         if gl.is_srgb_enabled() {
             self.enable_srgb(gl);
         }

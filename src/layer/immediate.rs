@@ -127,7 +127,7 @@ impl Layer {
         if !recording.positions(&mut |position| bounds.add(position)) {
             return all;
         }
-        let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
+        let modelview = gl.get_matrix(c::MODELVIEW_MATRIX);
         let sees = |view: &ViewIndex| {
             let p = plan.shear.map_or(state.matrices.projection, |shear| {
                 shear.projection(&state.matrices.projection, self.known.rig.position(*view))

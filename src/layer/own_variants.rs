@@ -80,8 +80,8 @@ pub(super) struct ProgramRecord {
     /// for.
     unprojections: (u64, f64, Vec<(i32, [f32; 16])>),
     camera: CameraSearch,
-    /// [`uniform_change`] when uniforms were last copied to its variants, by [`VariantUse`].
-    followed: [u64; 4],
+    /// By [`VariantUse`]: [`uniform_change`] when uniforms were last copied to the variant, and what that returned.
+    followed: [(u64, u64); 4],
 }
 
 impl ProgramRecord {
@@ -106,7 +106,7 @@ impl ProgramRecord {
                 lost: true,
                 seen: [0; 2],
             },
-            followed: [0; 4],
+            followed: [(0, 0); 4],
             layered: [None, None],
             distorting: None,
         }
@@ -154,8 +154,8 @@ impl OwnVariants {
         };
         gl.use_program(variant.name());
         let change = uniform_change();
-        if std::mem::replace(followed, change) != change {
-            variant.copy_uniforms(gl, program);
+        if std::mem::replace(&mut followed.0, change) != change {
+            followed.1 = variant.copy_uniforms(gl, program, followed.1);
         }
         let variant = variant.clone();
         Some(Entered { variant, layers })

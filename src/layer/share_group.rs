@@ -1,6 +1,7 @@
 //! What the contexts of a share group have in common.
 
 use crate::gl::BufferName;
+use crate::gl::shadow::Shared;
 use crate::offscreen::{Images, SharedImages};
 use crate::state::{Lists, UniformBuffers, block_changes};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,6 +13,7 @@ struct Group {
     images: SharedImages,
     uniform_buffers: Mutex<UniformBuffers>,
     members: AtomicUsize,
+    kept: Shared,
 }
 
 /// Membership of one context in its share group: from its creation until it is destroyed and its layer is gone.
@@ -41,6 +43,12 @@ impl Member {
     #[must_use]
     pub fn has_others(&self) -> bool {
         self.0.members.load(Ordering::Relaxed) > 1
+    }
+
+    /// What is kept of the driver's state that its contexts share.
+    #[must_use]
+    pub fn kept(&self) -> Shared {
+        self.0.kept.clone()
     }
 
     /// Display lists, and the programs that were linked.

@@ -87,7 +87,7 @@ impl State {
             };
         }
         if stale(Touch::MODELVIEW) && self.has.compatibility {
-            self.classification.modelview = gl.get_floats(c::MODELVIEW_MATRIX);
+            self.classification.modelview = gl.get_matrix(c::MODELVIEW_MATRIX);
         }
         self.touched = self.touched.without(groups);
     }

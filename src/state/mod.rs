@@ -45,8 +45,10 @@ impl Touch {
     pub const FIXED: Touch = Touch(8);
     /// The matrix mode.
     pub const MODE: Touch = Touch(16);
-    /// Program and draw buffers.
+    /// The program and the program pipeline.
     pub const OBJECTS: Touch = Touch(32);
+    /// Draw buffers, by what restores or executes many commands.
+    pub const BUFFERS: Touch = Touch(1 << 16);
     /// The material.
     pub const MATERIAL: Touch = Touch(64);
     /// Depth test and depth mask.
@@ -238,7 +240,7 @@ impl State {
             self.rectangles = Rectangles::ask(gl, several);
         }
         if touched.has(Touch::PROJECTION) && self.has.compatibility {
-            self.matrices.projection = gl.get_floats(c::PROJECTION_MATRIX);
+            self.matrices.projection = gl.get_matrix(c::PROJECTION_MATRIX);
         }
         if touched.has(Touch::MODE) && self.has.compatibility {
             self.matrices.mode = gl.get_integer(c::MATRIX_MODE) as u32;
@@ -248,11 +250,13 @@ impl State {
             if self.has.pipelines {
                 self.in_use.pipeline = gl.get_integer(c::PROGRAM_PIPELINE_BINDING) as u32;
             }
+        }
+        if touched.has(Touch::BUFFERS) {
             self.framebuffers.reread(gl);
         }
-        self.touched = touched.without(
-            Touch::RECTS | Touch::VIEWPORTS | Touch::PROJECTION | Touch::MODE | Touch::OBJECTS,
-        );
+        let matrices = Touch::PROJECTION | Touch::MODE;
+        let objects = Touch::OBJECTS | Touch::BUFFERS;
+        self.touched = touched.without(Touch::RECTS | Touch::VIEWPORTS | matrices | objects);
     }
 
     /// Takes the program's errors out of the driver's queue, before the layer's own calls, which may raise errors. While errors are kept
@@ -268,6 +272,13 @@ impl State {
             }
         }
         true
+    }
+
+    /// Keeps errors of the program that were taken out of the driver's queue elsewhere, as [`State::keep_errors`] does.
+    pub fn keep(&mut self, errors: Vec<u32>) {
+        if self.errors.is_empty() {
+            self.errors.extend(errors);
+        }
     }
 
     /// Whether a draw now makes a picture in framebuffer 0: not in a display list, selection, feedback or a framebuffer object.

@@ -182,7 +182,7 @@ impl Colours {
     fn enter(gl: &Gl, context: &Context) -> Self {
         let indexed = context.since((3, 0), (3, 2));
         let blend = match indexed {
-            true => gl.is_enabledi(c::BLEND, 0) != 0,
+            true => gl.is_enabledi(c::BLEND, 0),
             false => gl.is_enabled(c::BLEND),
         };
         if blend && indexed {

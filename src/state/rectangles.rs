@@ -38,7 +38,7 @@ impl Rectangles {
         let indexed = (0..count).map(|index| Indexed {
             viewport: gl.get_floats_indexed(c::VIEWPORT, index),
             scissor: gl.get_integers_indexed(c::SCISSOR_BOX, index),
-            scissor_test: gl.is_enabledi(c::SCISSOR_TEST, index) != 0,
+            scissor_test: gl.is_enabledi(c::SCISSOR_TEST, index),
         });
         Rectangles {
             viewport: gl.get_integers(c::VIEWPORT),

@@ -127,7 +127,10 @@ impl Matrices {
                 continue;
             }
             match gl.uniform_location(program, &active.name) {
-                location @ 0.. => found.uniforms.push(location),
+                location @ 0.. => {
+                    gl.keep_uniform(program, location, active.kind, active.size.max(1) as u32);
+                    found.uniforms.push(location);
+                }
                 _ => found.in_blocks.extend(gl.place_in_block(program, index)),
             }
         }
@@ -193,8 +196,12 @@ impl Samplers {
             if target.is_none() && !image {
                 continue;
             }
-            for name in active.elements() {
+            let left = (1..=active.size.max(1) as u32).rev();
+            for (name, left) in active.elements().zip(left) {
                 let location = gl.uniform_location(program, &name);
+                if location >= 0 {
+                    gl.keep_uniform(program, location, active.kind, left);
+                }
                 match target {
                     _ if location < 0 => {}
                     Some(target) => found.uniforms.push((location, target)),

@@ -62,7 +62,16 @@ pub fn table(commands: &[Command]) -> String {
         } else {
             format!(" -> {} = {}", c.ret, zero(c))
         };
-        writeln!(o, "    {}({}){ret};", c.name, args(c)).unwrap();
+        let how = match c.shared {
+            true => "noted_by_all",
+            false => "noted",
+        };
+        let note = match c.note.as_str() {
+            "" => String::new(),
+            "itself" => format!(", {how} {}({})", c.base, names(c)),
+            other => format!(", {how} {other}()"),
+        };
+        writeln!(o, "    {}({}){ret}{note};", c.name, args(c)).unwrap();
     }
     o.push_str("}\n\n/// Makes one recorded immediate-mode call again.\n///\n/// # Safety\n/// The reader stands behind the slot number of a call that was recorded with the same table.\n");
     o.push_str("pub(super) unsafe fn replay_one(real: &Real, slot: usize, reader: &mut Reader<'_>) -> bool {\n    // SAFETY: see above; the reader yields what the entry of the same name wrote.\n    unsafe {\n        match slot {\n");

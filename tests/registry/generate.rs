@@ -18,6 +18,10 @@ fn root() -> PathBuf {
 pub struct Command {
     pub name: String,
     pub class: String,
+    /// The method of the shadow that gets its arguments, `itself` for that of its name, or none.
+    pub note: String,
+    /// It may set state of objects that contexts share.
+    pub shared: bool,
     pub base: String,
     pub ret: String,
     pub params: Vec<Param>,
@@ -128,6 +132,8 @@ fn registry() -> BTreeMap<String, Command> {
         let c = Command {
             name: name.clone(),
             class: String::new(),
+            note: String::new(),
+            shared: false,
             base: alias.to_string(),
             ret,
             params,
@@ -151,11 +157,11 @@ fn listed(registry: &BTreeMap<String, Command>) -> Vec<Command> {
             });
         }
     };
-    for line in list
-        .lines()
-        .map(str::trim)
-        .filter(|l| !l.is_empty() && !l.starts_with('#'))
-    {
+    let lines = list.lines().map(str::trim);
+    let lines = lines.filter(|l| !l.is_empty() && !l.starts_with('#'));
+    let (notes, lines): (Vec<_>, Vec<_>) =
+        lines.partition(|line| line.starts_with("note") || line.starts_with("shared"));
+    for line in lines {
         let (class, rest) = line.split_once(' ').expect("a class and names");
         if class == "sig" {
             let (class, sig) = rest.split_once(' ').expect("a class and a signature");
@@ -185,6 +191,23 @@ fn listed(registry: &BTreeMap<String, Command>) -> Vec<Command> {
             }
         }
     }
+    for line in notes {
+        let (note, rest) = line.split_once(' ').expect("a note and names");
+        let note = note.split_once(':').map_or("itself", |(_, method)| method);
+        for pattern in rest.split_whitespace() {
+            let re = Pattern::new(pattern);
+            let mut found = false;
+            for c in out
+                .iter_mut()
+                .filter(|c| re.matches(&c.name) || re.matches(&c.base))
+            {
+                c.note = note.into();
+                c.shared = line.starts_with("shared");
+                found = true;
+            }
+            assert!(found, "no command of the list matches `{pattern}`");
+        }
+    }
     out
 }
 
@@ -208,6 +231,8 @@ fn signature(sig: &str) -> Command {
     Command {
         name: name.into(),
         class: String::new(),
+        note: String::new(),
+        shared: false,
         base: name.into(),
         ret: ret.into(),
         params,

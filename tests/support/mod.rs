@@ -30,8 +30,11 @@ pub(crate) fn is_32_bit() -> bool {
     std::env::var("MANYVIEW_TESTS_BITS").is_ok_and(|bits| bits == "32")
 }
 
-/// The layer's library.
+/// The layer's library. `make check-shadow` names another one.
 pub(crate) fn library() -> PathBuf {
+    if let Some(path) = std::env::var_os("MANYVIEW_TESTS_LIBRARY") {
+        return path.into();
+    }
     let folder = target_folder();
     let (path, target) = match (is_32_bit(), folder.parent(), folder.file_name()) {
         (true, Some(all), Some(profile)) => {

@@ -8,9 +8,11 @@ use crate::drawable::{Drawable, Pair};
 use crate::drawables;
 use crate::hooks::before_uncompiled;
 use crate::provider::Provider;
+use crate::registry;
 use crate::shares::created;
 use crate::windows;
 use core::ffi::c_ulong;
+use manyview_core::gl::shadow::lists_of_bitmaps;
 use manyview_core::gl::{ListName, Ptr, Real};
 
 fn gl() -> &'static Real {
@@ -126,8 +128,15 @@ pub(crate) unsafe fn glXUseXFont(font: c_ulong, first: i32, count: i32, base: i3
     // SAFETY: the program's own call.
     guarded(|| unsafe { gl().glXUseXFont(font, first, count, base) });
     if let Ok(count) = u32::try_from(count) {
+        lists_of_bitmaps(base as u32, count);
         enter(|gl, l| l.bitmap_lists(gl, ListName(base as u32), count));
     }
+}
+
+pub(crate) unsafe fn glXCopyContext(dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) {
+    // SAFETY: the program's own call.
+    guarded(|| unsafe { gl().glXCopyContext(dpy, src, dst, mask) });
+    registry::changed((Provider::Gl, dst));
 }
 
 pub(crate) unsafe fn glXDestroyContext(dpy: Ptr, ctx: Ptr) {

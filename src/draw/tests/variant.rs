@@ -64,7 +64,7 @@ fn it_is_linked_beside_the_program_and_has_its_values() {
     let gl = stage.gl;
     gl.use_program(variant.name());
     stage.fake.forget();
-    variant.copy_uniforms(&gl, program);
+    variant.copy_uniforms(&gl, program, 0);
     let value = |name| stage.fake.uniform(variant.name(), name);
     assert_eq!(value("camera"), [0.5; 16]);
     assert_eq!(

@@ -39,7 +39,7 @@ fn what_is_set_is_answered() {
     gl.enable(c::DEPTH_TEST);
     gl.enablei(c::BLEND, 3);
     assert!(gl.is_enabled(c::DEPTH_TEST) && !gl.is_enabled(c::BLEND));
-    assert!(gl.is_enabledi(c::BLEND, 3) != 0);
+    assert!(gl.is_enabledi(c::BLEND, 3));
     gl.active_texture(c::TEXTURE0 + 3);
     gl.bind_texture(c::TEXTURE_2D, TextureName(9));
     gl.active_texture(c::TEXTURE0);
@@ -51,7 +51,7 @@ fn what_is_set_is_answered() {
     gl.matrix_mode(c::PROJECTION);
     gl.push_matrix();
     gl.load_matrix(&[2.0; 16]);
-    assert_eq!(gl.get_floats::<16>(c::PROJECTION_MATRIX), [2.0; 16]);
+    assert_eq!(gl.get_matrix(c::PROJECTION_MATRIX), [2.0; 16]);
     assert_eq!(gl.get_integer(c::PROJECTION_STACK_DEPTH), 2);
     gl.pop_matrix();
     assert_eq!(gl.get_floats::<2>(c::PROJECTION_MATRIX), [1.0, 0.0]);

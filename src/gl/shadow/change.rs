@@ -1,0 +1,363 @@
+//! Changes of the state: what calls make at once, and what display lists make when they are called.
+
+use super::key::{self, Key};
+use super::matrices::Operation;
+use super::{Compiling, Shadow};
+use crate::gl::consts as c;
+
+/// The most changes of a display list that are kept. One that has more makes everything unknown.
+const MOST: usize = 4096;
+/// Changes of a list before another one that may be of the same value.
+const LATELY: usize = 16;
+/// Lists within lists that are followed; GL_MAX_LIST_NESTING is at least 64.
+const NESTING: usize = 64;
+
+/// Parameters of a material that may follow the colour.
+const COLOURS: [u32; 4] = [c::AMBIENT, c::DIFFUSE, c::SPECULAR, c::EMISSION];
+
+/// One change.
+#[derive(Clone, Debug)]
+pub(super) enum Change {
+    /// A value; none where only the driver knows it.
+    Put(Key, Option<[u32; 4]>),
+    /// A value of the active texture unit; `fn` makes its key.
+    PutUnit(fn(u32, u32) -> Key, u32, Option<[u32; 4]>),
+    /// A value whose binding the driver may refuse.
+    Bind(Key, u32),
+    /// A texture is bound to the active unit: the name of the binding.
+    BindTexture(u32, u32),
+    Enable(u32, bool),
+    EnableAt(u32, u32, bool),
+    ActiveTexture(u32),
+    ColorMask([u32; 4]),
+    /// Face and parameter; none where the driver may refuse them.
+    ColorMaterial(Option<[u32; 2]>),
+    MatrixMode(u32),
+    Matrix(Operation),
+    PushMatrix,
+    PopMatrix,
+    PushAttrib(u32),
+    PopAttrib,
+    CallList(u32),
+    /// Names without the list base.
+    CallLists(Box<[u32]>),
+    ForgetMatrices,
+    ForgetUniforms,
+    ForgetAll,
+}
+
+impl Compiling {
+    /// Notes a change. One of a value that was changed just before takes the place of that: lists may give each vertex a material.
+    fn note(&mut self, change: &Change) {
+        if let Change::Put(key, _) = change {
+            let before = self.changes.iter_mut().rev().take(LATELY);
+            let puts = before.take_while(|before| matches!(before, Change::Put(..)));
+            for earlier in puts {
+                if matches!(earlier, Change::Put(other, _) if other == key) {
+                    *earlier = change.clone();
+                    return;
+                }
+            }
+        }
+        if self.changes.len() < MOST {
+            self.changes.push(change.clone());
+        } else {
+            self.changes.clear();
+            self.changes.push(Change::ForgetAll);
+        }
+    }
+}
+
+impl Shadow {
+    /// A call that display lists compile.
+    pub(super) fn change(&mut self, change: Change) {
+        match &mut self.compiling {
+            Some(list) => {
+                list.note(&change);
+                if list.executes {
+                    self.apply(&change, 0);
+                }
+            }
+            None => self.apply(&change, 0),
+        }
+    }
+
+    /// A call that is made at once, also while a display list is compiled.
+    pub(super) fn change_now(&mut self, change: &Change) {
+        self.apply(change, 0);
+    }
+
+    /// A call that drivers compile into display lists or not.
+    pub(super) fn change_somewhen(&mut self, change: Change) {
+        match self.compiling.is_some() {
+            true => self.apply(&Change::ForgetAll, 0),
+            false => self.apply(&change, 0),
+        }
+    }
+
+    pub(super) fn begin_list(&mut self, list: u32, executes: bool) {
+        self.compiling = Some(Compiling {
+            list,
+            executes,
+            changes: Vec::new(),
+        });
+    }
+
+    pub(super) fn end_list(&mut self) {
+        // The driver refuses it between a glBegin and a glEnd of the list.
+        if self.compiling.is_none() || self.integer(c::LIST_INDEX) != 0 {
+            return;
+        }
+        if let Some(list) = self.compiling.take() {
+            self.lists.compiled(list.list, list.changes);
+            self.forget_material();
+        }
+    }
+
+    fn apply(&mut self, change: &Change, depth: usize) {
+        if self.inside {
+            return self.apply_inside(change, depth);
+        }
+        match *change {
+            Change::Put(key, value) => self.put(key, value),
+            Change::PutUnit(key, name, value) => match self.unit() {
+                Some(unit) => self.put(key(name, unit), value),
+                None => self.forget_all(),
+            },
+            Change::Bind(key, name) => self.bind(key, name),
+            Change::BindTexture(binding, name) => match self.unit() {
+                Some(unit) => self.bind(Key::Unit(binding, unit), name),
+                None => self.forget_all(),
+            },
+            Change::Enable(cap, on) => self.enable(cap, on),
+            Change::EnableAt(cap, unit, on) if key::is_of_unit(cap) => {
+                self.put(Key::UnitCap(cap, unit), Some([on.into(), 0, 0, 0]));
+            }
+            Change::EnableAt(cap, index, on) => {
+                self.put(Key::CapAt(cap, index), Some([on.into(), 0, 0, 0]));
+                if index == 0 {
+                    self.put(Key::Cap(cap), Some([on.into(), 0, 0, 0]));
+                }
+            }
+            Change::ActiveTexture(unit) => {
+                let most = self.constant(c::MAX_COMBINED_TEXTURE_IMAGE_UNITS).max(2);
+                let known = unit.wrapping_sub(c::TEXTURE0) < most;
+                let value = known.then_some([unit, 0, 0, 0]);
+                self.put(Key::Value(c::ACTIVE_TEXTURE), value);
+            }
+            Change::ColorMaterial(values) => {
+                self.forget_followers();
+                let names = [c::COLOR_MATERIAL_FACE, c::COLOR_MATERIAL_PARAMETER];
+                for (at, name) in names.into_iter().enumerate() {
+                    let value = values.map(|values| [values[at], 0, 0, 0]);
+                    self.put(Key::Value(name), value);
+                }
+                self.forget_followers();
+            }
+            Change::ColorMask(mask) => {
+                self.put(Key::Value(c::COLOR_WRITEMASK), Some(mask));
+                for index in 0..8 {
+                    self.put(Key::At(c::COLOR_WRITEMASK, index), Some(mask));
+                }
+            }
+            Change::MatrixMode(mode) => match mode {
+                c::MODELVIEW | c::PROJECTION | c::TEXTURE => self.matrices.mode_is(mode),
+                _ => self.matrices.mode_is_unknown(),
+            },
+            Change::Matrix(ref operation) => self.operate(operation),
+            Change::PushMatrix => self.push_matrix(),
+            Change::PopMatrix => self.pop_matrix(),
+            Change::PushAttrib(mask) => self.push_attrib(mask),
+            Change::PopAttrib => self.pop_attrib(),
+            Change::CallList(list) => self.call_list(list, depth),
+            Change::CallLists(ref names) => {
+                let base = self.values.get(&Key::Value(c::LIST_BASE));
+                match base.and_then(|base| base.value) {
+                    Some([base, ..]) => names
+                        .iter()
+                        .for_each(|name| self.call_list(name.wrapping_add(base), depth)),
+                    None => self.forget_all(),
+                }
+            }
+            Change::ForgetMatrices => self.matrices.forget_stacks(),
+            Change::ForgetUniforms => self.uniforms.forget_all(),
+            Change::ForgetAll => self.forget_all(),
+        }
+    }
+
+    /// Between glBegin and glEnd the driver refuses most calls, but is the judge of that.
+    fn apply_inside(&mut self, change: &Change, depth: usize) {
+        match *change {
+            Change::Put(key @ Key::Material(..), value) => self.put(key, value),
+            Change::Put(key, _) | Change::Bind(key, _) => self.put(key, None),
+            Change::Enable(cap, _) if !key::is_of_unit(cap) => self.put(Key::Cap(cap), None),
+            Change::CallList(list) => self.call_list(list, depth),
+            _ => self.forget_all(),
+        }
+    }
+
+    fn enable(&mut self, cap: u32, on: bool) {
+        let value = Some([u32::from(on), 0, 0, 0]);
+        if key::is_of_unit(cap) {
+            let units = self.constant(c::MAX_TEXTURE_UNITS);
+            return match self.unit() {
+                Some(unit) => {
+                    // Further units have no fixed function, so the driver refuses it.
+                    let value = value.filter(|_| unit < units);
+                    self.put(Key::UnitCap(cap, unit), value);
+                }
+                None => self.forget_all(),
+            };
+        }
+        self.put(Key::Cap(cap), value);
+        if key::is_indexed(cap) {
+            for index in 0..16 {
+                self.put(Key::CapAt(cap, index), value);
+            }
+        }
+        if cap == c::COLOR_MATERIAL {
+            // The material has followed the colour, or does so now.
+            self.forget_followers();
+        }
+    }
+
+    /// Forgets the parameters of the material that follow the colour while GL_COLOR_MATERIAL is on.
+    pub(super) fn forget_followers(&mut self) {
+        let parameter = self.values.get(&Key::Value(c::COLOR_MATERIAL_PARAMETER));
+        let parameter = parameter.and_then(|entry| entry.value);
+        for face in [c::FRONT, c::BACK] {
+            for name in COLOURS {
+                if parameter.is_none_or(|[parameter, ..]| key::drives(parameter, name)) {
+                    self.put(Key::Material(face, name), None);
+                }
+            }
+        }
+    }
+
+    pub(super) fn forget_material(&mut self) {
+        for face in [c::FRONT, c::BACK] {
+            for name in COLOURS.into_iter().chain([c::SHININESS]) {
+                self.put(Key::Material(face, name), None);
+            }
+        }
+    }
+
+    fn operate(&mut self, operation: &Operation) {
+        match (self.matrices.mode(), self.matrices.current()) {
+            (None, _) => self.matrices.forget_stacks(),
+            (_, None) => {}
+            (_, Some(stack)) => {
+                let unit = self.unit();
+                self.matrices.operate(stack, unit, operation);
+            }
+        }
+    }
+
+    fn push_matrix(&mut self) {
+        let unit = self.unit();
+        let Some(stack) = self.matrices.current() else {
+            return self.matrices.forget_stacks();
+        };
+        let (limit, depth) = stack.depths();
+        if self.matrices.depth(stack, unit).is_none() {
+            // The driver has pushed already, if it could.
+            let now = self.integer(depth);
+            self.matrices.depth_is(stack, unit, now.saturating_sub(1));
+        }
+        match self.matrices.depth(stack, unit) {
+            Some(depth) if depth < self.constant(limit) => self.matrices.push(stack, unit),
+            // It is full, and the driver has refused.
+            Some(_) => {}
+            None => self.matrices.forget_stacks(),
+        }
+    }
+
+    fn pop_matrix(&mut self) {
+        let unit = self.unit();
+        match self.matrices.current() {
+            Some(stack) => self.matrices.pop(stack, unit),
+            None => self.matrices.forget_stacks(),
+        }
+    }
+
+    fn push_attrib(&mut self, mask: u32) {
+        let most = self.constant(c::MAX_ATTRIB_STACK_DEPTH) as usize;
+        if self.attribs.base.is_none() {
+            // The driver has pushed already.
+            let depth = self.integer(c::ATTRIB_STACK_DEPTH) as usize;
+            let below = depth.saturating_sub(1 + self.attribs.len());
+            self.attribs.base = Some(below);
+        }
+        let below = self.attribs.base.unwrap_or_default();
+        if below + self.attribs.len() < most {
+            let client = key::bits::CLIENT_PIXELS | key::bits::CLIENT_ARRAYS;
+            self.attribs.push(mask & !client, self.matrices.mode());
+        }
+    }
+
+    fn pop_attrib(&mut self) {
+        let Some(pushed) = self.attribs.pop() else {
+            if self.attribs.base != Some(0) {
+                // It was pushed before anything was known.
+                self.forget_all();
+            }
+            return;
+        };
+        if pushed.mask & c::TRANSFORM_BIT != 0 {
+            match pushed.mode {
+                Some(mode) => self.matrices.mode_is(mode),
+                None => self.matrices.mode_is_unknown(),
+            }
+        }
+        self.restore(pushed);
+    }
+
+    /// Puts back the values that a glPopAttrib restores.
+    pub(super) fn restore(&mut self, pushed: super::stack::Pushed) {
+        let lighting = pushed.mask & (c::LIGHTING_BIT | c::CURRENT_BIT | key::bits::ENABLE) != 0;
+        if lighting {
+            self.forget_followers_if_any();
+        }
+        for (key, before) in pushed.before {
+            let (sure, maybe) = key.saved_with();
+            let lost = pushed.deleted && key.binding().is_some();
+            let now = self.values.get(&key).copied().unwrap_or_default();
+            let value = match (pushed.mask & sure != 0, pushed.mask & maybe != 0) {
+                (true, _) if !lost => before.value,
+                (false, false) => now.value,
+                _ => None,
+            };
+            // What is not as it was before the pop may have to be saved for the next one.
+            let mut entry = before;
+            if value != before.value {
+                self.stack_of(key).save(key, &mut entry);
+            }
+            entry.value = value;
+            self.values.insert(key, entry);
+        }
+        if lighting {
+            // A driver may let the material follow the colour that it restores.
+            self.forget_followers_if_any();
+        }
+    }
+
+    fn forget_followers_if_any(&mut self) {
+        let on = self.values.get(&Key::Cap(c::COLOR_MATERIAL));
+        if on.and_then(|entry| entry.value) != Some([0; 4]) {
+            self.forget_followers();
+        }
+    }
+
+    fn call_list(&mut self, list: u32, depth: usize) {
+        if depth >= NESTING {
+            return;
+        }
+        match self.lists.changes(list) {
+            Some(changes) => changes
+                .iter()
+                .for_each(|change| self.apply(change, depth + 1)),
+            // It does not exist, or only the driver knows it.
+            None => self.forget_all(),
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! Commands that display lists compile: what each changes. Called after the driver's own, with the same arguments.
+#![allow(non_snake_case, reason = "each is the GL command of its name")]
+
+use super::Shadow;
+use super::change::Change;
+use super::key::{Key, texture_binding};
+use super::matrices::Operation;
+use super::values::{floats, one, read};
+use crate::gl::consts as c;
+use crate::gl::real::Ptr;
+
+macro_rules! changes {
+    ($($name:ident($($arg:ident: $kind:ty),*) = $change:expr;)*) => {$(
+        pub(in crate::gl) unsafe fn $name(&mut self, $($arg: $kind),*) {
+            self.change($change);
+        }
+    )*};
+}
+
+impl Shadow {
+    changes! {
+        glEnable(cap: u32) = Change::Enable(cap, true);
+        glDisable(cap: u32) = Change::Enable(cap, false);
+        glEnablei(cap: u32, index: u32) = Change::EnableAt(cap, index, true);
+        glDisablei(cap: u32, index: u32) = Change::EnableAt(cap, index, false);
+        glDepthMask(mask: u8) = Change::Put(Key::Value(c::DEPTH_WRITEMASK), one((mask != 0).into()));
+        glDepthFunc(func: u32) = Change::Put(
+            Key::Value(c::DEPTH_FUNC),
+            one(func).filter(|_| (c::NEVER..=c::ALWAYS).contains(&func))
+        );
+        glClearAccum(r: f32, g: f32, b: f32, a: f32) = Change::Put(
+            Key::Value(c::ACCUM_CLEAR_VALUE),
+            floats([r, g, b, a].map(|v| v.clamp(-1.0, 1.0)))
+        );
+        glColorMask(r: u8, g: u8, b: u8, a: u8) = Change::ColorMask([r, g, b, a].map(|v| (v != 0).into()));
+        glStencilMask(mask: u32) = Change::Put(Key::Value(c::STENCIL_WRITEMASK), one(mask));
+        glStencilMaskSeparate(_face: u32, _mask: u32) = Change::Put(Key::Value(c::STENCIL_WRITEMASK), None);
+        glActiveStencilFaceEXT(_face: u32) = Change::Put(Key::Value(c::STENCIL_WRITEMASK), None);
+        glActiveTexture(texture: u32) = Change::ActiveTexture(texture);
+        glShadeModel(mode: u32) = Change::Put(
+            Key::Value(c::SHADE_MODEL),
+            one(mode).filter(|_| [c::FLAT, c::SMOOTH].contains(&mode))
+        );
+        glProvokingVertex(mode: u32) = Change::Put(
+            Key::Value(c::PROVOKING_VERTEX),
+            one(mode).filter(|_| [c::FIRST_VERTEX_CONVENTION, c::LAST_VERTEX_CONVENTION].contains(&mode))
+        );
+        glCullFace(mode: u32) = Change::Put(
+            Key::Value(c::CULL_FACE_MODE),
+            one(mode).filter(|_| [c::FRONT, c::BACK, c::FRONT_AND_BACK].contains(&mode))
+        );
+        glFrontFace(mode: u32) = Change::Put(
+            Key::Value(c::FRONT_FACE),
+            one(mode).filter(|_| [c::CW, c::CCW].contains(&mode))
+        );
+        glListBase(base: u32) = Change::Put(Key::Value(c::LIST_BASE), one(base));
+        glClampColor(target: u32, _clamp: u32) = Change::Put(Key::Value(target), None);
+        glUseProgram(program: u32) = Change::Bind(Key::Value(c::CURRENT_PROGRAM), program);
+        glMatrixMode(mode: u32) = Change::MatrixMode(mode);
+        glPushMatrix() = Change::PushMatrix;
+        glPopMatrix() = Change::PopMatrix;
+        glLoadIdentity() = Change::Matrix(Operation::Identity);
+        glTranslatef(x: f32, y: f32, z: f32) = Change::Matrix(Operation::Translate([x, y, z]));
+        glTranslated(x: f64, y: f64, z: f64) = Change::Matrix(Operation::Translate([x, y, z].map(|v| v as f32)));
+        glScalef(x: f32, y: f32, z: f32) = Change::Matrix(Operation::Scale([x, y, z]));
+        glScaled(x: f64, y: f64, z: f64) = Change::Matrix(Operation::Scale([x, y, z].map(|v| v as f32)));
+        glRotatef(angle: f32, x: f32, y: f32, z: f32) = Change::Matrix(Operation::Rotate([angle, x, y, z]));
+        glRotated(angle: f64, x: f64, y: f64, z: f64) = Change::Matrix(Operation::Rotate([angle, x, y, z].map(|v| v as f32)));
+        glPushAttrib(mask: u32) = Change::PushAttrib(mask);
+        glPopAttrib() = Change::PopAttrib;
+        glCallList(list: u32) = Change::CallList(list);
+    }
+
+    pub(in crate::gl) unsafe fn glViewport(&mut self, x: i32, y: i32, width: i32, height: i32) {
+        if width < 0 || height < 0 {
+            return;
+        }
+        // The driver may cut what is beyond its limits.
+        let within = [x, y].iter().all(|v| v.abs() <= 4096) && width.max(height) <= 8192;
+        let value = within.then_some([x, y, width, height].map(|v| v as u32));
+        self.change(Change::Put(Key::Value(c::VIEWPORT), value));
+    }
+
+    pub(in crate::gl) unsafe fn glScissor(&mut self, x: i32, y: i32, width: i32, height: i32) {
+        if width >= 0 && height >= 0 {
+            let value = [x, y, width, height].map(|v| v as u32);
+            self.change(Change::Put(Key::Value(c::SCISSOR_BOX), Some(value)));
+        }
+    }
+
+    pub(in crate::gl) unsafe fn glDepthRange(&mut self, n: f64, f: f64) {
+        let value = floats([n, f].map(|v| v.clamp(0.0, 1.0) as f32));
+        self.change(Change::Put(Key::Value(c::DEPTH_RANGE), value));
+    }
+
+    pub(in crate::gl) unsafe fn glDepthRangef(&mut self, n: f32, f: f32) {
+        // SAFETY: no pointers.
+        unsafe { self.glDepthRange(n.into(), f.into()) };
+    }
+
+    pub(in crate::gl) unsafe fn glClearDepth(&mut self, depth: f64) {
+        let value = floats([depth.clamp(0.0, 1.0) as f32]);
+        self.change(Change::Put(Key::Value(c::DEPTH_CLEAR_VALUE), value));
+    }
+
+    pub(in crate::gl) unsafe fn glClearDepthf(&mut self, d: f32) {
+        // SAFETY: no pointers.
+        unsafe { self.glClearDepth(d.into()) };
+    }
+
+    pub(in crate::gl) unsafe fn glPolygonMode(&mut self, face: u32, mode: u32) {
+        let known = face == c::FRONT_AND_BACK && [c::POINT, c::LINE, c::FILL].contains(&mode);
+        let value = known.then_some([mode, mode, 0, 0]);
+        self.change(Change::Put(Key::Value(c::POLYGON_MODE), value));
+    }
+
+    pub(in crate::gl) unsafe fn glColorMaski(&mut self, index: u32, r: u8, g: u8, b: u8, a: u8) {
+        let mask = [r, g, b, a].map(|v| (v != 0).into());
+        self.change(Change::Put(Key::At(c::COLOR_WRITEMASK, index), Some(mask)));
+        if index == 0 {
+            self.change(Change::Put(Key::Value(c::COLOR_WRITEMASK), Some(mask)));
+        }
+    }
+
+    pub(in crate::gl) unsafe fn glClipControl(&mut self, origin: u32, depth: u32) {
+        let known = [c::LOWER_LEFT, c::UPPER_LEFT].contains(&origin)
+            && [c::ZERO_TO_ONE, c::NEGATIVE_ONE_TO_ONE].contains(&depth);
+        let value = one(depth).filter(|_| known);
+        self.change(Change::Put(Key::Value(c::CLIP_DEPTH_MODE), value));
+    }
+
+    pub(in crate::gl) unsafe fn glLineWidth(&mut self, width: f32) {
+        // A core profile may refuse wide lines.
+        let value = floats([width]).filter(|_| width == 1.0);
+        self.change(Change::Put(Key::Value(c::LINE_WIDTH), value));
+    }
+
+    pub(in crate::gl) unsafe fn glPointSize(&mut self, size: f32) {
+        let value = floats([size]).filter(|_| size > 0.0);
+        self.change(Change::Put(Key::Value(c::POINT_SIZE), value));
+    }
+
+    pub(in crate::gl) unsafe fn glPointParameterfv(&mut self, pname: u32, params: Ptr) {
+        let value = match pname {
+            // SAFETY: three values have this name, one the others.
+            c::POINT_DISTANCE_ATTENUATION => unsafe { read::<f32, 3>(params) }.and_then(floats),
+            // SAFETY: as above.
+            _ => unsafe { read::<f32, 1>(params) }
+                .filter(|[v]| *v >= 0.0)
+                .and_then(floats),
+        };
+        self.change(Change::Put(Key::Value(pname), value));
+    }
+
+    pub(in crate::gl) unsafe fn glPointParameterf(&mut self, pname: u32, param: f32) {
+        let value = floats([param]).filter(|_| param >= 0.0);
+        self.change(Change::Put(Key::Value(pname), value));
+    }
+
+    pub(in crate::gl) unsafe fn glPointParameteri(&mut self, pname: u32, _param: i32) {
+        self.change(Change::Put(Key::Value(pname), None));
+    }
+
+    pub(in crate::gl) unsafe fn glPointParameteriv(&mut self, pname: u32, _params: Ptr) {
+        self.change(Change::Put(Key::Value(pname), None));
+    }
+
+    pub(in crate::gl) unsafe fn glBindTexture(&mut self, target: u32, texture: u32) {
+        if let Some(binding) = texture_binding(target) {
+            self.change(Change::BindTexture(binding, texture));
+        }
+    }
+
+    pub(in crate::gl) unsafe fn glCallLists(&mut self, n: i32, kind: u32, lists: Ptr) {
+        let count = usize::try_from(n).unwrap_or(0);
+        let names = |size: usize| {
+            let bytes = (!lists.is_null()).then(|| {
+                // SAFETY: so many names of this size (the program's array).
+                unsafe {
+                    std::slice::from_raw_parts(lists.cast::<u8>(), count.saturating_mul(size))
+                }
+            });
+            bytes.unwrap_or_default().chunks_exact(size.max(1))
+        };
+        let names: Box<[u32]> = match kind {
+            c::UNSIGNED_BYTE => names(1).map(|b| u32::from(b[0])).collect(),
+            c::BYTE => names(1).map(|b| b[0] as i8 as u32).collect(),
+            c::UNSIGNED_SHORT => names(2)
+                .map(|b| u32::from(u16::from_ne_bytes([b[0], b[1]])))
+                .collect(),
+            c::SHORT => names(2)
+                .map(|b| i16::from_ne_bytes([b[0], b[1]]) as u32)
+                .collect(),
+            c::UNSIGNED_INT | c::INT => names(4)
+                .map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
+                .collect(),
+            _ => return self.change(Change::ForgetAll),
+        };
+        if self
+            .values
+            .get(&Key::Value(c::LIST_BASE))
+            .is_none_or(|entry| entry.value.is_none())
+        {
+            let base = self.integer(c::LIST_BASE);
+            self.answered(Key::Value(c::LIST_BASE), [base, 0, 0, 0]);
+        }
+        self.change(Change::CallLists(names));
+    }
+}

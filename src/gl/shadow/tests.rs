@@ -1,0 +1,301 @@
+//! What is kept of the state is what a driver has: random calls against a driver that answers as the specification says.
+
+use super::key::{Key, bits};
+use super::*;
+use crate::gl::fake::Fake;
+use crate::gl::{Gl, ProgramName, TextureName};
+
+/// Numbers that look random and are the same for the same seed (xorshift, Marsaglia 2003).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, end: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 % end
+    }
+}
+
+/// A shadow of a new context of a fake driver.
+fn shadow(fake: &Fake) -> ShadowOf {
+    let shadow = ShadowOf::new(fake.real(), Shared::default());
+    let mut inner = shadow.shadow.borrow_mut();
+    for (name, value) in [
+        (c::MAX_ATTRIB_STACK_DEPTH, 16),
+        (c::MAX_CLIENT_ATTRIB_STACK_DEPTH, 16),
+        (c::MAX_COMBINED_TEXTURE_IMAGE_UNITS, 32),
+        (c::MAX_TEXTURE_UNITS, 8),
+        (c::MAX_MODELVIEW_STACK_DEPTH, 32),
+    ] {
+        inner.constants.insert(name, [value, 0, 0, 0]);
+    }
+    inner.attribs.base = Some(0);
+    inner.client.base = Some(0);
+    inner.put(Key::Value(c::ACTIVE_TEXTURE), Some([c::TEXTURE0, 0, 0, 0]));
+    drop(inner);
+    shadow
+}
+
+/// Runs `work` while the shadow is that of the current context.
+fn current<R>(shadow: &ShadowOf, work: impl FnOnce() -> R) -> R {
+    // SAFETY: it lives until the next line but one.
+    unsafe { shadow.make_current() };
+    let done = work();
+    no_shadow();
+    done
+}
+
+fn known(shadow: &ShadowOf, key: Key) -> Option<[u32; 4]> {
+    shadow.shadow.borrow().values.get(&key)?.value
+}
+
+/// How often the driver was asked.
+fn asked(fake: &Fake, work: impl FnOnce(&Gl)) -> usize {
+    let gl = fake.gl();
+    fake.forget();
+    work(&gl);
+    fake.count("glGet*") + fake.count("glIs*")
+}
+
+#[test]
+fn a_value_is_asked_for_once() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || {
+        let questions = asked(&fake, |gl| {
+            assert_eq!(gl.get_integers(c::VIEWPORT), [0, 0, 64, 32]);
+            assert_eq!(gl.get_integers(c::VIEWPORT), [0, 0, 64, 32]);
+        });
+        assert_eq!(questions, 1);
+        let questions = asked(&fake, |gl| {
+            gl.viewport(1, 2, 3, 4);
+            assert_eq!(gl.get_integers(c::VIEWPORT), [1, 2, 3, 4]);
+            gl.enable(c::BLEND);
+            assert!(gl.is_enabled(c::BLEND) && gl.is_enabledi(c::BLEND, 3));
+            gl.disablei(c::BLEND, 3);
+            assert!(gl.is_enabledi(c::BLEND, 0) && !gl.is_enabledi(c::BLEND, 3));
+        });
+        assert_eq!(questions, 0);
+    });
+    // Without a shadow, each question reaches the driver.
+    let twice = asked(&fake, |gl| {
+        gl.get_integer(c::DEPTH_FUNC);
+        gl.get_integer(c::DEPTH_FUNC);
+    });
+    assert_eq!(twice, 2);
+}
+
+#[test]
+fn calls_that_a_driver_may_refuse_are_asked_about() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.get_integer(c::DEPTH_FUNC);
+        gl.depth_func(1);
+        assert_eq!(known(&shadow, Key::Value(c::DEPTH_FUNC)), None);
+        // The size is beyond what some drivers draw.
+        gl.viewport(0, 0, 100_000, 1);
+        assert_eq!(known(&shadow, Key::Value(c::VIEWPORT)), None);
+        // A name is known once the driver has bound it.
+        let bound = Key::Unit(c::TEXTURE_BINDING_2D, 0);
+        gl.bind_texture(c::TEXTURE_2D, TextureName(7));
+        assert_eq!(known(&shadow, bound), None);
+        shadow.shadow.borrow_mut().answered(bound, [7, 0, 0, 0]);
+        gl.bind_texture(c::TEXTURE_2D, TextureName(0));
+        gl.bind_texture(c::TEXTURE_2D, TextureName(7));
+        assert_eq!(known(&shadow, bound), Some([7, 0, 0, 0]));
+        gl.delete_texture(TextureName(7));
+        assert_eq!(known(&shadow, bound), None);
+        gl.bind_texture(c::TEXTURE_2D, TextureName(7));
+        assert_eq!(known(&shadow, bound), None, "it may be of another kind now");
+    });
+}
+
+#[test]
+fn between_begin_and_end_the_driver_is_the_judge() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.enable(c::BLEND);
+        gl.begin(c::POINTS);
+        gl.disable(c::BLEND);
+        gl.end();
+        assert_eq!(known(&shadow, Key::Cap(c::BLEND)), None);
+        gl.disable(c::BLEND);
+        assert_eq!(known(&shadow, Key::Cap(c::BLEND)), Some([0; 4]));
+    });
+}
+
+#[test]
+fn a_list_changes_the_state_when_it_is_called() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    let blends = || known(&shadow, Key::Cap(c::BLEND)).map(|[on, ..]| on);
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.disable(c::BLEND);
+        gl.new_list(crate::gl::ListName(5), c::COMPILE);
+        gl.enable(c::BLEND);
+        gl.end_list();
+        assert_eq!(blends(), Some(0));
+        gl.call_list(crate::gl::ListName(5));
+        assert_eq!(blends(), Some(1));
+        gl.delete_list(crate::gl::ListName(5));
+        gl.disable(c::BLEND);
+        gl.call_list(crate::gl::ListName(5));
+        assert_eq!(blends(), None, "whatever it does");
+    });
+}
+
+#[test]
+fn another_context_may_have_changed_it() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || fake.gl().enable(c::BLEND));
+    shadow.changed();
+    assert_eq!(
+        current(&shadow, || asked(&fake, |gl| _ = gl.is_enabled(c::BLEND))),
+        1
+    );
+}
+
+/// Values that glPushAttrib saves with different bits, one that it does not save, and one of which drivers do not agree.
+const VALUES: [(Key, u32, u32); 6] = [
+    (
+        Key::Cap(c::DEPTH_TEST),
+        c::DEPTH_BUFFER_BIT | bits::ENABLE,
+        0,
+    ),
+    (Key::Value(c::DEPTH_FUNC), c::DEPTH_BUFFER_BIT, 0),
+    (Key::Value(c::SCISSOR_BOX), bits::SCISSOR, 0),
+    (Key::Unit(c::TEXTURE_BINDING_2D, 3), bits::TEXTURE, 0),
+    (Key::Value(c::CURRENT_PROGRAM), 0, 0),
+    (Key::Cap(c::MULTISAMPLE), 0, u32::MAX),
+];
+
+/// The model saves all values at each push. What is kept is either what the model has, or unknown; and unknown only where the model says so.
+#[test]
+fn random_pushes_and_pops_are_those_of_a_model() {
+    let fake = Fake::new().window(64, 32);
+    let mut random = Random(0x5eed);
+    for _ in 0..300 {
+        let shadow = shadow(&fake);
+        let mut s = shadow.shadow.borrow_mut();
+        let mut model: [Option<u32>; 6] = [None; 6];
+        let mut stack: Vec<(u32, [Option<u32>; 6])> = Vec::new();
+        for _ in 0..60 {
+            match random.below(5) {
+                0 if stack.len() < 12 => {
+                    let mask = [
+                        c::DEPTH_BUFFER_BIT,
+                        bits::SCISSOR,
+                        bits::TEXTURE,
+                        bits::ENABLE,
+                        u32::MAX,
+                    ][random.below(5) as usize];
+                    s.change(Change::PushAttrib(mask));
+                    stack.push((mask, model));
+                }
+                1 => {
+                    if let Some((mask, saved)) = stack.pop() {
+                        s.change(Change::PopAttrib);
+                        for (at, (_, sure, maybe)) in VALUES.iter().enumerate() {
+                            if mask & sure != 0 {
+                                model[at] = saved[at];
+                            } else if mask & maybe != 0 && saved[at] != model[at] {
+                                model[at] = None;
+                            }
+                        }
+                    }
+                }
+                _ => {
+                    let at = random.below(6) as usize;
+                    let value = (random.below(8) > 0).then(|| random.below(4) as u32);
+                    s.change(Change::Put(VALUES[at].0, value.map(|v| [v, 0, 0, 0])));
+                    model[at] = value;
+                }
+            }
+            for (at, (key, _, maybe)) in VALUES.iter().enumerate() {
+                let kept = s.values.get(key).and_then(|entry| entry.value);
+                let kept = kept.map(|[value, ..]| value);
+                // Of those, a value that was set again to what it was counts as changed.
+                let unsure = *maybe != 0 && kept.is_none();
+                assert!(
+                    kept == model[at] || unsure,
+                    "{key:?}: {kept:?}, not {:?}",
+                    model[at]
+                );
+                if unsure {
+                    model[at] = None;
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn uniforms_are_those_that_were_set() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || {
+        let gl = fake.gl();
+        let program = ProgramName(3);
+        gl.use_program(program);
+        let used = Key::Value(c::CURRENT_PROGRAM);
+        shadow.shadow.borrow_mut().answered(used, [3, 0, 0, 0]);
+        // An array of two matrices, and a number behind it.
+        gl.keep_uniform(program, 4, 0x8B5C, 2);
+        gl.keep_uniform(program, 5, 0x8B5C, 1);
+        gl.keep_uniform(program, 6, c::FLOAT, 1);
+        let value = |at| shadow.shadow.borrow().uniforms.value(3, at);
+        let matrix: [f32; 16] = std::array::from_fn(|i| i as f32);
+        let before = gl.uniform_changes(program);
+        gl.set_uniform_matrix(4, &matrix);
+        assert_eq!(value(4), Some(matrix.map(f32::to_bits)));
+        assert!(
+            gl.is_uniform_unchanged(program, 6, before)
+                && !gl.is_uniform_unchanged(program, 4, before)
+        );
+        // More elements than there are: those behind the array are left alone.
+        let three = [[1.0f32; 16], [2.0; 16], [3.0; 16]].concat();
+        // SAFETY: as many values as it says.
+        unsafe { gl.real().glUniformMatrix4fv(4, 3, 0, three.as_ptr() as _) };
+        assert_eq!(value(5), Some([2.0f32.to_bits(); 16]));
+        assert_eq!(value(6), None);
+        gl.uniform_1f(6, 0.5);
+        assert_eq!(value(6).map(|v| v[0]), Some(0.5f32.to_bits()));
+        // The driver refuses a number of another type.
+        gl.uniform_1i(6, 1);
+        assert_eq!(value(6), None);
+        // SAFETY: one matrix.
+        unsafe { gl.real().glUniformMatrix4fv(4, 1, 1, matrix.as_ptr() as _) };
+        let transposed: [u32; 16] = std::array::from_fn(|i| ((i % 4 * 4 + i / 4) as f32).to_bits());
+        assert_eq!(value(4), Some(transposed));
+    });
+    // A context without a shadow may have set any.
+    fake.gl().uniform_1f(6, 0.25);
+    assert_eq!(shadow.shadow.borrow().uniforms.value(3, 4), None);
+}
+
+#[test]
+fn matrices_are_asked_for_until_they_are_proven() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.matrix_mode(c::PROJECTION);
+        let mut questions = Vec::new();
+        for at in 0..40 {
+            let matrix = [at as f32; 16];
+            questions.push(asked(&fake, |gl| {
+                gl.load_matrix(&matrix);
+                assert_eq!(gl.get_matrix(c::PROJECTION_MATRIX), matrix);
+            }));
+        }
+        assert_eq!(questions[0], 1);
+        assert_eq!(questions[39], 0);
+    });
+}
