@@ -282,7 +282,12 @@ impl Atlas {
             resolve,
             ..Atlas::plain(window, tiles.views)
         };
-        if status != c::FRAMEBUFFER_COMPLETE {
+        // A driver without memory may give no names.
+        let mut framebuffers = atlas.framebuffers();
+        let named = !atlas.textures.contains(&TextureName::ZERO)
+            && framebuffers.all(|name| !name.is_zero());
+        drop(framebuffers);
+        if status != c::FRAMEBUFFER_COMPLETE || !named {
             atlas.delete(gl);
             return Err(AtlasError::Incomplete {
                 views: tiles.views,

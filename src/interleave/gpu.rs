@@ -59,6 +59,8 @@ pub struct Interleaver {
     mask_texture: TextureName,
     uploaded: Option<Uploaded>,
     cpu: Option<String>,
+    errors: Vec<u32>,
+    refused: bool,
 }
 
 /// The contents of the mask's texture.
@@ -130,6 +132,8 @@ impl Interleaver {
             mask_texture: TextureName::ZERO,
             uploaded: None,
             cpu: None,
+            errors: Vec::new(),
+            refused: false,
         };
         let panels = Synthesis::ALL.into_iter().filter(|pass| match pass {
             // The first frame has no reference image, so it needs the pass without one.
@@ -171,6 +175,24 @@ impl Interleaver {
         self.cpu
             .as_ref()
             .map(|e| format!("pictures are interleaved by the CPU: {e}"))
+    }
+
+    /// Takes the errors that were found before the mask was uploaded: they are the program's, oldest first.
+    pub fn take_errors(&mut self) -> Vec<u32> {
+        std::mem::take(&mut self.errors)
+    }
+
+    /// Whether the driver has refused the mask. The picture that was drawn is wrong then.
+    pub fn is_mask_refused(&self) -> bool {
+        self.refused
+    }
+
+    /// The driver has refused the mask: the CPU computes the pictures from now on.
+    pub fn refuse_mask(&mut self, gl: &Gl) {
+        let programs = self.programs.drain(..);
+        programs.for_each(|(_, program)| gl.delete_program(program.name()));
+        (self.uploaded, self.refused) = (None, false);
+        self.cpu = Some("the driver takes no mask, perhaps for lack of memory".into());
     }
 
     /// The views that some subpixel of the last picture through a mask showed.
@@ -376,6 +398,9 @@ impl Interleaver {
             places.map_or(view, |tiles| tile_address(&tiles, view)) as u16
         });
         let [columns, rows] = sheet.period.map(|n| n as i32);
+        let errors = (0..16).map(|_| gl.get_error());
+        self.errors
+            .extend(errors.take_while(|&error| error != c::NO_ERROR));
         match &sheet.texels {
             sheet::Texels::Bytes(texels) => gl.tex_image_rgba8ui(pixels, columns, rows, texels),
             sheet::Texels::Words(texels) => gl.tex_image_rgba16ui(pixels, columns, rows, texels),
@@ -387,6 +412,7 @@ impl Interleaver {
         ] {
             gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
         }
+        self.refused = gl.drop_errors() > 0;
         self.uploaded = Some(Uploaded {
             of,
             places,

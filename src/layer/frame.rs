@@ -5,7 +5,7 @@ use crate::atlas::ViewSet;
 use crate::config::Output;
 use crate::display::Placement;
 use crate::gl::{FramebufferName, Gl, ListName, consts as c};
-use crate::interleave::{Depth, PanelPlacement, Source};
+use crate::interleave::{Depth, Interleaver, PanelPlacement, Source};
 use crate::present::capture;
 use crate::state::{BACK, FRONT, Neutral};
 use crate::view::ViewIndex;
@@ -224,15 +224,22 @@ impl Layer {
             if let Some(buffer) = buffer {
                 gl.draw_buffer(buffer);
             }
-            if let Err(e) = self.targets.interleaver.draw(
-                gl,
-                neutral,
-                self.session.config,
-                &source,
-                &mut |view| tile(gl, neutral, &self.targets.atlas, view),
-                output,
-                &panel,
-            ) {
+            let interleaver = &mut self.targets.interleaver;
+            let draw = |interleaver: &mut Interleaver| {
+                let tile = &mut |view| tile(gl, neutral, &self.targets.atlas, view);
+                let config = self.session.config;
+                interleaver.draw(gl, neutral, config, &source, tile, output, &panel)
+            };
+            let mut drawn = draw(interleaver);
+            self.state.keep(interleaver.take_errors());
+            if interleaver.is_mask_refused() {
+                interleaver.refuse_mask(gl);
+                drawn = draw(interleaver);
+                let said = interleaver.note().unwrap_or_default();
+                self.diagnostics.report.note(said.clone());
+                self.diagnostics.announced.push(said);
+            }
+            if let Err(e) = drawn {
                 self.diagnostics.report.note(e);
             }
             if buffer.is_some() {

@@ -1,0 +1,149 @@
+//! A driver that is out of memory: each object and store that the layer makes fails once, and then all of them from some on. The program goes
+//! on with its own picture, and nothing is said twice.
+//!
+//! tests/faults/fails.c is the driver. The program makes no objects but display lists, which it gets, so all that fails is the layer's.
+#![forbid(unsafe_code)]
+
+mod support;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use support::{Compiled, Screen, bare, built, demo, layered, library, own_screen, rgb};
+
+/// More objects than any strategy makes.
+const MOST: u32 = 400;
+
+/// The frame that a demo draws, and its stderr.
+#[track_caller]
+fn drawn(
+    mut command: Command,
+    screen: &Screen,
+    folder: &Path,
+    why: &str,
+) -> (image::RgbImage, String) {
+    let picture = folder.join("picture.png");
+    command
+        .args(["-k", "2", "20"])
+        .arg(demo("gears"))
+        .args(["--frames", "3", "--size", "160x120", "--check", "--dump"])
+        .arg(&picture);
+    let output = screen.give(&mut command).output().expect("it starts");
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        output.status.success(),
+        "{why}: {}\n{stderr}",
+        output.status
+    );
+    (rgb(&picture), stderr)
+}
+
+struct Faults {
+    screen: Screen,
+    folder: tempfile::TempDir,
+    behind: PathBuf,
+    expected: image::RgbImage,
+}
+
+impl Faults {
+    fn new() -> Self {
+        let source = Path::new("tests/faults/fails.c");
+        let behind = built("fails", &[source], Compiled::Library, &["-ldl"]);
+        let (screen, folder) = (own_screen(), tempfile::tempdir().expect("a folder"));
+        let (expected, _) = drawn(bare("timeout"), &screen, folder.path(), "bare");
+        Faults {
+            screen,
+            folder,
+            behind,
+            expected,
+        }
+    }
+
+    /// Runs the program with a fault. Returns the command that has failed; none where there were fewer calls.
+    #[track_caller]
+    fn with(&self, strategy: &str, variable: &str, number: u32) -> Option<String> {
+        let out = self.folder.path().join("failed");
+        let options = [("VIEWS", "5"), ("OUTPUT", "panel"), ("STRATEGY", strategy)];
+        let mut command = layered("timeout", &options);
+        let both = format!("{}:{}", library().display(), self.behind.display());
+        command
+            .env("LD_PRELOAD", both)
+            .env(variable, number.to_string())
+            .env("FAIL_OUT", &out);
+        let why = format!("{strategy}, {variable}={number}");
+        let (picture, stderr) = drawn(command, &self.screen, self.folder.path(), &why);
+        let failed = std::fs::read_to_string(&out).ok()?;
+        std::fs::remove_file(&out).expect("removed");
+        let over = manyview::metric::pixels_over(&self.expected, &picture, 0);
+        // Smaller views are tried first, and are stretched over what the program reads.
+        let smaller = stderr.contains("views of 80 x 60 are drawn");
+        assert!(
+            over == 0 || smaller,
+            "{why} ({failed}): {over} pixels of the frame differ; {stderr}"
+        );
+        let mut said: Vec<&str> = stderr
+            .lines()
+            .filter(|l| l.starts_with("manyview: "))
+            .collect();
+        assert!(
+            !stderr.contains("internal fault"),
+            "{why} ({failed}): {stderr}"
+        );
+        let lines = said.len();
+        said.sort_unstable();
+        said.dedup();
+        assert_eq!(said.len(), lines, "{why} ({failed}): said twice: {stderr}");
+        Some(failed)
+    }
+
+    #[track_caller]
+    fn each(&self, strategy: &str, variable: &str, step: u32) {
+        let mut seen = std::collections::BTreeSet::new();
+        let mut number = 1;
+        while let Some(failed) = self.with(strategy, variable, number) {
+            seen.insert(failed);
+            number += step;
+            assert!(number < MOST, "{strategy}: {number} objects");
+        }
+        assert!(seen.len() > 4, "{strategy}: only {seen:?} were made");
+    }
+}
+
+#[test]
+fn each_object_of_a_replay_fails_once() {
+    Faults::new().each("replay", "FAIL_AT", 1);
+}
+
+#[test]
+fn nothing_is_to_be_had_from_some_object_on() {
+    Faults::new().each("replay", "FAIL_FROM", 3);
+}
+
+#[test]
+#[ignore = "minutes: make test-long"]
+fn each_object_of_other_strategies_fails_once() {
+    let faults = Faults::new();
+    for strategy in [
+        "instanced",
+        "geometry",
+        "depth-image",
+        "occlusion",
+        "hybrid",
+    ] {
+        faults.each(strategy, "FAIL_AT", 1);
+    }
+}
+
+#[test]
+#[ignore = "minutes: make test-long"]
+fn nothing_is_to_be_had_for_other_strategies() {
+    let faults = Faults::new();
+    for strategy in [
+        "instanced",
+        "geometry",
+        "depth-image",
+        "occlusion",
+        "hybrid",
+    ] {
+        faults.each(strategy, "FAIL_FROM", 1);
+    }
+}
