@@ -151,7 +151,15 @@ pub(in crate::gl) fn is_enabled(cap: u32, ask: impl Fn() -> bool) -> bool {
 /// Whether a capability is on for an index.
 pub(in crate::gl) fn is_enabled_at(cap: u32, index: u32, ask: impl Fn() -> bool) -> bool {
     let kept = key::is_indexed(cap);
-    let key = |_: &mut Shadow| kept.then_some(Key::CapAt(cap, index));
+    // Only the driver knows of what was set before anything was kept.
+    let key = |s: &mut Shadow| match s.several {
+        true => kept.then_some(Key::CapAt(cap, index)),
+        false => s
+            .values
+            .contains_key(&Key::Cap(cap))
+            .then_some(Key::Cap(cap))
+            .filter(|_| kept && index == 0),
+    };
     by_key(key, || [ask().into(), 0, 0, 0])[0] != 0
 }
 

@@ -134,6 +134,11 @@ impl Shadow {
                 self.put(Key::UnitCap(cap, unit), Some([on.into(), 0, 0, 0]));
             }
             Change::EnableAt(cap, index, on) => {
+                if !std::mem::replace(&mut self.several, true) {
+                    for cap in key::INDEXED {
+                        (0..16).for_each(|index| self.put(Key::CapAt(cap, index), None));
+                    }
+                }
                 self.put(Key::CapAt(cap, index), Some([on.into(), 0, 0, 0]));
                 if index == 0 {
                     self.put(Key::Cap(cap), Some([on.into(), 0, 0, 0]));
@@ -210,10 +215,8 @@ impl Shadow {
             };
         }
         self.put(Key::Cap(cap), value);
-        if key::is_indexed(cap) {
-            for index in 0..16 {
-                self.put(Key::CapAt(cap, index), value);
-            }
+        if self.several && key::is_indexed(cap) {
+            (0..16).for_each(|index| self.put(Key::CapAt(cap, index), value));
         }
         if cap == c::COLOR_MATERIAL {
             // The material has followed the colour, or does so now.

@@ -229,7 +229,7 @@ impl Shadow {
     pub(in crate::gl) unsafe fn glLoadMatrixf(&mut self, m: Ptr) {
         // SAFETY: a matrix.
         if let Some(m) = unsafe { read::<f32, 16>(m) } {
-            self.change(Change::Matrix(Operation::Load(Box::new(m))));
+            self.change(Change::Matrix(Operation::Load(m)));
         }
     }
 
@@ -237,14 +237,14 @@ impl Shadow {
         // SAFETY: a matrix.
         if let Some(m) = unsafe { read::<f64, 16>(m) } {
             let m = m.map(|v| v as f32);
-            self.change(Change::Matrix(Operation::Load(Box::new(m))));
+            self.change(Change::Matrix(Operation::Load(m)));
         }
     }
 
     pub(in crate::gl) unsafe fn glMultMatrixf(&mut self, m: Ptr) {
         // SAFETY: a matrix.
         if let Some(m) = unsafe { read::<f32, 16>(m) } {
-            self.change(Change::Matrix(Operation::Multiply(Box::new(m))));
+            self.change(Change::Matrix(Operation::Multiply(m)));
         }
     }
 
@@ -252,7 +252,7 @@ impl Shadow {
         // SAFETY: a matrix.
         if let Some(m) = unsafe { read::<f64, 16>(m) } {
             let m = m.map(|v| v as f32);
-            self.change(Change::Matrix(Operation::Multiply(Box::new(m))));
+            self.change(Change::Matrix(Operation::Multiply(m)));
         }
     }
 
@@ -260,7 +260,7 @@ impl Shadow {
         // SAFETY: a matrix.
         if let Some(m) = unsafe { read::<f32, 16>(m) } {
             let m = std::array::from_fn(|at| m[at % 4 * 4 + at / 4]);
-            self.change(Change::Matrix(Operation::Load(Box::new(m))));
+            self.change(Change::Matrix(Operation::Load(m)));
         }
     }
 
@@ -268,7 +268,7 @@ impl Shadow {
         // SAFETY: a matrix.
         if let Some(m) = unsafe { read::<f64, 16>(m) } {
             let m = std::array::from_fn(|at| m[at % 4 * 4 + at / 4] as f32);
-            self.change(Change::Matrix(Operation::Load(Box::new(m))));
+            self.change(Change::Matrix(Operation::Load(m)));
         }
     }
 
@@ -276,7 +276,7 @@ impl Shadow {
         // SAFETY: a matrix.
         if let Some(m) = unsafe { read::<f32, 16>(m) } {
             let m = std::array::from_fn(|at| m[at % 4 * 4 + at / 4]);
-            self.change(Change::Matrix(Operation::Multiply(Box::new(m))));
+            self.change(Change::Matrix(Operation::Multiply(m)));
         }
     }
 
@@ -284,7 +284,7 @@ impl Shadow {
         // SAFETY: a matrix.
         if let Some(m) = unsafe { read::<f64, 16>(m) } {
             let m = std::array::from_fn(|at| m[at % 4 * 4 + at / 4] as f32);
-            self.change(Change::Matrix(Operation::Multiply(Box::new(m))));
+            self.change(Change::Matrix(Operation::Multiply(m)));
         }
     }
 

@@ -193,9 +193,12 @@ pub(super) fn is_of_unit(cap: u32) -> bool {
         || (c::TEXTURE_GEN_S..=c::TEXTURE_GEN_S + 3).contains(&cap)
 }
 
+/// Capabilities that have a value for each draw buffer or viewport.
+pub(super) const INDEXED: [u32; 2] = [c::BLEND, c::SCISSOR_TEST];
+
 /// Whether a capability has a value for each draw buffer or viewport.
 pub(super) fn is_indexed(cap: u32) -> bool {
-    [c::BLEND, c::SCISSOR_TEST].contains(&cap)
+    INDEXED.contains(&cap)
 }
 
 /// Whether a parameter of the material follows the colour while that is GL_COLOR_MATERIAL_PARAMETER.

@@ -21,8 +21,8 @@ pub(super) enum Mode {
 #[derive(Clone, Debug)]
 pub(super) enum Operation {
     Identity,
-    Load(Box<[f32; 16]>),
-    Multiply(Box<[f32; 16]>),
+    Load([f32; 16]),
+    Multiply([f32; 16]),
     Translate([f32; 3]),
     Scale([f32; 3]),
     /// Degrees, and the axis.
@@ -249,7 +249,7 @@ impl Matrices {
         *top = match (operation, *top) {
             _ if different => None,
             (Operation::Identity, _) => after(glam::Mat4::IDENTITY.to_cols_array(), 0, 0),
-            (Operation::Load(numbers), _) => after(**numbers, 0, 0),
+            (Operation::Load(numbers), _) => after(*numbers, 0, 0),
             (_, None) => None,
             (operation, Some(now)) => {
                 after(changed(&now.numbers, operation), now.unproven, now.kinds)
@@ -271,7 +271,7 @@ fn product(a: &[f32; 16], b: &[f32; 16]) -> [f32; 16] {
 fn changed(m: &[f32; 16], operation: &Operation) -> [f32; 16] {
     match *operation {
         Operation::Identity => glam::Mat4::IDENTITY.to_cols_array(),
-        Operation::Load(ref numbers) => **numbers,
+        Operation::Load(numbers) => numbers,
         Operation::Multiply(ref by) => product(m, by),
         Operation::Translate([x, y, z]) => {
             let mut moved = *m;

@@ -82,6 +82,8 @@ pub(super) struct Shadow {
     uniforms: UniformValues,
     /// Between glBegin and glEnd, where the driver refuses most calls.
     inside: bool,
+    /// Some capability was set by its index. Until then, none is kept by its index.
+    several: bool,
     /// While transform feedback is on, the driver may refuse other programs.
     feedback: bool,
 }
@@ -116,6 +118,7 @@ impl ShadowOf {
             lists: shared.lists,
             uniforms: shared.uniforms,
             inside: false,
+            several: false,
             feedback: false,
         };
         ShadowOf {
@@ -240,10 +243,13 @@ impl Shadow {
 
     /// Sets a value; none where it is not known. What was there before is saved for glPopAttrib.
     fn put(&mut self, key: Key, value: Option<[u32; 4]>) {
-        let mut entry = self.values.get(&key).copied().unwrap_or_default();
-        self.stack_of(key).save(key, &mut entry);
+        let stack = match key.is_of_client() {
+            true => &mut self.client,
+            false => &mut self.attribs,
+        };
+        let entry = self.values.entry(key).or_default();
+        stack.save(key, entry);
         entry.value = value;
-        self.values.insert(key, entry);
     }
 
     /// The stack that saves a value.

@@ -72,9 +72,9 @@ fn a_value_is_asked_for_once() {
             gl.viewport(1, 2, 3, 4);
             assert_eq!(gl.get_integers(c::VIEWPORT), [1, 2, 3, 4]);
             gl.enable(c::BLEND);
-            assert!(gl.is_enabled(c::BLEND) && gl.is_enabledi(c::BLEND, 3));
+            assert!(gl.is_enabled(c::BLEND) && gl.is_enabledi(c::BLEND, 0));
             gl.disablei(c::BLEND, 3);
-            assert!(gl.is_enabledi(c::BLEND, 0) && !gl.is_enabledi(c::BLEND, 3));
+            assert!(gl.is_enabled(c::BLEND) && !gl.is_enabledi(c::BLEND, 3));
         });
         assert_eq!(questions, 0);
     });
