@@ -13,6 +13,15 @@ use support::{Compiled, Screen, bare, built, demo, layered, library, own_screen,
 /// More objects than any strategy makes.
 const MOST: u32 = 400;
 
+/// The strategies beside replay.
+const OTHERS: [&str; 5] = [
+    "instanced",
+    "geometry",
+    "depth-image",
+    "occlusion",
+    "hybrid",
+];
+
 /// The frame that a demo draws, and its stderr.
 #[track_caller]
 fn drawn(
@@ -122,13 +131,7 @@ fn nothing_is_to_be_had_from_some_object_on() {
 #[ignore = "minutes: make test-long"]
 fn each_object_of_other_strategies_fails_once() {
     let faults = Faults::new();
-    for strategy in [
-        "instanced",
-        "geometry",
-        "depth-image",
-        "occlusion",
-        "hybrid",
-    ] {
+    for strategy in OTHERS {
         faults.each(strategy, "FAIL_AT", 1);
     }
 }
@@ -137,13 +140,7 @@ fn each_object_of_other_strategies_fails_once() {
 #[ignore = "minutes: make test-long"]
 fn nothing_is_to_be_had_for_other_strategies() {
     let faults = Faults::new();
-    for strategy in [
-        "instanced",
-        "geometry",
-        "depth-image",
-        "occlusion",
-        "hybrid",
-    ] {
+    for strategy in OTHERS {
         faults.each(strategy, "FAIL_FROM", 1);
     }
 }

@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1844] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1853] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1007,6 +1007,8 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1844] = [
     AtomicPtr::new(first_glVertexAttribDivisorNV as *mut ()),
     AtomicPtr::new(first_glVertexBindingDivisor as *mut ()),
     AtomicPtr::new(first_glVertexArrayBindingDivisor as *mut ()),
+    AtomicPtr::new(first_glVertexArrayVertexBindingDivisorEXT as *mut ()),
+    AtomicPtr::new(first_glVertexArrayVertexAttribDivisorEXT as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4dARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4dvARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4fARB as *mut ()),
@@ -1749,6 +1751,13 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1844] = [
     AtomicPtr::new(first_glEnableVertexAttribArrayARB as *mut ()),
     AtomicPtr::new(first_glDisableVertexAttribArray as *mut ()),
     AtomicPtr::new(first_glDisableVertexAttribArrayARB as *mut ()),
+    AtomicPtr::new(first_glVertexAttribBinding as *mut ()),
+    AtomicPtr::new(first_glVertexArrayAttribBinding as *mut ()),
+    AtomicPtr::new(first_glDisableVertexArrayAttrib as *mut ()),
+    AtomicPtr::new(first_glDisableVertexArrayAttribEXT as *mut ()),
+    AtomicPtr::new(first_glEnableVertexArrayAttrib as *mut ()),
+    AtomicPtr::new(first_glEnableVertexArrayAttribEXT as *mut ()),
+    AtomicPtr::new(first_glVertexArrayVertexAttribBindingEXT as *mut ()),
     AtomicPtr::new(first_glXChooseVisual as *mut ()),
     AtomicPtr::new(first_glXChooseFBConfig as *mut ()),
     AtomicPtr::new(first_glXChooseFBConfigSGIX as *mut ()),
@@ -1855,7 +1864,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1844] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1844] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1853] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2855,6 +2864,8 @@ pub(crate) static HOOK: [Option<crate::Address>; 1844] = [
     Some(crate::Address(hook_glVertexAttribDivisorNV as *const ())),
     Some(crate::Address(hook_glVertexBindingDivisor as *const ())),
     Some(crate::Address(hook_glVertexArrayBindingDivisor as *const ())),
+    Some(crate::Address(hook_glVertexArrayVertexBindingDivisorEXT as *const ())),
+    Some(crate::Address(hook_glVertexArrayVertexAttribDivisorEXT as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4dARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4dvARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4fARB as *const ())),
@@ -3597,6 +3608,13 @@ pub(crate) static HOOK: [Option<crate::Address>; 1844] = [
     Some(crate::Address(hook_glEnableVertexAttribArrayARB as *const ())),
     Some(crate::Address(hook_glDisableVertexAttribArray as *const ())),
     Some(crate::Address(hook_glDisableVertexAttribArrayARB as *const ())),
+    Some(crate::Address(hook_glVertexAttribBinding as *const ())),
+    Some(crate::Address(hook_glVertexArrayAttribBinding as *const ())),
+    Some(crate::Address(hook_glDisableVertexArrayAttrib as *const ())),
+    Some(crate::Address(hook_glDisableVertexArrayAttribEXT as *const ())),
+    Some(crate::Address(hook_glEnableVertexArrayAttrib as *const ())),
+    Some(crate::Address(hook_glEnableVertexArrayAttribEXT as *const ())),
+    Some(crate::Address(hook_glVertexArrayVertexAttribBindingEXT as *const ())),
     Some(crate::Address(hook_glXChooseVisual as *const ())),
     Some(crate::Address(hook_glXChooseFBConfig as *const ())),
     Some(crate::Address(hook_glXChooseFBConfigSGIX as *const ())),
@@ -3704,7 +3722,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1844] = [
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1844] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1853] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -4704,6 +4722,8 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1844] = [
     Some(zeros_glVertexAttribDivisorNV),
     Some(zeros_glVertexBindingDivisor),
     Some(zeros_glVertexArrayBindingDivisor),
+    Some(zeros_glVertexArrayVertexBindingDivisorEXT),
+    Some(zeros_glVertexArrayVertexAttribDivisorEXT),
     Some(zeros_glProgramEnvParameter4dARB),
     Some(zeros_glProgramEnvParameter4dvARB),
     Some(zeros_glProgramEnvParameter4fARB),
@@ -5446,6 +5466,13 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1844] = [
     Some(zeros_glEnableVertexAttribArrayARB),
     Some(zeros_glDisableVertexAttribArray),
     Some(zeros_glDisableVertexAttribArrayARB),
+    Some(zeros_glVertexAttribBinding),
+    Some(zeros_glVertexArrayAttribBinding),
+    Some(zeros_glDisableVertexArrayAttrib),
+    Some(zeros_glDisableVertexArrayAttribEXT),
+    Some(zeros_glEnableVertexArrayAttrib),
+    Some(zeros_glEnableVertexArrayAttribEXT),
+    Some(zeros_glVertexArrayVertexAttribBindingEXT),
     Some(zeros_glXChooseVisual),
     Some(zeros_glXChooseFBConfig),
     Some(zeros_glXChooseFBConfigSGIX),
@@ -5552,37 +5579,37 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1844] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
-    (b"OSMesaCreateContext", 1796, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1798, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1797, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1799, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1800, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1795, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglBindTexImage", 1777, crate::Address(eglBindTexImage as *const ())),
-    (b"eglCopyBuffers", 1774, crate::Address(eglCopyBuffers as *const ())),
-    (b"eglCreateContext", 1779, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1786, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1787, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1785, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1780, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1788, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1782, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1783, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1784, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1790, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1778, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglPostSubBufferNV", 1771, crate::Address(eglPostSubBufferNV as *const ())),
-    (b"eglReleaseThread", 1781, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1768, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersRegion2NOK", 1773, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
-    (b"eglSwapBuffersRegionNOK", 1772, crate::Address(eglSwapBuffersRegionNOK as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1770, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1769, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"eglTerminate", 1789, crate::Address(eglTerminate as *const ())),
-    (b"eglWaitClient", 1776, crate::Address(eglWaitClient as *const ())),
-    (b"eglWaitGL", 1775, crate::Address(eglWaitGL as *const ())),
-    (b"glAccum", 1392, crate::Address(glAccum as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1805] = [
+    (b"OSMesaCreateContext", 1805, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1807, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1806, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1808, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1809, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1804, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglBindTexImage", 1786, crate::Address(eglBindTexImage as *const ())),
+    (b"eglCopyBuffers", 1783, crate::Address(eglCopyBuffers as *const ())),
+    (b"eglCreateContext", 1788, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1795, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1796, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1794, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1789, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1797, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1791, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1792, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1793, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1799, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1787, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglPostSubBufferNV", 1780, crate::Address(eglPostSubBufferNV as *const ())),
+    (b"eglReleaseThread", 1790, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1777, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersRegion2NOK", 1782, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
+    (b"eglSwapBuffersRegionNOK", 1781, crate::Address(eglSwapBuffersRegionNOK as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1779, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1778, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"eglTerminate", 1798, crate::Address(eglTerminate as *const ())),
+    (b"eglWaitClient", 1785, crate::Address(eglWaitClient as *const ())),
+    (b"eglWaitGL", 1784, crate::Address(eglWaitGL as *const ())),
+    (b"glAccum", 1394, crate::Address(glAccum as *const ())),
     (b"glActiveStencilFaceEXT", 820, crate::Address(glActiveStencilFaceEXT as *const ())),
     (b"glActiveTexture", 555, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 556, crate::Address(glActiveTextureARB as *const ())),
@@ -5591,28 +5618,28 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
-    (b"glBeginConditionalRender", 1542, crate::Address(glBeginConditionalRender as *const ())),
-    (b"glBeginConditionalRenderNV", 1543, crate::Address(glBeginConditionalRenderNV as *const ())),
-    (b"glBeginQuery", 1550, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1551, crate::Address(glBeginQueryARB as *const ())),
-    (b"glBeginQueryEXT", 1535, crate::Address(glBeginQueryEXT as *const ())),
-    (b"glBeginQueryIndexed", 1547, crate::Address(glBeginQueryIndexed as *const ())),
+    (b"glBeginConditionalRender", 1544, crate::Address(glBeginConditionalRender as *const ())),
+    (b"glBeginConditionalRenderNV", 1545, crate::Address(glBeginConditionalRenderNV as *const ())),
+    (b"glBeginQuery", 1552, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1553, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginQueryEXT", 1537, crate::Address(glBeginQueryEXT as *const ())),
+    (b"glBeginQueryIndexed", 1549, crate::Address(glBeginQueryIndexed as *const ())),
     (b"glBeginTransformFeedback", 711, crate::Address(glBeginTransformFeedback as *const ())),
     (b"glBeginTransformFeedbackEXT", 712, crate::Address(glBeginTransformFeedbackEXT as *const ())),
     (b"glBeginTransformFeedbackNV", 713, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindBuffer", 1647, crate::Address(glBindBuffer as *const ())),
-    (b"glBindBufferARB", 1648, crate::Address(glBindBufferARB as *const ())),
-    (b"glBindBufferBase", 1649, crate::Address(glBindBufferBase as *const ())),
-    (b"glBindBufferBaseEXT", 1650, crate::Address(glBindBufferBaseEXT as *const ())),
-    (b"glBindBufferBaseNV", 1651, crate::Address(glBindBufferBaseNV as *const ())),
-    (b"glBindBufferRange", 1652, crate::Address(glBindBufferRange as *const ())),
-    (b"glBindBufferRangeEXT", 1653, crate::Address(glBindBufferRangeEXT as *const ())),
-    (b"glBindBufferRangeNV", 1654, crate::Address(glBindBufferRangeNV as *const ())),
-    (b"glBindBuffersBase", 1655, crate::Address(glBindBuffersBase as *const ())),
-    (b"glBindBuffersRange", 1656, crate::Address(glBindBuffersRange as *const ())),
+    (b"glBindBuffer", 1649, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1650, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindBufferBase", 1651, crate::Address(glBindBufferBase as *const ())),
+    (b"glBindBufferBaseEXT", 1652, crate::Address(glBindBufferBaseEXT as *const ())),
+    (b"glBindBufferBaseNV", 1653, crate::Address(glBindBufferBaseNV as *const ())),
+    (b"glBindBufferRange", 1654, crate::Address(glBindBufferRange as *const ())),
+    (b"glBindBufferRangeEXT", 1655, crate::Address(glBindBufferRangeEXT as *const ())),
+    (b"glBindBufferRangeNV", 1656, crate::Address(glBindBufferRangeNV as *const ())),
+    (b"glBindBuffersBase", 1657, crate::Address(glBindBuffersBase as *const ())),
+    (b"glBindBuffersRange", 1658, crate::Address(glBindBuffersRange as *const ())),
     (b"glBindFragmentShaderATI", 623, crate::Address(glBindFragmentShaderATI as *const ())),
-    (b"glBindFramebuffer", 1409, crate::Address(glBindFramebuffer as *const ())),
-    (b"glBindFramebufferEXT", 1410, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBindFramebuffer", 1411, crate::Address(glBindFramebuffer as *const ())),
+    (b"glBindFramebufferEXT", 1412, crate::Address(glBindFramebufferEXT as *const ())),
     (b"glBindImageTexture", 979, crate::Address(glBindImageTexture as *const ())),
     (b"glBindImageTextureEXT", 985, crate::Address(glBindImageTextureEXT as *const ())),
     (b"glBindImageTextures", 980, crate::Address(glBindImageTextures as *const ())),
@@ -5621,19 +5648,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glBindProgramNV", 606, crate::Address(glBindProgramNV as *const ())),
     (b"glBindProgramPipeline", 625, crate::Address(glBindProgramPipeline as *const ())),
     (b"glBindProgramPipelineEXT", 626, crate::Address(glBindProgramPipelineEXT as *const ())),
-    (b"glBindRenderbuffer", 1630, crate::Address(glBindRenderbuffer as *const ())),
-    (b"glBindRenderbufferEXT", 1642, crate::Address(glBindRenderbufferEXT as *const ())),
-    (b"glBindSampler", 1716, crate::Address(glBindSampler as *const ())),
-    (b"glBindSamplers", 1717, crate::Address(glBindSamplers as *const ())),
-    (b"glBindTexture", 1403, crate::Address(glBindTexture as *const ())),
-    (b"glBindTextureEXT", 1404, crate::Address(glBindTextureEXT as *const ())),
+    (b"glBindRenderbuffer", 1632, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindRenderbufferEXT", 1644, crate::Address(glBindRenderbufferEXT as *const ())),
+    (b"glBindSampler", 1718, crate::Address(glBindSampler as *const ())),
+    (b"glBindSamplers", 1719, crate::Address(glBindSamplers as *const ())),
+    (b"glBindTexture", 1405, crate::Address(glBindTexture as *const ())),
+    (b"glBindTextureEXT", 1406, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 558, crate::Address(glBindTextureUnit as *const ())),
     (b"glBindTextures", 557, crate::Address(glBindTextures as *const ())),
     (b"glBindTransformFeedback", 721, crate::Address(glBindTransformFeedback as *const ())),
     (b"glBindTransformFeedbackNV", 722, crate::Address(glBindTransformFeedbackNV as *const ())),
-    (b"glBindVertexArray", 1711, crate::Address(glBindVertexArray as *const ())),
-    (b"glBindVertexArrayOES", 1712, crate::Address(glBindVertexArrayOES as *const ())),
-    (b"glBitmap", 1393, crate::Address(glBitmap as *const ())),
+    (b"glBindVertexArray", 1713, crate::Address(glBindVertexArray as *const ())),
+    (b"glBindVertexArrayOES", 1714, crate::Address(glBindVertexArrayOES as *const ())),
+    (b"glBitmap", 1395, crate::Address(glBitmap as *const ())),
     (b"glBlendColor", 754, crate::Address(glBlendColor as *const ())),
     (b"glBlendColorEXT", 755, crate::Address(glBlendColorEXT as *const ())),
     (b"glBlendEquation", 740, crate::Address(glBlendEquation as *const ())),
@@ -5665,31 +5692,31 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glBlendFunciEXT", 738, crate::Address(glBlendFunciEXT as *const ())),
     (b"glBlendFunciOES", 739, crate::Address(glBlendFunciOES as *const ())),
     (b"glBlendParameteriNV", 829, crate::Address(glBlendParameteriNV as *const ())),
-    (b"glBlitFramebuffer", 1425, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferANGLE", 1534, crate::Address(glBlitFramebufferANGLE as *const ())),
-    (b"glBlitFramebufferEXT", 1426, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 1427, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 1428, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1659, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1660, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferStorage", 1662, crate::Address(glBufferStorage as *const ())),
-    (b"glBufferStorageEXT", 1663, crate::Address(glBufferStorageEXT as *const ())),
-    (b"glBufferSubData", 1666, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1667, crate::Address(glBufferSubDataARB as *const ())),
-    (b"glCallList", 1398, crate::Address(glCallList as *const ())),
-    (b"glCallLists", 1399, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1485, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1486, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glBlitFramebuffer", 1427, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferANGLE", 1536, crate::Address(glBlitFramebufferANGLE as *const ())),
+    (b"glBlitFramebufferEXT", 1428, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 1429, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 1430, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBufferData", 1661, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1662, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferStorage", 1664, crate::Address(glBufferStorage as *const ())),
+    (b"glBufferStorageEXT", 1665, crate::Address(glBufferStorageEXT as *const ())),
+    (b"glBufferSubData", 1668, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1669, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glCallList", 1400, crate::Address(glCallList as *const ())),
+    (b"glCallLists", 1401, crate::Address(glCallLists as *const ())),
+    (b"glCheckFramebufferStatus", 1487, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1488, crate::Address(glCheckFramebufferStatusEXT as *const ())),
     (b"glClampColor", 609, crate::Address(glClampColor as *const ())),
     (b"glClampColorARB", 610, crate::Address(glClampColorARB as *const ())),
-    (b"glClear", 1280, crate::Address(glClear as *const ())),
+    (b"glClear", 1282, crate::Address(glClear as *const ())),
     (b"glClearAccum", 756, crate::Address(glClearAccum as *const ())),
-    (b"glClearBufferData", 1683, crate::Address(glClearBufferData as *const ())),
-    (b"glClearBufferSubData", 1684, crate::Address(glClearBufferSubData as *const ())),
-    (b"glClearBufferfi", 1281, crate::Address(glClearBufferfi as *const ())),
-    (b"glClearBufferfv", 1282, crate::Address(glClearBufferfv as *const ())),
-    (b"glClearBufferiv", 1283, crate::Address(glClearBufferiv as *const ())),
-    (b"glClearBufferuiv", 1284, crate::Address(glClearBufferuiv as *const ())),
+    (b"glClearBufferData", 1685, crate::Address(glClearBufferData as *const ())),
+    (b"glClearBufferSubData", 1686, crate::Address(glClearBufferSubData as *const ())),
+    (b"glClearBufferfi", 1283, crate::Address(glClearBufferfi as *const ())),
+    (b"glClearBufferfv", 1284, crate::Address(glClearBufferfv as *const ())),
+    (b"glClearBufferiv", 1285, crate::Address(glClearBufferiv as *const ())),
+    (b"glClearBufferuiv", 1286, crate::Address(glClearBufferuiv as *const ())),
     (b"glClearColor", 757, crate::Address(glClearColor as *const ())),
     (b"glClearColorIiEXT", 815, crate::Address(glClearColorIiEXT as *const ())),
     (b"glClearColorIuiEXT", 816, crate::Address(glClearColorIuiEXT as *const ())),
@@ -5698,22 +5725,22 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glClearDepthf", 759, crate::Address(glClearDepthf as *const ())),
     (b"glClearDepthfOES", 760, crate::Address(glClearDepthfOES as *const ())),
     (b"glClearIndex", 761, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedBufferData", 1685, crate::Address(glClearNamedBufferData as *const ())),
-    (b"glClearNamedBufferDataEXT", 1676, crate::Address(glClearNamedBufferDataEXT as *const ())),
-    (b"glClearNamedBufferSubData", 1686, crate::Address(glClearNamedBufferSubData as *const ())),
-    (b"glClearNamedBufferSubDataEXT", 1677, crate::Address(glClearNamedBufferSubDataEXT as *const ())),
-    (b"glClearNamedFramebufferfi", 1432, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 1429, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 1430, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 1431, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearNamedBufferData", 1687, crate::Address(glClearNamedBufferData as *const ())),
+    (b"glClearNamedBufferDataEXT", 1678, crate::Address(glClearNamedBufferDataEXT as *const ())),
+    (b"glClearNamedBufferSubData", 1688, crate::Address(glClearNamedBufferSubData as *const ())),
+    (b"glClearNamedBufferSubDataEXT", 1679, crate::Address(glClearNamedBufferSubDataEXT as *const ())),
+    (b"glClearNamedFramebufferfi", 1434, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 1431, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 1432, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 1433, crate::Address(glClearNamedFramebufferuiv as *const ())),
     (b"glClearStencil", 762, crate::Address(glClearStencil as *const ())),
     (b"glClearTexImage", 880, crate::Address(glClearTexImage as *const ())),
     (b"glClearTexImageEXT", 881, crate::Address(glClearTexImageEXT as *const ())),
     (b"glClearTexSubImage", 882, crate::Address(glClearTexSubImage as *const ())),
     (b"glClearTexSubImageEXT", 883, crate::Address(glClearTexSubImageEXT as *const ())),
-    (b"glClientActiveTexture", 1722, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1723, crate::Address(glClientActiveTextureARB as *const ())),
-    (b"glClientAttribDefaultEXT", 1709, crate::Address(glClientAttribDefaultEXT as *const ())),
+    (b"glClientActiveTexture", 1724, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1725, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClientAttribDefaultEXT", 1711, crate::Address(glClientAttribDefaultEXT as *const ())),
     (b"glClipControl", 603, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 604, crate::Address(glClipControlEXT as *const ())),
     (b"glClipPlane", 763, crate::Address(glClipPlane as *const ())),
@@ -5763,7 +5790,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1725, crate::Address(glColorPointer as *const ())),
+    (b"glColorPointer", 1727, crate::Address(glColorPointer as *const ())),
     (b"glCompressedTexImage1D", 841, crate::Address(glCompressedTexImage1D as *const ())),
     (b"glCompressedTexImage1DARB", 842, crate::Address(glCompressedTexImage1DARB as *const ())),
     (b"glCompressedTexImage2D", 843, crate::Address(glCompressedTexImage2D as *const ())),
@@ -5787,72 +5814,72 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glCompressedTextureSubImage2DEXT", 900, crate::Address(glCompressedTextureSubImage2DEXT as *const ())),
     (b"glCompressedTextureSubImage3D", 874, crate::Address(glCompressedTextureSubImage3D as *const ())),
     (b"glCompressedTextureSubImage3DEXT", 901, crate::Address(glCompressedTextureSubImage3DEXT as *const ())),
-    (b"glCopyBufferSubData", 1678, crate::Address(glCopyBufferSubData as *const ())),
-    (b"glCopyBufferSubDataNV", 1679, crate::Address(glCopyBufferSubDataNV as *const ())),
-    (b"glCopyColorSubTable", 1531, crate::Address(glCopyColorSubTable as *const ())),
-    (b"glCopyColorSubTableEXT", 1532, crate::Address(glCopyColorSubTableEXT as *const ())),
-    (b"glCopyColorTable", 1519, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1520, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1521, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1522, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1523, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1524, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyBufferSubData", 1680, crate::Address(glCopyBufferSubData as *const ())),
+    (b"glCopyBufferSubDataNV", 1681, crate::Address(glCopyBufferSubDataNV as *const ())),
+    (b"glCopyColorSubTable", 1533, crate::Address(glCopyColorSubTable as *const ())),
+    (b"glCopyColorSubTableEXT", 1534, crate::Address(glCopyColorSubTableEXT as *const ())),
+    (b"glCopyColorTable", 1521, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1522, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1523, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1524, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1525, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1526, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
     (b"glCopyImageSubData", 973, crate::Address(glCopyImageSubData as *const ())),
     (b"glCopyImageSubDataEXT", 974, crate::Address(glCopyImageSubDataEXT as *const ())),
     (b"glCopyImageSubDataOES", 975, crate::Address(glCopyImageSubDataOES as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1515, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1516, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
-    (b"glCopyMultiTexSubImage1DEXT", 1528, crate::Address(glCopyMultiTexSubImage1DEXT as *const ())),
-    (b"glCopyMultiTexSubImage2DEXT", 1529, crate::Address(glCopyMultiTexSubImage2DEXT as *const ())),
-    (b"glCopyMultiTexSubImage3DEXT", 1530, crate::Address(glCopyMultiTexSubImage3DEXT as *const ())),
-    (b"glCopyNamedBufferSubData", 1680, crate::Address(glCopyNamedBufferSubData as *const ())),
-    (b"glCopyPixels", 1395, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1496, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1497, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1498, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1499, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1500, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1501, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1502, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1503, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1509, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1510, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTexSubImage3DOES", 1511, crate::Address(glCopyTexSubImage3DOES as *const ())),
-    (b"glCopyTextureImage1DEXT", 1517, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1518, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1512, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage1DEXT", 1525, crate::Address(glCopyTextureSubImage1DEXT as *const ())),
-    (b"glCopyTextureSubImage2D", 1513, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage2DEXT", 1526, crate::Address(glCopyTextureSubImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage3D", 1514, crate::Address(glCopyTextureSubImage3D as *const ())),
-    (b"glCopyTextureSubImage3DEXT", 1527, crate::Address(glCopyTextureSubImage3DEXT as *const ())),
-    (b"glCoverFillPathInstancedNV", 1370, crate::Address(glCoverFillPathInstancedNV as *const ())),
-    (b"glCoverFillPathNV", 1371, crate::Address(glCoverFillPathNV as *const ())),
-    (b"glCoverStrokePathInstancedNV", 1372, crate::Address(glCoverStrokePathInstancedNV as *const ())),
-    (b"glCoverStrokePathNV", 1373, crate::Address(glCoverStrokePathNV as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1517, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1518, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyMultiTexSubImage1DEXT", 1530, crate::Address(glCopyMultiTexSubImage1DEXT as *const ())),
+    (b"glCopyMultiTexSubImage2DEXT", 1531, crate::Address(glCopyMultiTexSubImage2DEXT as *const ())),
+    (b"glCopyMultiTexSubImage3DEXT", 1532, crate::Address(glCopyMultiTexSubImage3DEXT as *const ())),
+    (b"glCopyNamedBufferSubData", 1682, crate::Address(glCopyNamedBufferSubData as *const ())),
+    (b"glCopyPixels", 1397, crate::Address(glCopyPixels as *const ())),
+    (b"glCopyTexImage1D", 1498, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1499, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1500, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1501, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1502, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1503, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1504, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1505, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1511, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1512, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTexSubImage3DOES", 1513, crate::Address(glCopyTexSubImage3DOES as *const ())),
+    (b"glCopyTextureImage1DEXT", 1519, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1520, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1514, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage1DEXT", 1527, crate::Address(glCopyTextureSubImage1DEXT as *const ())),
+    (b"glCopyTextureSubImage2D", 1515, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage2DEXT", 1528, crate::Address(glCopyTextureSubImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage3D", 1516, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCopyTextureSubImage3DEXT", 1529, crate::Address(glCopyTextureSubImage3DEXT as *const ())),
+    (b"glCoverFillPathInstancedNV", 1372, crate::Address(glCoverFillPathInstancedNV as *const ())),
+    (b"glCoverFillPathNV", 1373, crate::Address(glCoverFillPathNV as *const ())),
+    (b"glCoverStrokePathInstancedNV", 1374, crate::Address(glCoverStrokePathInstancedNV as *const ())),
+    (b"glCoverStrokePathNV", 1375, crate::Address(glCoverStrokePathNV as *const ())),
     (b"glCreateTextures", 969, crate::Address(glCreateTextures as *const ())),
     (b"glCullFace", 769, crate::Address(glCullFace as *const ())),
-    (b"glDebugMessageCallback", 1596, crate::Address(glDebugMessageCallback as *const ())),
-    (b"glDebugMessageCallbackARB", 1597, crate::Address(glDebugMessageCallbackARB as *const ())),
-    (b"glDebugMessageCallbackKHR", 1598, crate::Address(glDebugMessageCallbackKHR as *const ())),
-    (b"glDeleteBuffers", 1657, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1658, crate::Address(glDeleteBuffersARB as *const ())),
-    (b"glDeleteFramebuffers", 1411, crate::Address(glDeleteFramebuffers as *const ())),
-    (b"glDeleteFramebuffersEXT", 1412, crate::Address(glDeleteFramebuffersEXT as *const ())),
-    (b"glDeleteLists", 1400, crate::Address(glDeleteLists as *const ())),
-    (b"glDeleteProgram", 1278, crate::Address(glDeleteProgram as *const ())),
-    (b"glDeleteProgramPipelines", 1719, crate::Address(glDeleteProgramPipelines as *const ())),
-    (b"glDeleteQueries", 1554, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1555, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteRenderbuffers", 1645, crate::Address(glDeleteRenderbuffers as *const ())),
-    (b"glDeleteRenderbuffersEXT", 1646, crate::Address(glDeleteRenderbuffersEXT as *const ())),
-    (b"glDeleteSamplers", 1718, crate::Address(glDeleteSamplers as *const ())),
-    (b"glDeleteTextures", 1405, crate::Address(glDeleteTextures as *const ())),
+    (b"glDebugMessageCallback", 1598, crate::Address(glDebugMessageCallback as *const ())),
+    (b"glDebugMessageCallbackARB", 1599, crate::Address(glDebugMessageCallbackARB as *const ())),
+    (b"glDebugMessageCallbackKHR", 1600, crate::Address(glDebugMessageCallbackKHR as *const ())),
+    (b"glDeleteBuffers", 1659, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1660, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteFramebuffers", 1413, crate::Address(glDeleteFramebuffers as *const ())),
+    (b"glDeleteFramebuffersEXT", 1414, crate::Address(glDeleteFramebuffersEXT as *const ())),
+    (b"glDeleteLists", 1402, crate::Address(glDeleteLists as *const ())),
+    (b"glDeleteProgram", 1280, crate::Address(glDeleteProgram as *const ())),
+    (b"glDeleteProgramPipelines", 1721, crate::Address(glDeleteProgramPipelines as *const ())),
+    (b"glDeleteQueries", 1556, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1557, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1647, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1648, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteSamplers", 1720, crate::Address(glDeleteSamplers as *const ())),
+    (b"glDeleteTextures", 1407, crate::Address(glDeleteTextures as *const ())),
     (b"glDeleteTransformFeedbacks", 723, crate::Address(glDeleteTransformFeedbacks as *const ())),
     (b"glDeleteTransformFeedbacksNV", 724, crate::Address(glDeleteTransformFeedbacksNV as *const ())),
-    (b"glDeleteVertexArrays", 1713, crate::Address(glDeleteVertexArrays as *const ())),
-    (b"glDeleteVertexArraysAPPLE", 1714, crate::Address(glDeleteVertexArraysAPPLE as *const ())),
-    (b"glDeleteVertexArraysOES", 1715, crate::Address(glDeleteVertexArraysOES as *const ())),
+    (b"glDeleteVertexArrays", 1715, crate::Address(glDeleteVertexArrays as *const ())),
+    (b"glDeleteVertexArraysAPPLE", 1716, crate::Address(glDeleteVertexArraysAPPLE as *const ())),
+    (b"glDeleteVertexArraysOES", 1717, crate::Address(glDeleteVertexArraysOES as *const ())),
     (b"glDepthBoundsEXT", 770, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthBoundsdNV", 818, crate::Address(glDepthBoundsdNV as *const ())),
     (b"glDepthFunc", 542, crate::Address(glDepthFunc as *const ())),
@@ -5870,107 +5897,111 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glDepthRangef", 544, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 545, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 530, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1721, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientState", 1723, crate::Address(glDisableClientState as *const ())),
     (b"glDisableClientStateiEXT", 621, crate::Address(glDisableClientStateiEXT as *const ())),
     (b"glDisableIndexedEXT", 537, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1739, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1740, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexArrayAttrib", 1745, crate::Address(glDisableVertexArrayAttrib as *const ())),
+    (b"glDisableVertexArrayAttribEXT", 1746, crate::Address(glDisableVertexArrayAttribEXT as *const ())),
+    (b"glDisableVertexAttribArray", 1741, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1742, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 536, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 538, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 539, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 540, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1491, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDiscardFramebufferEXT", 1493, crate::Address(glDiscardFramebufferEXT as *const ())),
     (b"glDispatchCompute", 989, crate::Address(glDispatchCompute as *const ())),
     (b"glDispatchComputeGroupSizeARB", 991, crate::Address(glDispatchComputeGroupSizeARB as *const ())),
     (b"glDispatchComputeIndirect", 990, crate::Address(glDispatchComputeIndirect as *const ())),
-    (b"glDrawArrays", 1285, crate::Address(glDrawArrays as *const ())),
-    (b"glDrawArraysEXT", 1286, crate::Address(glDrawArraysEXT as *const ())),
-    (b"glDrawArraysIndirect", 1321, crate::Address(glDrawArraysIndirect as *const ())),
-    (b"glDrawArraysInstanced", 1302, crate::Address(glDrawArraysInstanced as *const ())),
-    (b"glDrawArraysInstancedANGLE", 1303, crate::Address(glDrawArraysInstancedANGLE as *const ())),
-    (b"glDrawArraysInstancedARB", 1304, crate::Address(glDrawArraysInstancedARB as *const ())),
-    (b"glDrawArraysInstancedBaseInstance", 1315, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
-    (b"glDrawArraysInstancedBaseInstanceEXT", 1316, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawArraysInstancedEXT", 1305, crate::Address(glDrawArraysInstancedEXT as *const ())),
-    (b"glDrawArraysInstancedNV", 1306, crate::Address(glDrawArraysInstancedNV as *const ())),
-    (b"glDrawBuffer", 1413, crate::Address(glDrawBuffer as *const ())),
-    (b"glDrawBuffers", 1414, crate::Address(glDrawBuffers as *const ())),
-    (b"glDrawBuffersARB", 1415, crate::Address(glDrawBuffersARB as *const ())),
-    (b"glDrawBuffersATI", 1416, crate::Address(glDrawBuffersATI as *const ())),
-    (b"glDrawBuffersEXT", 1417, crate::Address(glDrawBuffersEXT as *const ())),
-    (b"glDrawElementArrayAPPLE", 1360, crate::Address(glDrawElementArrayAPPLE as *const ())),
-    (b"glDrawElementArrayATI", 1364, crate::Address(glDrawElementArrayATI as *const ())),
-    (b"glDrawElements", 1287, crate::Address(glDrawElements as *const ())),
-    (b"glDrawElementsBaseVertex", 1294, crate::Address(glDrawElementsBaseVertex as *const ())),
-    (b"glDrawElementsBaseVertexEXT", 1295, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
-    (b"glDrawElementsBaseVertexOES", 1296, crate::Address(glDrawElementsBaseVertexOES as *const ())),
-    (b"glDrawElementsIndirect", 1322, crate::Address(glDrawElementsIndirect as *const ())),
-    (b"glDrawElementsInstanced", 1307, crate::Address(glDrawElementsInstanced as *const ())),
-    (b"glDrawElementsInstancedANGLE", 1308, crate::Address(glDrawElementsInstancedANGLE as *const ())),
-    (b"glDrawElementsInstancedARB", 1309, crate::Address(glDrawElementsInstancedARB as *const ())),
-    (b"glDrawElementsInstancedBaseInstance", 1317, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseInstanceEXT", 1318, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertex", 1312, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1319, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1320, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexEXT", 1313, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexOES", 1314, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
-    (b"glDrawElementsInstancedEXT", 1310, crate::Address(glDrawElementsInstancedEXT as *const ())),
-    (b"glDrawElementsInstancedNV", 1311, crate::Address(glDrawElementsInstancedNV as *const ())),
-    (b"glDrawMeshArraysSUN", 1366, crate::Address(glDrawMeshArraysSUN as *const ())),
-    (b"glDrawMeshTasksIndirectNV", 1356, crate::Address(glDrawMeshTasksIndirectNV as *const ())),
-    (b"glDrawMeshTasksNV", 1357, crate::Address(glDrawMeshTasksNV as *const ())),
-    (b"glDrawPixels", 1394, crate::Address(glDrawPixels as *const ())),
-    (b"glDrawRangeElementArrayAPPLE", 1361, crate::Address(glDrawRangeElementArrayAPPLE as *const ())),
-    (b"glDrawRangeElementArrayATI", 1365, crate::Address(glDrawRangeElementArrayATI as *const ())),
-    (b"glDrawRangeElements", 1288, crate::Address(glDrawRangeElements as *const ())),
-    (b"glDrawRangeElementsBaseVertex", 1297, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
-    (b"glDrawRangeElementsBaseVertexEXT", 1298, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
-    (b"glDrawRangeElementsBaseVertexOES", 1299, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
-    (b"glDrawRangeElementsEXT", 1289, crate::Address(glDrawRangeElementsEXT as *const ())),
-    (b"glDrawTexfOES", 1382, crate::Address(glDrawTexfOES as *const ())),
-    (b"glDrawTexfvOES", 1383, crate::Address(glDrawTexfvOES as *const ())),
-    (b"glDrawTexiOES", 1384, crate::Address(glDrawTexiOES as *const ())),
-    (b"glDrawTexivOES", 1385, crate::Address(glDrawTexivOES as *const ())),
-    (b"glDrawTexsOES", 1386, crate::Address(glDrawTexsOES as *const ())),
-    (b"glDrawTexsvOES", 1387, crate::Address(glDrawTexsvOES as *const ())),
-    (b"glDrawTextureNV", 1367, crate::Address(glDrawTextureNV as *const ())),
-    (b"glDrawTexxOES", 1388, crate::Address(glDrawTexxOES as *const ())),
-    (b"glDrawTexxvOES", 1389, crate::Address(glDrawTexxvOES as *const ())),
-    (b"glDrawTransformFeedback", 1329, crate::Address(glDrawTransformFeedback as *const ())),
-    (b"glDrawTransformFeedbackEXT", 1330, crate::Address(glDrawTransformFeedbackEXT as *const ())),
-    (b"glDrawTransformFeedbackInstanced", 1332, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
-    (b"glDrawTransformFeedbackInstancedEXT", 1333, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
-    (b"glDrawTransformFeedbackNV", 1331, crate::Address(glDrawTransformFeedbackNV as *const ())),
-    (b"glDrawTransformFeedbackStream", 1334, crate::Address(glDrawTransformFeedbackStream as *const ())),
-    (b"glDrawTransformFeedbackStreamInstanced", 1335, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
-    (b"glDrawVkImageNV", 1368, crate::Address(glDrawVkImageNV as *const ())),
-    (b"glEGLImageTargetRenderbufferStorageOES", 1636, crate::Address(glEGLImageTargetRenderbufferStorageOES as *const ())),
+    (b"glDrawArrays", 1287, crate::Address(glDrawArrays as *const ())),
+    (b"glDrawArraysEXT", 1288, crate::Address(glDrawArraysEXT as *const ())),
+    (b"glDrawArraysIndirect", 1323, crate::Address(glDrawArraysIndirect as *const ())),
+    (b"glDrawArraysInstanced", 1304, crate::Address(glDrawArraysInstanced as *const ())),
+    (b"glDrawArraysInstancedANGLE", 1305, crate::Address(glDrawArraysInstancedANGLE as *const ())),
+    (b"glDrawArraysInstancedARB", 1306, crate::Address(glDrawArraysInstancedARB as *const ())),
+    (b"glDrawArraysInstancedBaseInstance", 1317, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
+    (b"glDrawArraysInstancedBaseInstanceEXT", 1318, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawArraysInstancedEXT", 1307, crate::Address(glDrawArraysInstancedEXT as *const ())),
+    (b"glDrawArraysInstancedNV", 1308, crate::Address(glDrawArraysInstancedNV as *const ())),
+    (b"glDrawBuffer", 1415, crate::Address(glDrawBuffer as *const ())),
+    (b"glDrawBuffers", 1416, crate::Address(glDrawBuffers as *const ())),
+    (b"glDrawBuffersARB", 1417, crate::Address(glDrawBuffersARB as *const ())),
+    (b"glDrawBuffersATI", 1418, crate::Address(glDrawBuffersATI as *const ())),
+    (b"glDrawBuffersEXT", 1419, crate::Address(glDrawBuffersEXT as *const ())),
+    (b"glDrawElementArrayAPPLE", 1362, crate::Address(glDrawElementArrayAPPLE as *const ())),
+    (b"glDrawElementArrayATI", 1366, crate::Address(glDrawElementArrayATI as *const ())),
+    (b"glDrawElements", 1289, crate::Address(glDrawElements as *const ())),
+    (b"glDrawElementsBaseVertex", 1296, crate::Address(glDrawElementsBaseVertex as *const ())),
+    (b"glDrawElementsBaseVertexEXT", 1297, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
+    (b"glDrawElementsBaseVertexOES", 1298, crate::Address(glDrawElementsBaseVertexOES as *const ())),
+    (b"glDrawElementsIndirect", 1324, crate::Address(glDrawElementsIndirect as *const ())),
+    (b"glDrawElementsInstanced", 1309, crate::Address(glDrawElementsInstanced as *const ())),
+    (b"glDrawElementsInstancedANGLE", 1310, crate::Address(glDrawElementsInstancedANGLE as *const ())),
+    (b"glDrawElementsInstancedARB", 1311, crate::Address(glDrawElementsInstancedARB as *const ())),
+    (b"glDrawElementsInstancedBaseInstance", 1319, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseInstanceEXT", 1320, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertex", 1314, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1321, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1322, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexEXT", 1315, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexOES", 1316, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
+    (b"glDrawElementsInstancedEXT", 1312, crate::Address(glDrawElementsInstancedEXT as *const ())),
+    (b"glDrawElementsInstancedNV", 1313, crate::Address(glDrawElementsInstancedNV as *const ())),
+    (b"glDrawMeshArraysSUN", 1368, crate::Address(glDrawMeshArraysSUN as *const ())),
+    (b"glDrawMeshTasksIndirectNV", 1358, crate::Address(glDrawMeshTasksIndirectNV as *const ())),
+    (b"glDrawMeshTasksNV", 1359, crate::Address(glDrawMeshTasksNV as *const ())),
+    (b"glDrawPixels", 1396, crate::Address(glDrawPixels as *const ())),
+    (b"glDrawRangeElementArrayAPPLE", 1363, crate::Address(glDrawRangeElementArrayAPPLE as *const ())),
+    (b"glDrawRangeElementArrayATI", 1367, crate::Address(glDrawRangeElementArrayATI as *const ())),
+    (b"glDrawRangeElements", 1290, crate::Address(glDrawRangeElements as *const ())),
+    (b"glDrawRangeElementsBaseVertex", 1299, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
+    (b"glDrawRangeElementsBaseVertexEXT", 1300, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
+    (b"glDrawRangeElementsBaseVertexOES", 1301, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
+    (b"glDrawRangeElementsEXT", 1291, crate::Address(glDrawRangeElementsEXT as *const ())),
+    (b"glDrawTexfOES", 1384, crate::Address(glDrawTexfOES as *const ())),
+    (b"glDrawTexfvOES", 1385, crate::Address(glDrawTexfvOES as *const ())),
+    (b"glDrawTexiOES", 1386, crate::Address(glDrawTexiOES as *const ())),
+    (b"glDrawTexivOES", 1387, crate::Address(glDrawTexivOES as *const ())),
+    (b"glDrawTexsOES", 1388, crate::Address(glDrawTexsOES as *const ())),
+    (b"glDrawTexsvOES", 1389, crate::Address(glDrawTexsvOES as *const ())),
+    (b"glDrawTextureNV", 1369, crate::Address(glDrawTextureNV as *const ())),
+    (b"glDrawTexxOES", 1390, crate::Address(glDrawTexxOES as *const ())),
+    (b"glDrawTexxvOES", 1391, crate::Address(glDrawTexxvOES as *const ())),
+    (b"glDrawTransformFeedback", 1331, crate::Address(glDrawTransformFeedback as *const ())),
+    (b"glDrawTransformFeedbackEXT", 1332, crate::Address(glDrawTransformFeedbackEXT as *const ())),
+    (b"glDrawTransformFeedbackInstanced", 1334, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
+    (b"glDrawTransformFeedbackInstancedEXT", 1335, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
+    (b"glDrawTransformFeedbackNV", 1333, crate::Address(glDrawTransformFeedbackNV as *const ())),
+    (b"glDrawTransformFeedbackStream", 1336, crate::Address(glDrawTransformFeedbackStream as *const ())),
+    (b"glDrawTransformFeedbackStreamInstanced", 1337, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
+    (b"glDrawVkImageNV", 1370, crate::Address(glDrawVkImageNV as *const ())),
+    (b"glEGLImageTargetRenderbufferStorageOES", 1638, crate::Address(glEGLImageTargetRenderbufferStorageOES as *const ())),
     (b"glEGLImageTargetTexStorageEXT", 933, crate::Address(glEGLImageTargetTexStorageEXT as *const ())),
     (b"glEGLImageTargetTexture2DOES", 868, crate::Address(glEGLImageTargetTexture2DOES as *const ())),
     (b"glEGLImageTargetTextureStorageEXT", 921, crate::Address(glEGLImageTargetTextureStorageEXT as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1730, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1732, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 529, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1720, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientState", 1722, crate::Address(glEnableClientState as *const ())),
     (b"glEnableClientStateiEXT", 622, crate::Address(glEnableClientStateiEXT as *const ())),
     (b"glEnableIndexedEXT", 532, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1737, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1738, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexArrayAttrib", 1747, crate::Address(glEnableVertexArrayAttrib as *const ())),
+    (b"glEnableVertexArrayAttribEXT", 1748, crate::Address(glEnableVertexArrayAttribEXT as *const ())),
+    (b"glEnableVertexAttribArray", 1739, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1740, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 531, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 533, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 534, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 535, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
-    (b"glEndConditionalRender", 1544, crate::Address(glEndConditionalRender as *const ())),
-    (b"glEndConditionalRenderNV", 1545, crate::Address(glEndConditionalRenderNV as *const ())),
-    (b"glEndConditionalRenderNVX", 1546, crate::Address(glEndConditionalRenderNVX as *const ())),
-    (b"glEndList", 1397, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1552, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1553, crate::Address(glEndQueryARB as *const ())),
-    (b"glEndQueryEXT", 1536, crate::Address(glEndQueryEXT as *const ())),
-    (b"glEndQueryIndexed", 1548, crate::Address(glEndQueryIndexed as *const ())),
+    (b"glEndConditionalRender", 1546, crate::Address(glEndConditionalRender as *const ())),
+    (b"glEndConditionalRenderNV", 1547, crate::Address(glEndConditionalRenderNV as *const ())),
+    (b"glEndConditionalRenderNVX", 1548, crate::Address(glEndConditionalRenderNVX as *const ())),
+    (b"glEndList", 1399, crate::Address(glEndList as *const ())),
+    (b"glEndQuery", 1554, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1555, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndQueryEXT", 1538, crate::Address(glEndQueryEXT as *const ())),
+    (b"glEndQueryIndexed", 1550, crate::Address(glEndQueryIndexed as *const ())),
     (b"glEndTransformFeedback", 714, crate::Address(glEndTransformFeedback as *const ())),
     (b"glEndTransformFeedbackEXT", 715, crate::Address(glEndTransformFeedbackEXT as *const ())),
     (b"glEndTransformFeedbackNV", 716, crate::Address(glEndTransformFeedbackNV as *const ())),
@@ -5982,22 +6013,22 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glEvalCoord2dv", 255, crate::Address(glEvalCoord2dv as *const ())),
     (b"glEvalCoord2f", 256, crate::Address(glEvalCoord2f as *const ())),
     (b"glEvalCoord2fv", 257, crate::Address(glEvalCoord2fv as *const ())),
-    (b"glEvalMapsNV", 1369, crate::Address(glEvalMapsNV as *const ())),
-    (b"glEvalMesh1", 1344, crate::Address(glEvalMesh1 as *const ())),
-    (b"glEvalMesh2", 1345, crate::Address(glEvalMesh2 as *const ())),
+    (b"glEvalMapsNV", 1371, crate::Address(glEvalMapsNV as *const ())),
+    (b"glEvalMesh1", 1346, crate::Address(glEvalMesh1 as *const ())),
+    (b"glEvalMesh2", 1347, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 258, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 259, crate::Address(glEvalPoint2 as *const ())),
-    (b"glEvaluateDepthValuesARB", 1643, crate::Address(glEvaluateDepthValuesARB as *const ())),
-    (b"glFeedbackBuffer", 1623, crate::Address(glFeedbackBuffer as *const ())),
-    (b"glFinish", 1539, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1540, crate::Address(glFlush as *const ())),
-    (b"glFlushMappedBufferRange", 1698, crate::Address(glFlushMappedBufferRange as *const ())),
-    (b"glFlushMappedBufferRangeAPPLE", 1699, crate::Address(glFlushMappedBufferRangeAPPLE as *const ())),
-    (b"glFlushMappedBufferRangeEXT", 1700, crate::Address(glFlushMappedBufferRangeEXT as *const ())),
-    (b"glFlushMappedNamedBufferRange", 1701, crate::Address(glFlushMappedNamedBufferRange as *const ())),
-    (b"glFlushMappedNamedBufferRangeEXT", 1674, crate::Address(glFlushMappedNamedBufferRangeEXT as *const ())),
-    (b"glFogCoordPointer", 1731, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1732, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glEvaluateDepthValuesARB", 1645, crate::Address(glEvaluateDepthValuesARB as *const ())),
+    (b"glFeedbackBuffer", 1625, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFinish", 1541, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1542, crate::Address(glFlush as *const ())),
+    (b"glFlushMappedBufferRange", 1700, crate::Address(glFlushMappedBufferRange as *const ())),
+    (b"glFlushMappedBufferRangeAPPLE", 1701, crate::Address(glFlushMappedBufferRangeAPPLE as *const ())),
+    (b"glFlushMappedBufferRangeEXT", 1702, crate::Address(glFlushMappedBufferRangeEXT as *const ())),
+    (b"glFlushMappedNamedBufferRange", 1703, crate::Address(glFlushMappedNamedBufferRange as *const ())),
+    (b"glFlushMappedNamedBufferRangeEXT", 1676, crate::Address(glFlushMappedNamedBufferRangeEXT as *const ())),
+    (b"glFogCoordPointer", 1733, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1734, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -6012,139 +6043,139 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glFogfv", 576, crate::Address(glFogfv as *const ())),
     (b"glFogi", 577, crate::Address(glFogi as *const ())),
     (b"glFogiv", 578, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 1422, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 1423, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1487, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferParameteriMESA", 1482, crate::Address(glFramebufferParameteriMESA as *const ())),
-    (b"glFramebufferPixelLocalStorageSizeEXT", 1494, crate::Address(glFramebufferPixelLocalStorageSizeEXT as *const ())),
-    (b"glFramebufferReadBufferEXT", 1424, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1455, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1456, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferSampleLocationsfvARB", 1479, crate::Address(glFramebufferSampleLocationsfvARB as *const ())),
-    (b"glFramebufferSampleLocationsfvNV", 1480, crate::Address(glFramebufferSampleLocationsfvNV as *const ())),
-    (b"glFramebufferSamplePositionsfvAMD", 1481, crate::Address(glFramebufferSamplePositionsfvAMD as *const ())),
-    (b"glFramebufferTexture", 1442, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1446, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1447, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1448, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DDownsampleIMG", 1476, crate::Address(glFramebufferTexture2DDownsampleIMG as *const ())),
-    (b"glFramebufferTexture2DEXT", 1449, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture2DMultisampleEXT", 1441, crate::Address(glFramebufferTexture2DMultisampleEXT as *const ())),
-    (b"glFramebufferTexture2DMultisampleIMG", 1477, crate::Address(glFramebufferTexture2DMultisampleIMG as *const ())),
-    (b"glFramebufferTexture3D", 1450, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1451, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTexture3DOES", 1440, crate::Address(glFramebufferTexture3DOES as *const ())),
-    (b"glFramebufferTextureARB", 1443, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1444, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureFaceARB", 1472, crate::Address(glFramebufferTextureFaceARB as *const ())),
-    (b"glFramebufferTextureFaceEXT", 1473, crate::Address(glFramebufferTextureFaceEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1452, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1453, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerDownsampleIMG", 1478, crate::Address(glFramebufferTextureLayerDownsampleIMG as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1454, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureMultisampleMultiviewOVR", 1474, crate::Address(glFramebufferTextureMultisampleMultiviewOVR as *const ())),
-    (b"glFramebufferTextureMultiviewOVR", 1475, crate::Address(glFramebufferTextureMultiviewOVR as *const ())),
-    (b"glFramebufferTextureOES", 1445, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFramebufferDrawBufferEXT", 1424, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 1425, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1489, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferParameteriMESA", 1484, crate::Address(glFramebufferParameteriMESA as *const ())),
+    (b"glFramebufferPixelLocalStorageSizeEXT", 1496, crate::Address(glFramebufferPixelLocalStorageSizeEXT as *const ())),
+    (b"glFramebufferReadBufferEXT", 1426, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1457, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1458, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferSampleLocationsfvARB", 1481, crate::Address(glFramebufferSampleLocationsfvARB as *const ())),
+    (b"glFramebufferSampleLocationsfvNV", 1482, crate::Address(glFramebufferSampleLocationsfvNV as *const ())),
+    (b"glFramebufferSamplePositionsfvAMD", 1483, crate::Address(glFramebufferSamplePositionsfvAMD as *const ())),
+    (b"glFramebufferTexture", 1444, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1448, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1449, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1450, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DDownsampleIMG", 1478, crate::Address(glFramebufferTexture2DDownsampleIMG as *const ())),
+    (b"glFramebufferTexture2DEXT", 1451, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture2DMultisampleEXT", 1443, crate::Address(glFramebufferTexture2DMultisampleEXT as *const ())),
+    (b"glFramebufferTexture2DMultisampleIMG", 1479, crate::Address(glFramebufferTexture2DMultisampleIMG as *const ())),
+    (b"glFramebufferTexture3D", 1452, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1453, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTexture3DOES", 1442, crate::Address(glFramebufferTexture3DOES as *const ())),
+    (b"glFramebufferTextureARB", 1445, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1446, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureFaceARB", 1474, crate::Address(glFramebufferTextureFaceARB as *const ())),
+    (b"glFramebufferTextureFaceEXT", 1475, crate::Address(glFramebufferTextureFaceEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1454, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1455, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerDownsampleIMG", 1480, crate::Address(glFramebufferTextureLayerDownsampleIMG as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1456, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureMultisampleMultiviewOVR", 1476, crate::Address(glFramebufferTextureMultisampleMultiviewOVR as *const ())),
+    (b"glFramebufferTextureMultiviewOVR", 1477, crate::Address(glFramebufferTextureMultiviewOVR as *const ())),
+    (b"glFramebufferTextureOES", 1447, crate::Address(glFramebufferTextureOES as *const ())),
     (b"glFrontFace", 771, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 476, crate::Address(glFrustum as *const ())),
-    (b"glGenFramebuffers", 1626, crate::Address(glGenFramebuffers as *const ())),
-    (b"glGenFramebuffersEXT", 1627, crate::Address(glGenFramebuffersEXT as *const ())),
-    (b"glGenLists", 1401, crate::Address(glGenLists as *const ())),
-    (b"glGenRenderbuffers", 1628, crate::Address(glGenRenderbuffers as *const ())),
-    (b"glGenRenderbuffersEXT", 1629, crate::Address(glGenRenderbuffersEXT as *const ())),
-    (b"glGenTextures", 1625, crate::Address(glGenTextures as *const ())),
+    (b"glGenFramebuffers", 1628, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1629, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenLists", 1403, crate::Address(glGenLists as *const ())),
+    (b"glGenRenderbuffers", 1630, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1631, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1627, crate::Address(glGenTextures as *const ())),
     (b"glGenerateMipmap", 966, crate::Address(glGenerateMipmap as *const ())),
     (b"glGenerateMipmapEXT", 967, crate::Address(glGenerateMipmapEXT as *const ())),
     (b"glGenerateTextureMipmap", 968, crate::Address(glGenerateTextureMipmap as *const ())),
-    (b"glGetBooleanv", 1434, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetClipPlane", 1586, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetBooleanv", 1436, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetClipPlane", 1588, crate::Address(glGetClipPlane as *const ())),
     (b"glGetCompressedMultiTexImageEXT", 981, crate::Address(glGetCompressedMultiTexImageEXT as *const ())),
-    (b"glGetCompressedTexImage", 1604, crate::Address(glGetCompressedTexImage as *const ())),
-    (b"glGetCompressedTexImageARB", 1605, crate::Address(glGetCompressedTexImageARB as *const ())),
+    (b"glGetCompressedTexImage", 1606, crate::Address(glGetCompressedTexImage as *const ())),
+    (b"glGetCompressedTexImageARB", 1607, crate::Address(glGetCompressedTexImageARB as *const ())),
     (b"glGetCompressedTextureImage", 978, crate::Address(glGetCompressedTextureImage as *const ())),
     (b"glGetCompressedTextureImageEXT", 982, crate::Address(glGetCompressedTextureImageEXT as *const ())),
     (b"glGetCompressedTextureSubImage", 988, crate::Address(glGetCompressedTextureSubImage as *const ())),
-    (b"glGetDoublev", 1436, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1541, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 1435, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1483, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1484, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameterfvAMD", 1493, crate::Address(glGetFramebufferParameterfvAMD as *const ())),
-    (b"glGetFramebufferParameteriv", 1488, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetFramebufferParameterivMESA", 1492, crate::Address(glGetFramebufferParameterivMESA as *const ())),
-    (b"glGetFramebufferPixelLocalStorageSizeEXT", 1495, crate::Address(glGetFramebufferPixelLocalStorageSizeEXT as *const ())),
-    (b"glGetInteger64v", 1437, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 1438, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 1439, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerIndexedvEXT", 1595, crate::Address(glGetIntegerIndexedvEXT as *const ())),
-    (b"glGetIntegeri_v", 1594, crate::Address(glGetIntegeri_v as *const ())),
-    (b"glGetIntegerv", 1433, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetLightfv", 1578, crate::Address(glGetLightfv as *const ())),
-    (b"glGetLightiv", 1579, crate::Address(glGetLightiv as *const ())),
-    (b"glGetMapdv", 1587, crate::Address(glGetMapdv as *const ())),
-    (b"glGetMapfv", 1588, crate::Address(glGetMapfv as *const ())),
-    (b"glGetMapiv", 1589, crate::Address(glGetMapiv as *const ())),
-    (b"glGetMaterialfv", 1580, crate::Address(glGetMaterialfv as *const ())),
-    (b"glGetMaterialiv", 1581, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetDoublev", 1438, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1543, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 1437, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1485, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1486, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameterfvAMD", 1495, crate::Address(glGetFramebufferParameterfvAMD as *const ())),
+    (b"glGetFramebufferParameteriv", 1490, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetFramebufferParameterivMESA", 1494, crate::Address(glGetFramebufferParameterivMESA as *const ())),
+    (b"glGetFramebufferPixelLocalStorageSizeEXT", 1497, crate::Address(glGetFramebufferPixelLocalStorageSizeEXT as *const ())),
+    (b"glGetInteger64v", 1439, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1440, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1441, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1597, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1596, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerv", 1435, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetLightfv", 1580, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1581, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1589, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1590, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1591, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1582, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1583, crate::Address(glGetMaterialiv as *const ())),
     (b"glGetMultiTexImageEXT", 983, crate::Address(glGetMultiTexImageEXT as *const ())),
-    (b"glGetPixelMapfv", 1590, crate::Address(glGetPixelMapfv as *const ())),
-    (b"glGetPixelMapuiv", 1591, crate::Address(glGetPixelMapuiv as *const ())),
-    (b"glGetPixelMapusv", 1592, crate::Address(glGetPixelMapusv as *const ())),
-    (b"glGetPointerv", 1599, crate::Address(glGetPointerv as *const ())),
-    (b"glGetPointervEXT", 1600, crate::Address(glGetPointervEXT as *const ())),
-    (b"glGetPointervKHR", 1601, crate::Address(glGetPointervKHR as *const ())),
-    (b"glGetPolygonStipple", 1593, crate::Address(glGetPolygonStipple as *const ())),
-    (b"glGetProgramiv", 1279, crate::Address(glGetProgramiv as *const ())),
-    (b"glGetQueryIndexediv", 1549, crate::Address(glGetQueryIndexediv as *const ())),
-    (b"glGetQueryObjecti64v", 1563, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1564, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1558, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1559, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1560, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1565, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1566, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1561, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1562, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryObjectuivEXT", 1538, crate::Address(glGetQueryObjectuivEXT as *const ())),
-    (b"glGetQueryiv", 1556, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1557, crate::Address(glGetQueryivARB as *const ())),
-    (b"glGetQueryivEXT", 1537, crate::Address(glGetQueryivEXT as *const ())),
-    (b"glGetTexEnvfv", 1576, crate::Address(glGetTexEnvfv as *const ())),
-    (b"glGetTexEnviv", 1577, crate::Address(glGetTexEnviv as *const ())),
-    (b"glGetTexGendv", 1573, crate::Address(glGetTexGendv as *const ())),
-    (b"glGetTexGenfv", 1574, crate::Address(glGetTexGenfv as *const ())),
-    (b"glGetTexGeniv", 1575, crate::Address(glGetTexGeniv as *const ())),
-    (b"glGetTexImage", 1602, crate::Address(glGetTexImage as *const ())),
-    (b"glGetTexLevelParameterfv", 1584, crate::Address(glGetTexLevelParameterfv as *const ())),
-    (b"glGetTexLevelParameteriv", 1585, crate::Address(glGetTexLevelParameteriv as *const ())),
-    (b"glGetTexParameterfv", 1582, crate::Address(glGetTexParameterfv as *const ())),
-    (b"glGetTexParameteriv", 1583, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetPixelMapfv", 1592, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1593, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1594, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1601, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1602, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1603, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1595, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetProgramiv", 1281, crate::Address(glGetProgramiv as *const ())),
+    (b"glGetQueryIndexediv", 1551, crate::Address(glGetQueryIndexediv as *const ())),
+    (b"glGetQueryObjecti64v", 1565, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1566, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1560, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1561, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1562, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1567, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1568, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1563, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1564, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryObjectuivEXT", 1540, crate::Address(glGetQueryObjectuivEXT as *const ())),
+    (b"glGetQueryiv", 1558, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1559, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetQueryivEXT", 1539, crate::Address(glGetQueryivEXT as *const ())),
+    (b"glGetTexEnvfv", 1578, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1579, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1575, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1576, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1577, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1604, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1586, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1587, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1584, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1585, crate::Address(glGetTexParameteriv as *const ())),
     (b"glGetTextureImage", 976, crate::Address(glGetTextureImage as *const ())),
     (b"glGetTextureImageEXT", 984, crate::Address(glGetTextureImageEXT as *const ())),
     (b"glGetTextureSubImage", 977, crate::Address(glGetTextureSubImage as *const ())),
-    (b"glGetUniformfv", 1607, crate::Address(glGetUniformfv as *const ())),
-    (b"glGetUniformfvARB", 1608, crate::Address(glGetUniformfvARB as *const ())),
-    (b"glGetUniformiv", 1609, crate::Address(glGetUniformiv as *const ())),
-    (b"glGetUniformivARB", 1610, crate::Address(glGetUniformivARB as *const ())),
-    (b"glGetVertexAttribPointerv", 1620, crate::Address(glGetVertexAttribPointerv as *const ())),
-    (b"glGetVertexAttribPointervARB", 1621, crate::Address(glGetVertexAttribPointervARB as *const ())),
-    (b"glGetVertexAttribPointervNV", 1622, crate::Address(glGetVertexAttribPointervNV as *const ())),
-    (b"glGetVertexAttribdv", 1611, crate::Address(glGetVertexAttribdv as *const ())),
-    (b"glGetVertexAttribdvARB", 1612, crate::Address(glGetVertexAttribdvARB as *const ())),
-    (b"glGetVertexAttribdvNV", 1613, crate::Address(glGetVertexAttribdvNV as *const ())),
-    (b"glGetVertexAttribfv", 1614, crate::Address(glGetVertexAttribfv as *const ())),
-    (b"glGetVertexAttribfvARB", 1615, crate::Address(glGetVertexAttribfvARB as *const ())),
-    (b"glGetVertexAttribfvNV", 1616, crate::Address(glGetVertexAttribfvNV as *const ())),
-    (b"glGetVertexAttribiv", 1617, crate::Address(glGetVertexAttribiv as *const ())),
-    (b"glGetVertexAttribivARB", 1618, crate::Address(glGetVertexAttribivARB as *const ())),
-    (b"glGetVertexAttribivNV", 1619, crate::Address(glGetVertexAttribivNV as *const ())),
-    (b"glGetnCompressedTexImage", 1606, crate::Address(glGetnCompressedTexImage as *const ())),
+    (b"glGetUniformfv", 1609, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1610, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1611, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1612, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1622, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1623, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1624, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1613, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1614, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1615, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1616, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1617, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1618, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1619, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1620, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1621, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnCompressedTexImage", 1608, crate::Address(glGetnCompressedTexImage as *const ())),
     (b"glGetnCompressedTexImageARB", 987, crate::Address(glGetnCompressedTexImageARB as *const ())),
-    (b"glGetnTexImage", 1603, crate::Address(glGetnTexImage as *const ())),
+    (b"glGetnTexImage", 1605, crate::Address(glGetnTexImage as *const ())),
     (b"glGetnTexImageARB", 986, crate::Address(glGetnTexImageARB as *const ())),
     (b"glHint", 599, crate::Address(glHint as *const ())),
     (b"glIndexMask", 772, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1733, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexPointer", 1735, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -6156,23 +6187,23 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
     (b"glInitNames", 773, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1724, crate::Address(glInterleavedArrays as *const ())),
-    (b"glInvalidateBufferData", 1681, crate::Address(glInvalidateBufferData as *const ())),
-    (b"glInvalidateBufferSubData", 1682, crate::Address(glInvalidateBufferSubData as *const ())),
-    (b"glInvalidateFramebuffer", 1489, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1490, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glInterleavedArrays", 1726, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateBufferData", 1683, crate::Address(glInvalidateBufferData as *const ())),
+    (b"glInvalidateBufferSubData", 1684, crate::Address(glInvalidateBufferSubData as *const ())),
+    (b"glInvalidateFramebuffer", 1491, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1492, crate::Address(glInvalidateSubFramebuffer as *const ())),
     (b"glInvalidateTexImage", 918, crate::Address(glInvalidateTexImage as *const ())),
     (b"glInvalidateTexSubImage", 919, crate::Address(glInvalidateTexSubImage as *const ())),
-    (b"glIsEnabled", 1567, crate::Address(glIsEnabled as *const ())),
-    (b"glIsEnabledIndexedEXT", 1569, crate::Address(glIsEnabledIndexedEXT as *const ())),
-    (b"glIsEnabledi", 1568, crate::Address(glIsEnabledi as *const ())),
-    (b"glIsEnablediEXT", 1570, crate::Address(glIsEnablediEXT as *const ())),
-    (b"glIsEnablediNV", 1571, crate::Address(glIsEnablediNV as *const ())),
-    (b"glIsEnablediOES", 1572, crate::Address(glIsEnablediOES as *const ())),
-    (b"glIsFramebuffer", 1407, crate::Address(glIsFramebuffer as *const ())),
-    (b"glIsFramebufferEXT", 1408, crate::Address(glIsFramebufferEXT as *const ())),
-    (b"glIsList", 1402, crate::Address(glIsList as *const ())),
-    (b"glIsTexture", 1406, crate::Address(glIsTexture as *const ())),
+    (b"glIsEnabled", 1569, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1571, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1570, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1572, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1573, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1574, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsFramebuffer", 1409, crate::Address(glIsFramebuffer as *const ())),
+    (b"glIsFramebufferEXT", 1410, crate::Address(glIsFramebufferEXT as *const ())),
+    (b"glIsList", 1404, crate::Address(glIsList as *const ())),
+    (b"glIsTexture", 1408, crate::Address(glIsTexture as *const ())),
     (b"glLightModelf", 564, crate::Address(glLightModelf as *const ())),
     (b"glLightModelfv", 565, crate::Address(glLightModelfv as *const ())),
     (b"glLightModeli", 566, crate::Address(glLightModeli as *const ())),
@@ -6183,8 +6214,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glLightiv", 563, crate::Address(glLightiv as *const ())),
     (b"glLineStipple", 778, crate::Address(glLineStipple as *const ())),
     (b"glLineWidth", 600, crate::Address(glLineWidth as *const ())),
-    (b"glLinkProgram", 1272, crate::Address(glLinkProgram as *const ())),
-    (b"glLinkProgramARB", 1273, crate::Address(glLinkProgramARB as *const ())),
+    (b"glLinkProgram", 1274, crate::Address(glLinkProgram as *const ())),
+    (b"glLinkProgramARB", 1275, crate::Address(glLinkProgramARB as *const ())),
     (b"glListBase", 779, crate::Address(glListBase as *const ())),
     (b"glLoadIdentity", 457, crate::Address(glLoadIdentity as *const ())),
     (b"glLoadMatrixd", 458, crate::Address(glLoadMatrixd as *const ())),
@@ -6199,19 +6230,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glMap1f", 782, crate::Address(glMap1f as *const ())),
     (b"glMap2d", 783, crate::Address(glMap2d as *const ())),
     (b"glMap2f", 784, crate::Address(glMap2f as *const ())),
-    (b"glMapBuffer", 1687, crate::Address(glMapBuffer as *const ())),
-    (b"glMapBufferARB", 1688, crate::Address(glMapBufferARB as *const ())),
-    (b"glMapBufferOES", 1689, crate::Address(glMapBufferOES as *const ())),
-    (b"glMapBufferRange", 1691, crate::Address(glMapBufferRange as *const ())),
-    (b"glMapBufferRangeEXT", 1692, crate::Address(glMapBufferRangeEXT as *const ())),
+    (b"glMapBuffer", 1689, crate::Address(glMapBuffer as *const ())),
+    (b"glMapBufferARB", 1690, crate::Address(glMapBufferARB as *const ())),
+    (b"glMapBufferOES", 1691, crate::Address(glMapBufferOES as *const ())),
+    (b"glMapBufferRange", 1693, crate::Address(glMapBufferRange as *const ())),
+    (b"glMapBufferRangeEXT", 1694, crate::Address(glMapBufferRangeEXT as *const ())),
     (b"glMapGrid1d", 785, crate::Address(glMapGrid1d as *const ())),
     (b"glMapGrid1f", 786, crate::Address(glMapGrid1f as *const ())),
     (b"glMapGrid2d", 787, crate::Address(glMapGrid2d as *const ())),
     (b"glMapGrid2f", 788, crate::Address(glMapGrid2f as *const ())),
-    (b"glMapNamedBuffer", 1690, crate::Address(glMapNamedBuffer as *const ())),
-    (b"glMapNamedBufferEXT", 1671, crate::Address(glMapNamedBufferEXT as *const ())),
-    (b"glMapNamedBufferRange", 1693, crate::Address(glMapNamedBufferRange as *const ())),
-    (b"glMapNamedBufferRangeEXT", 1672, crate::Address(glMapNamedBufferRangeEXT as *const ())),
+    (b"glMapNamedBuffer", 1692, crate::Address(glMapNamedBuffer as *const ())),
+    (b"glMapNamedBufferEXT", 1673, crate::Address(glMapNamedBufferEXT as *const ())),
+    (b"glMapNamedBufferRange", 1695, crate::Address(glMapNamedBufferRange as *const ())),
+    (b"glMapNamedBufferRangeEXT", 1674, crate::Address(glMapNamedBufferRangeEXT as *const ())),
     (b"glMaterialf", 246, crate::Address(glMaterialf as *const ())),
     (b"glMaterialfv", 247, crate::Address(glMaterialfv as *const ())),
     (b"glMateriali", 248, crate::Address(glMateriali as *const ())),
@@ -6242,9 +6273,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glMatrixScalefEXT", 491, crate::Address(glMatrixScalefEXT as *const ())),
     (b"glMatrixTranslatedEXT", 492, crate::Address(glMatrixTranslatedEXT as *const ())),
     (b"glMatrixTranslatefEXT", 493, crate::Address(glMatrixTranslatefEXT as *const ())),
-    (b"glMemoryBarrier", 1702, crate::Address(glMemoryBarrier as *const ())),
-    (b"glMemoryBarrierByRegion", 1704, crate::Address(glMemoryBarrierByRegion as *const ())),
-    (b"glMemoryBarrierEXT", 1703, crate::Address(glMemoryBarrierEXT as *const ())),
+    (b"glMemoryBarrier", 1704, crate::Address(glMemoryBarrier as *const ())),
+    (b"glMemoryBarrierByRegion", 1706, crate::Address(glMemoryBarrierByRegion as *const ())),
+    (b"glMemoryBarrierEXT", 1705, crate::Address(glMemoryBarrierEXT as *const ())),
     (b"glMinSampleShading", 803, crate::Address(glMinSampleShading as *const ())),
     (b"glMinSampleShadingARB", 804, crate::Address(glMinSampleShadingARB as *const ())),
     (b"glMinSampleShadingOES", 805, crate::Address(glMinSampleShadingOES as *const ())),
@@ -6254,32 +6285,32 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glMultTransposeMatrixdARB", 467, crate::Address(glMultTransposeMatrixdARB as *const ())),
     (b"glMultTransposeMatrixf", 468, crate::Address(glMultTransposeMatrixf as *const ())),
     (b"glMultTransposeMatrixfARB", 469, crate::Address(glMultTransposeMatrixfARB as *const ())),
-    (b"glMultiDrawArrays", 1290, crate::Address(glMultiDrawArrays as *const ())),
-    (b"glMultiDrawArraysEXT", 1291, crate::Address(glMultiDrawArraysEXT as *const ())),
-    (b"glMultiDrawArraysIndirect", 1323, crate::Address(glMultiDrawArraysIndirect as *const ())),
-    (b"glMultiDrawArraysIndirectAMD", 1324, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
-    (b"glMultiDrawArraysIndirectBindlessCountNV", 1352, crate::Address(glMultiDrawArraysIndirectBindlessCountNV as *const ())),
-    (b"glMultiDrawArraysIndirectBindlessNV", 1353, crate::Address(glMultiDrawArraysIndirectBindlessNV as *const ())),
-    (b"glMultiDrawArraysIndirectCount", 1346, crate::Address(glMultiDrawArraysIndirectCount as *const ())),
-    (b"glMultiDrawArraysIndirectCountARB", 1347, crate::Address(glMultiDrawArraysIndirectCountARB as *const ())),
-    (b"glMultiDrawArraysIndirectEXT", 1325, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
-    (b"glMultiDrawElementArrayAPPLE", 1362, crate::Address(glMultiDrawElementArrayAPPLE as *const ())),
-    (b"glMultiDrawElements", 1292, crate::Address(glMultiDrawElements as *const ())),
-    (b"glMultiDrawElementsBaseVertex", 1300, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
-    (b"glMultiDrawElementsBaseVertexEXT", 1301, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
-    (b"glMultiDrawElementsEXT", 1293, crate::Address(glMultiDrawElementsEXT as *const ())),
-    (b"glMultiDrawElementsIndirect", 1326, crate::Address(glMultiDrawElementsIndirect as *const ())),
-    (b"glMultiDrawElementsIndirectAMD", 1327, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
-    (b"glMultiDrawElementsIndirectBindlessCountNV", 1354, crate::Address(glMultiDrawElementsIndirectBindlessCountNV as *const ())),
-    (b"glMultiDrawElementsIndirectBindlessNV", 1355, crate::Address(glMultiDrawElementsIndirectBindlessNV as *const ())),
-    (b"glMultiDrawElementsIndirectCount", 1348, crate::Address(glMultiDrawElementsIndirectCount as *const ())),
-    (b"glMultiDrawElementsIndirectCountARB", 1349, crate::Address(glMultiDrawElementsIndirectCountARB as *const ())),
-    (b"glMultiDrawElementsIndirectEXT", 1328, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
-    (b"glMultiDrawMeshTasksIndirectCountNV", 1358, crate::Address(glMultiDrawMeshTasksIndirectCountNV as *const ())),
-    (b"glMultiDrawMeshTasksIndirectNV", 1359, crate::Address(glMultiDrawMeshTasksIndirectNV as *const ())),
-    (b"glMultiDrawRangeElementArrayAPPLE", 1363, crate::Address(glMultiDrawRangeElementArrayAPPLE as *const ())),
-    (b"glMultiModeDrawArraysIBM", 1350, crate::Address(glMultiModeDrawArraysIBM as *const ())),
-    (b"glMultiModeDrawElementsIBM", 1351, crate::Address(glMultiModeDrawElementsIBM as *const ())),
+    (b"glMultiDrawArrays", 1292, crate::Address(glMultiDrawArrays as *const ())),
+    (b"glMultiDrawArraysEXT", 1293, crate::Address(glMultiDrawArraysEXT as *const ())),
+    (b"glMultiDrawArraysIndirect", 1325, crate::Address(glMultiDrawArraysIndirect as *const ())),
+    (b"glMultiDrawArraysIndirectAMD", 1326, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
+    (b"glMultiDrawArraysIndirectBindlessCountNV", 1354, crate::Address(glMultiDrawArraysIndirectBindlessCountNV as *const ())),
+    (b"glMultiDrawArraysIndirectBindlessNV", 1355, crate::Address(glMultiDrawArraysIndirectBindlessNV as *const ())),
+    (b"glMultiDrawArraysIndirectCount", 1348, crate::Address(glMultiDrawArraysIndirectCount as *const ())),
+    (b"glMultiDrawArraysIndirectCountARB", 1349, crate::Address(glMultiDrawArraysIndirectCountARB as *const ())),
+    (b"glMultiDrawArraysIndirectEXT", 1327, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
+    (b"glMultiDrawElementArrayAPPLE", 1364, crate::Address(glMultiDrawElementArrayAPPLE as *const ())),
+    (b"glMultiDrawElements", 1294, crate::Address(glMultiDrawElements as *const ())),
+    (b"glMultiDrawElementsBaseVertex", 1302, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
+    (b"glMultiDrawElementsBaseVertexEXT", 1303, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
+    (b"glMultiDrawElementsEXT", 1295, crate::Address(glMultiDrawElementsEXT as *const ())),
+    (b"glMultiDrawElementsIndirect", 1328, crate::Address(glMultiDrawElementsIndirect as *const ())),
+    (b"glMultiDrawElementsIndirectAMD", 1329, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
+    (b"glMultiDrawElementsIndirectBindlessCountNV", 1356, crate::Address(glMultiDrawElementsIndirectBindlessCountNV as *const ())),
+    (b"glMultiDrawElementsIndirectBindlessNV", 1357, crate::Address(glMultiDrawElementsIndirectBindlessNV as *const ())),
+    (b"glMultiDrawElementsIndirectCount", 1350, crate::Address(glMultiDrawElementsIndirectCount as *const ())),
+    (b"glMultiDrawElementsIndirectCountARB", 1351, crate::Address(glMultiDrawElementsIndirectCountARB as *const ())),
+    (b"glMultiDrawElementsIndirectEXT", 1330, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
+    (b"glMultiDrawMeshTasksIndirectCountNV", 1360, crate::Address(glMultiDrawMeshTasksIndirectCountNV as *const ())),
+    (b"glMultiDrawMeshTasksIndirectNV", 1361, crate::Address(glMultiDrawMeshTasksIndirectNV as *const ())),
+    (b"glMultiDrawRangeElementArrayAPPLE", 1365, crate::Address(glMultiDrawRangeElementArrayAPPLE as *const ())),
+    (b"glMultiModeDrawArraysIBM", 1352, crate::Address(glMultiModeDrawArraysIBM as *const ())),
+    (b"glMultiModeDrawElementsIBM", 1353, crate::Address(glMultiModeDrawElementsIBM as *const ())),
     (b"glMultiTexCoord1d", 118, crate::Address(glMultiTexCoord1d as *const ())),
     (b"glMultiTexCoord1dARB", 119, crate::Address(glMultiTexCoord1dARB as *const ())),
     (b"glMultiTexCoord1dv", 120, crate::Address(glMultiTexCoord1dv as *const ())),
@@ -6376,38 +6407,38 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glMultiTexParameterfvEXT", 961, crate::Address(glMultiTexParameterfvEXT as *const ())),
     (b"glMultiTexParameteriEXT", 962, crate::Address(glMultiTexParameteriEXT as *const ())),
     (b"glMultiTexParameterivEXT", 963, crate::Address(glMultiTexParameterivEXT as *const ())),
-    (b"glNamedBufferData", 1661, crate::Address(glNamedBufferData as *const ())),
-    (b"glNamedBufferDataEXT", 1670, crate::Address(glNamedBufferDataEXT as *const ())),
-    (b"glNamedBufferStorage", 1664, crate::Address(glNamedBufferStorage as *const ())),
-    (b"glNamedBufferStorageEXT", 1665, crate::Address(glNamedBufferStorageEXT as *const ())),
-    (b"glNamedBufferSubData", 1668, crate::Address(glNamedBufferSubData as *const ())),
-    (b"glNamedBufferSubDataEXT", 1669, crate::Address(glNamedBufferSubDataEXT as *const ())),
-    (b"glNamedCopyBufferSubDataEXT", 1675, crate::Address(glNamedCopyBufferSubDataEXT as *const ())),
-    (b"glNamedFramebufferDrawBuffer", 1419, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
-    (b"glNamedFramebufferDrawBuffers", 1420, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferParameteri", 1467, crate::Address(glNamedFramebufferParameteri as *const ())),
-    (b"glNamedFramebufferParameteriEXT", 1468, crate::Address(glNamedFramebufferParameteriEXT as *const ())),
-    (b"glNamedFramebufferReadBuffer", 1421, crate::Address(glNamedFramebufferReadBuffer as *const ())),
-    (b"glNamedFramebufferRenderbuffer", 1459, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
-    (b"glNamedFramebufferRenderbufferEXT", 1466, crate::Address(glNamedFramebufferRenderbufferEXT as *const ())),
-    (b"glNamedFramebufferSampleLocationsfvARB", 1469, crate::Address(glNamedFramebufferSampleLocationsfvARB as *const ())),
-    (b"glNamedFramebufferSampleLocationsfvNV", 1470, crate::Address(glNamedFramebufferSampleLocationsfvNV as *const ())),
-    (b"glNamedFramebufferSamplePositionsfvAMD", 1471, crate::Address(glNamedFramebufferSamplePositionsfvAMD as *const ())),
-    (b"glNamedFramebufferTexture", 1457, crate::Address(glNamedFramebufferTexture as *const ())),
-    (b"glNamedFramebufferTexture1DEXT", 1460, crate::Address(glNamedFramebufferTexture1DEXT as *const ())),
-    (b"glNamedFramebufferTexture2DEXT", 1461, crate::Address(glNamedFramebufferTexture2DEXT as *const ())),
-    (b"glNamedFramebufferTexture3DEXT", 1462, crate::Address(glNamedFramebufferTexture3DEXT as *const ())),
-    (b"glNamedFramebufferTextureEXT", 1463, crate::Address(glNamedFramebufferTextureEXT as *const ())),
-    (b"glNamedFramebufferTextureFaceEXT", 1464, crate::Address(glNamedFramebufferTextureFaceEXT as *const ())),
-    (b"glNamedFramebufferTextureLayer", 1458, crate::Address(glNamedFramebufferTextureLayer as *const ())),
-    (b"glNamedFramebufferTextureLayerEXT", 1465, crate::Address(glNamedFramebufferTextureLayerEXT as *const ())),
+    (b"glNamedBufferData", 1663, crate::Address(glNamedBufferData as *const ())),
+    (b"glNamedBufferDataEXT", 1672, crate::Address(glNamedBufferDataEXT as *const ())),
+    (b"glNamedBufferStorage", 1666, crate::Address(glNamedBufferStorage as *const ())),
+    (b"glNamedBufferStorageEXT", 1667, crate::Address(glNamedBufferStorageEXT as *const ())),
+    (b"glNamedBufferSubData", 1670, crate::Address(glNamedBufferSubData as *const ())),
+    (b"glNamedBufferSubDataEXT", 1671, crate::Address(glNamedBufferSubDataEXT as *const ())),
+    (b"glNamedCopyBufferSubDataEXT", 1677, crate::Address(glNamedCopyBufferSubDataEXT as *const ())),
+    (b"glNamedFramebufferDrawBuffer", 1421, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffers", 1422, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
+    (b"glNamedFramebufferParameteri", 1469, crate::Address(glNamedFramebufferParameteri as *const ())),
+    (b"glNamedFramebufferParameteriEXT", 1470, crate::Address(glNamedFramebufferParameteriEXT as *const ())),
+    (b"glNamedFramebufferReadBuffer", 1423, crate::Address(glNamedFramebufferReadBuffer as *const ())),
+    (b"glNamedFramebufferRenderbuffer", 1461, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
+    (b"glNamedFramebufferRenderbufferEXT", 1468, crate::Address(glNamedFramebufferRenderbufferEXT as *const ())),
+    (b"glNamedFramebufferSampleLocationsfvARB", 1471, crate::Address(glNamedFramebufferSampleLocationsfvARB as *const ())),
+    (b"glNamedFramebufferSampleLocationsfvNV", 1472, crate::Address(glNamedFramebufferSampleLocationsfvNV as *const ())),
+    (b"glNamedFramebufferSamplePositionsfvAMD", 1473, crate::Address(glNamedFramebufferSamplePositionsfvAMD as *const ())),
+    (b"glNamedFramebufferTexture", 1459, crate::Address(glNamedFramebufferTexture as *const ())),
+    (b"glNamedFramebufferTexture1DEXT", 1462, crate::Address(glNamedFramebufferTexture1DEXT as *const ())),
+    (b"glNamedFramebufferTexture2DEXT", 1463, crate::Address(glNamedFramebufferTexture2DEXT as *const ())),
+    (b"glNamedFramebufferTexture3DEXT", 1464, crate::Address(glNamedFramebufferTexture3DEXT as *const ())),
+    (b"glNamedFramebufferTextureEXT", 1465, crate::Address(glNamedFramebufferTextureEXT as *const ())),
+    (b"glNamedFramebufferTextureFaceEXT", 1466, crate::Address(glNamedFramebufferTextureFaceEXT as *const ())),
+    (b"glNamedFramebufferTextureLayer", 1460, crate::Address(glNamedFramebufferTextureLayer as *const ())),
+    (b"glNamedFramebufferTextureLayerEXT", 1467, crate::Address(glNamedFramebufferTextureLayerEXT as *const ())),
     (b"glNamedRenderbufferStorage", 884, crate::Address(glNamedRenderbufferStorage as *const ())),
     (b"glNamedRenderbufferStorageEXT", 886, crate::Address(glNamedRenderbufferStorageEXT as *const ())),
     (b"glNamedRenderbufferStorageMultisample", 885, crate::Address(glNamedRenderbufferStorageMultisample as *const ())),
     (b"glNamedRenderbufferStorageMultisampleAdvancedAMD", 887, crate::Address(glNamedRenderbufferStorageMultisampleAdvancedAMD as *const ())),
     (b"glNamedRenderbufferStorageMultisampleCoverageEXT", 888, crate::Address(glNamedRenderbufferStorageMultisampleCoverageEXT as *const ())),
     (b"glNamedRenderbufferStorageMultisampleEXT", 889, crate::Address(glNamedRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glNewList", 1396, crate::Address(glNewList as *const ())),
+    (b"glNewList", 1398, crate::Address(glNewList as *const ())),
     (b"glNormal3b", 66, crate::Address(glNormal3b as *const ())),
     (b"glNormal3bv", 67, crate::Address(glNormal3bv as *const ())),
     (b"glNormal3d", 68, crate::Address(glNormal3d as *const ())),
@@ -6422,7 +6453,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1734, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1736, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
     (b"glPassThrough", 777, crate::Address(glPassThrough as *const ())),
     (b"glPauseTransformFeedback", 717, crate::Address(glPauseTransformFeedback as *const ())),
@@ -6430,8 +6461,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glPixelMapfv", 789, crate::Address(glPixelMapfv as *const ())),
     (b"glPixelMapuiv", 790, crate::Address(glPixelMapuiv as *const ())),
     (b"glPixelMapusv", 791, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1705, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1706, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelStoref", 1707, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1708, crate::Address(glPixelStorei as *const ())),
     (b"glPixelTransferf", 792, crate::Address(glPixelTransferf as *const ())),
     (b"glPixelTransferi", 793, crate::Address(glPixelTransferi as *const ())),
     (b"glPixelZoom", 794, crate::Address(glPixelZoom as *const ())),
@@ -6455,7 +6486,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glPolygonOffsetClampEXT", 797, crate::Address(glPolygonOffsetClampEXT as *const ())),
     (b"glPolygonStipple", 798, crate::Address(glPolygonStipple as *const ())),
     (b"glPopAttrib", 629, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1708, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPopClientAttrib", 1710, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
     (b"glPopName", 776, crate::Address(glPopName as *const ())),
     (b"glPrimitiveBoundingBox", 825, crate::Address(glPrimitiveBoundingBox as *const ())),
@@ -6466,161 +6497,161 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glPrimitiveRestartIndexNV", 823, crate::Address(glPrimitiveRestartIndexNV as *const ())),
     (b"glPrioritizeTextures", 799, crate::Address(glPrioritizeTextures as *const ())),
     (b"glPrioritizeTexturesEXT", 800, crate::Address(glPrioritizeTexturesEXT as *const ())),
-    (b"glProgramBinary", 1274, crate::Address(glProgramBinary as *const ())),
-    (b"glProgramBinaryOES", 1275, crate::Address(glProgramBinaryOES as *const ())),
-    (b"glProgramEnvParameter4dARB", 999, crate::Address(glProgramEnvParameter4dARB as *const ())),
-    (b"glProgramEnvParameter4dvARB", 1000, crate::Address(glProgramEnvParameter4dvARB as *const ())),
-    (b"glProgramEnvParameter4fARB", 1001, crate::Address(glProgramEnvParameter4fARB as *const ())),
-    (b"glProgramEnvParameter4fvARB", 1002, crate::Address(glProgramEnvParameter4fvARB as *const ())),
-    (b"glProgramLocalParameter4dARB", 1003, crate::Address(glProgramLocalParameter4dARB as *const ())),
-    (b"glProgramLocalParameter4dvARB", 1004, crate::Address(glProgramLocalParameter4dvARB as *const ())),
-    (b"glProgramLocalParameter4fARB", 1005, crate::Address(glProgramLocalParameter4fARB as *const ())),
-    (b"glProgramLocalParameter4fvARB", 1006, crate::Address(glProgramLocalParameter4fvARB as *const ())),
-    (b"glProgramUniform1d", 1090, crate::Address(glProgramUniform1d as *const ())),
-    (b"glProgramUniform1dEXT", 1255, crate::Address(glProgramUniform1dEXT as *const ())),
-    (b"glProgramUniform1dv", 1091, crate::Address(glProgramUniform1dv as *const ())),
-    (b"glProgramUniform1dvEXT", 1256, crate::Address(glProgramUniform1dvEXT as *const ())),
-    (b"glProgramUniform1f", 1092, crate::Address(glProgramUniform1f as *const ())),
-    (b"glProgramUniform1fEXT", 1093, crate::Address(glProgramUniform1fEXT as *const ())),
-    (b"glProgramUniform1fv", 1094, crate::Address(glProgramUniform1fv as *const ())),
-    (b"glProgramUniform1fvEXT", 1095, crate::Address(glProgramUniform1fvEXT as *const ())),
-    (b"glProgramUniform1i", 1096, crate::Address(glProgramUniform1i as *const ())),
-    (b"glProgramUniform1i64ARB", 1174, crate::Address(glProgramUniform1i64ARB as *const ())),
-    (b"glProgramUniform1i64NV", 1175, crate::Address(glProgramUniform1i64NV as *const ())),
-    (b"glProgramUniform1i64vARB", 1176, crate::Address(glProgramUniform1i64vARB as *const ())),
-    (b"glProgramUniform1i64vNV", 1177, crate::Address(glProgramUniform1i64vNV as *const ())),
-    (b"glProgramUniform1iEXT", 1097, crate::Address(glProgramUniform1iEXT as *const ())),
-    (b"glProgramUniform1iv", 1098, crate::Address(glProgramUniform1iv as *const ())),
-    (b"glProgramUniform1ivEXT", 1099, crate::Address(glProgramUniform1ivEXT as *const ())),
-    (b"glProgramUniform1ui", 1100, crate::Address(glProgramUniform1ui as *const ())),
-    (b"glProgramUniform1ui64ARB", 1178, crate::Address(glProgramUniform1ui64ARB as *const ())),
-    (b"glProgramUniform1ui64NV", 1179, crate::Address(glProgramUniform1ui64NV as *const ())),
-    (b"glProgramUniform1ui64vARB", 1180, crate::Address(glProgramUniform1ui64vARB as *const ())),
-    (b"glProgramUniform1ui64vNV", 1181, crate::Address(glProgramUniform1ui64vNV as *const ())),
-    (b"glProgramUniform1uiEXT", 1101, crate::Address(glProgramUniform1uiEXT as *const ())),
-    (b"glProgramUniform1uiv", 1102, crate::Address(glProgramUniform1uiv as *const ())),
-    (b"glProgramUniform1uivEXT", 1103, crate::Address(glProgramUniform1uivEXT as *const ())),
-    (b"glProgramUniform2d", 1104, crate::Address(glProgramUniform2d as *const ())),
-    (b"glProgramUniform2dEXT", 1257, crate::Address(glProgramUniform2dEXT as *const ())),
-    (b"glProgramUniform2dv", 1105, crate::Address(glProgramUniform2dv as *const ())),
-    (b"glProgramUniform2dvEXT", 1258, crate::Address(glProgramUniform2dvEXT as *const ())),
-    (b"glProgramUniform2f", 1106, crate::Address(glProgramUniform2f as *const ())),
-    (b"glProgramUniform2fEXT", 1107, crate::Address(glProgramUniform2fEXT as *const ())),
-    (b"glProgramUniform2fv", 1108, crate::Address(glProgramUniform2fv as *const ())),
-    (b"glProgramUniform2fvEXT", 1109, crate::Address(glProgramUniform2fvEXT as *const ())),
-    (b"glProgramUniform2i", 1110, crate::Address(glProgramUniform2i as *const ())),
-    (b"glProgramUniform2i64ARB", 1182, crate::Address(glProgramUniform2i64ARB as *const ())),
-    (b"glProgramUniform2i64NV", 1183, crate::Address(glProgramUniform2i64NV as *const ())),
-    (b"glProgramUniform2i64vARB", 1184, crate::Address(glProgramUniform2i64vARB as *const ())),
-    (b"glProgramUniform2i64vNV", 1185, crate::Address(glProgramUniform2i64vNV as *const ())),
-    (b"glProgramUniform2iEXT", 1111, crate::Address(glProgramUniform2iEXT as *const ())),
-    (b"glProgramUniform2iv", 1112, crate::Address(glProgramUniform2iv as *const ())),
-    (b"glProgramUniform2ivEXT", 1113, crate::Address(glProgramUniform2ivEXT as *const ())),
-    (b"glProgramUniform2ui", 1114, crate::Address(glProgramUniform2ui as *const ())),
-    (b"glProgramUniform2ui64ARB", 1186, crate::Address(glProgramUniform2ui64ARB as *const ())),
-    (b"glProgramUniform2ui64NV", 1187, crate::Address(glProgramUniform2ui64NV as *const ())),
-    (b"glProgramUniform2ui64vARB", 1188, crate::Address(glProgramUniform2ui64vARB as *const ())),
-    (b"glProgramUniform2ui64vNV", 1189, crate::Address(glProgramUniform2ui64vNV as *const ())),
-    (b"glProgramUniform2uiEXT", 1115, crate::Address(glProgramUniform2uiEXT as *const ())),
-    (b"glProgramUniform2uiv", 1116, crate::Address(glProgramUniform2uiv as *const ())),
-    (b"glProgramUniform2uivEXT", 1117, crate::Address(glProgramUniform2uivEXT as *const ())),
-    (b"glProgramUniform3d", 1118, crate::Address(glProgramUniform3d as *const ())),
-    (b"glProgramUniform3dEXT", 1259, crate::Address(glProgramUniform3dEXT as *const ())),
-    (b"glProgramUniform3dv", 1119, crate::Address(glProgramUniform3dv as *const ())),
-    (b"glProgramUniform3dvEXT", 1260, crate::Address(glProgramUniform3dvEXT as *const ())),
-    (b"glProgramUniform3f", 1120, crate::Address(glProgramUniform3f as *const ())),
-    (b"glProgramUniform3fEXT", 1121, crate::Address(glProgramUniform3fEXT as *const ())),
-    (b"glProgramUniform3fv", 1122, crate::Address(glProgramUniform3fv as *const ())),
-    (b"glProgramUniform3fvEXT", 1123, crate::Address(glProgramUniform3fvEXT as *const ())),
-    (b"glProgramUniform3i", 1124, crate::Address(glProgramUniform3i as *const ())),
-    (b"glProgramUniform3i64ARB", 1190, crate::Address(glProgramUniform3i64ARB as *const ())),
-    (b"glProgramUniform3i64NV", 1191, crate::Address(glProgramUniform3i64NV as *const ())),
-    (b"glProgramUniform3i64vARB", 1192, crate::Address(glProgramUniform3i64vARB as *const ())),
-    (b"glProgramUniform3i64vNV", 1193, crate::Address(glProgramUniform3i64vNV as *const ())),
-    (b"glProgramUniform3iEXT", 1125, crate::Address(glProgramUniform3iEXT as *const ())),
-    (b"glProgramUniform3iv", 1126, crate::Address(glProgramUniform3iv as *const ())),
-    (b"glProgramUniform3ivEXT", 1127, crate::Address(glProgramUniform3ivEXT as *const ())),
-    (b"glProgramUniform3ui", 1128, crate::Address(glProgramUniform3ui as *const ())),
-    (b"glProgramUniform3ui64ARB", 1194, crate::Address(glProgramUniform3ui64ARB as *const ())),
-    (b"glProgramUniform3ui64NV", 1195, crate::Address(glProgramUniform3ui64NV as *const ())),
-    (b"glProgramUniform3ui64vARB", 1196, crate::Address(glProgramUniform3ui64vARB as *const ())),
-    (b"glProgramUniform3ui64vNV", 1197, crate::Address(glProgramUniform3ui64vNV as *const ())),
-    (b"glProgramUniform3uiEXT", 1129, crate::Address(glProgramUniform3uiEXT as *const ())),
-    (b"glProgramUniform3uiv", 1130, crate::Address(glProgramUniform3uiv as *const ())),
-    (b"glProgramUniform3uivEXT", 1131, crate::Address(glProgramUniform3uivEXT as *const ())),
-    (b"glProgramUniform4d", 1132, crate::Address(glProgramUniform4d as *const ())),
-    (b"glProgramUniform4dEXT", 1261, crate::Address(glProgramUniform4dEXT as *const ())),
-    (b"glProgramUniform4dv", 1133, crate::Address(glProgramUniform4dv as *const ())),
-    (b"glProgramUniform4dvEXT", 1262, crate::Address(glProgramUniform4dvEXT as *const ())),
-    (b"glProgramUniform4f", 1134, crate::Address(glProgramUniform4f as *const ())),
-    (b"glProgramUniform4fEXT", 1135, crate::Address(glProgramUniform4fEXT as *const ())),
-    (b"glProgramUniform4fv", 1136, crate::Address(glProgramUniform4fv as *const ())),
-    (b"glProgramUniform4fvEXT", 1137, crate::Address(glProgramUniform4fvEXT as *const ())),
-    (b"glProgramUniform4i", 1138, crate::Address(glProgramUniform4i as *const ())),
-    (b"glProgramUniform4i64ARB", 1198, crate::Address(glProgramUniform4i64ARB as *const ())),
-    (b"glProgramUniform4i64NV", 1199, crate::Address(glProgramUniform4i64NV as *const ())),
-    (b"glProgramUniform4i64vARB", 1200, crate::Address(glProgramUniform4i64vARB as *const ())),
-    (b"glProgramUniform4i64vNV", 1201, crate::Address(glProgramUniform4i64vNV as *const ())),
-    (b"glProgramUniform4iEXT", 1139, crate::Address(glProgramUniform4iEXT as *const ())),
-    (b"glProgramUniform4iv", 1140, crate::Address(glProgramUniform4iv as *const ())),
-    (b"glProgramUniform4ivEXT", 1141, crate::Address(glProgramUniform4ivEXT as *const ())),
-    (b"glProgramUniform4ui", 1142, crate::Address(glProgramUniform4ui as *const ())),
-    (b"glProgramUniform4ui64ARB", 1202, crate::Address(glProgramUniform4ui64ARB as *const ())),
-    (b"glProgramUniform4ui64NV", 1203, crate::Address(glProgramUniform4ui64NV as *const ())),
-    (b"glProgramUniform4ui64vARB", 1204, crate::Address(glProgramUniform4ui64vARB as *const ())),
-    (b"glProgramUniform4ui64vNV", 1205, crate::Address(glProgramUniform4ui64vNV as *const ())),
-    (b"glProgramUniform4uiEXT", 1143, crate::Address(glProgramUniform4uiEXT as *const ())),
-    (b"glProgramUniform4uiv", 1144, crate::Address(glProgramUniform4uiv as *const ())),
-    (b"glProgramUniform4uivEXT", 1145, crate::Address(glProgramUniform4uivEXT as *const ())),
-    (b"glProgramUniformHandleui64ARB", 1238, crate::Address(glProgramUniformHandleui64ARB as *const ())),
-    (b"glProgramUniformHandleui64IMG", 1239, crate::Address(glProgramUniformHandleui64IMG as *const ())),
-    (b"glProgramUniformHandleui64NV", 1240, crate::Address(glProgramUniformHandleui64NV as *const ())),
-    (b"glProgramUniformHandleui64vARB", 1241, crate::Address(glProgramUniformHandleui64vARB as *const ())),
-    (b"glProgramUniformHandleui64vIMG", 1242, crate::Address(glProgramUniformHandleui64vIMG as *const ())),
-    (b"glProgramUniformHandleui64vNV", 1243, crate::Address(glProgramUniformHandleui64vNV as *const ())),
-    (b"glProgramUniformMatrix2dv", 1146, crate::Address(glProgramUniformMatrix2dv as *const ())),
-    (b"glProgramUniformMatrix2dvEXT", 1263, crate::Address(glProgramUniformMatrix2dvEXT as *const ())),
-    (b"glProgramUniformMatrix2fv", 1147, crate::Address(glProgramUniformMatrix2fv as *const ())),
-    (b"glProgramUniformMatrix2fvEXT", 1148, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x3dv", 1149, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
-    (b"glProgramUniformMatrix2x3dvEXT", 1264, crate::Address(glProgramUniformMatrix2x3dvEXT as *const ())),
-    (b"glProgramUniformMatrix2x3fv", 1150, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
-    (b"glProgramUniformMatrix2x3fvEXT", 1151, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x4dv", 1152, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
-    (b"glProgramUniformMatrix2x4dvEXT", 1265, crate::Address(glProgramUniformMatrix2x4dvEXT as *const ())),
-    (b"glProgramUniformMatrix2x4fv", 1153, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
-    (b"glProgramUniformMatrix2x4fvEXT", 1154, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix3dv", 1155, crate::Address(glProgramUniformMatrix3dv as *const ())),
-    (b"glProgramUniformMatrix3dvEXT", 1266, crate::Address(glProgramUniformMatrix3dvEXT as *const ())),
-    (b"glProgramUniformMatrix3fv", 1156, crate::Address(glProgramUniformMatrix3fv as *const ())),
-    (b"glProgramUniformMatrix3fvEXT", 1157, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x2dv", 1158, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
-    (b"glProgramUniformMatrix3x2dvEXT", 1267, crate::Address(glProgramUniformMatrix3x2dvEXT as *const ())),
-    (b"glProgramUniformMatrix3x2fv", 1159, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
-    (b"glProgramUniformMatrix3x2fvEXT", 1160, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x4dv", 1161, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
-    (b"glProgramUniformMatrix3x4dvEXT", 1268, crate::Address(glProgramUniformMatrix3x4dvEXT as *const ())),
-    (b"glProgramUniformMatrix3x4fv", 1162, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
-    (b"glProgramUniformMatrix3x4fvEXT", 1163, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4dv", 1164, crate::Address(glProgramUniformMatrix4dv as *const ())),
-    (b"glProgramUniformMatrix4dvEXT", 1269, crate::Address(glProgramUniformMatrix4dvEXT as *const ())),
-    (b"glProgramUniformMatrix4fv", 1165, crate::Address(glProgramUniformMatrix4fv as *const ())),
-    (b"glProgramUniformMatrix4fvEXT", 1166, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x2dv", 1167, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
-    (b"glProgramUniformMatrix4x2dvEXT", 1270, crate::Address(glProgramUniformMatrix4x2dvEXT as *const ())),
-    (b"glProgramUniformMatrix4x2fv", 1168, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
-    (b"glProgramUniformMatrix4x2fvEXT", 1169, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x3dv", 1170, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
-    (b"glProgramUniformMatrix4x3dvEXT", 1271, crate::Address(glProgramUniformMatrix4x3dvEXT as *const ())),
-    (b"glProgramUniformMatrix4x3fv", 1171, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
-    (b"glProgramUniformMatrix4x3fvEXT", 1172, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
-    (b"glProgramUniformui64NV", 1250, crate::Address(glProgramUniformui64NV as *const ())),
-    (b"glProgramUniformui64vNV", 1251, crate::Address(glProgramUniformui64vNV as *const ())),
+    (b"glProgramBinary", 1276, crate::Address(glProgramBinary as *const ())),
+    (b"glProgramBinaryOES", 1277, crate::Address(glProgramBinaryOES as *const ())),
+    (b"glProgramEnvParameter4dARB", 1001, crate::Address(glProgramEnvParameter4dARB as *const ())),
+    (b"glProgramEnvParameter4dvARB", 1002, crate::Address(glProgramEnvParameter4dvARB as *const ())),
+    (b"glProgramEnvParameter4fARB", 1003, crate::Address(glProgramEnvParameter4fARB as *const ())),
+    (b"glProgramEnvParameter4fvARB", 1004, crate::Address(glProgramEnvParameter4fvARB as *const ())),
+    (b"glProgramLocalParameter4dARB", 1005, crate::Address(glProgramLocalParameter4dARB as *const ())),
+    (b"glProgramLocalParameter4dvARB", 1006, crate::Address(glProgramLocalParameter4dvARB as *const ())),
+    (b"glProgramLocalParameter4fARB", 1007, crate::Address(glProgramLocalParameter4fARB as *const ())),
+    (b"glProgramLocalParameter4fvARB", 1008, crate::Address(glProgramLocalParameter4fvARB as *const ())),
+    (b"glProgramUniform1d", 1092, crate::Address(glProgramUniform1d as *const ())),
+    (b"glProgramUniform1dEXT", 1257, crate::Address(glProgramUniform1dEXT as *const ())),
+    (b"glProgramUniform1dv", 1093, crate::Address(glProgramUniform1dv as *const ())),
+    (b"glProgramUniform1dvEXT", 1258, crate::Address(glProgramUniform1dvEXT as *const ())),
+    (b"glProgramUniform1f", 1094, crate::Address(glProgramUniform1f as *const ())),
+    (b"glProgramUniform1fEXT", 1095, crate::Address(glProgramUniform1fEXT as *const ())),
+    (b"glProgramUniform1fv", 1096, crate::Address(glProgramUniform1fv as *const ())),
+    (b"glProgramUniform1fvEXT", 1097, crate::Address(glProgramUniform1fvEXT as *const ())),
+    (b"glProgramUniform1i", 1098, crate::Address(glProgramUniform1i as *const ())),
+    (b"glProgramUniform1i64ARB", 1176, crate::Address(glProgramUniform1i64ARB as *const ())),
+    (b"glProgramUniform1i64NV", 1177, crate::Address(glProgramUniform1i64NV as *const ())),
+    (b"glProgramUniform1i64vARB", 1178, crate::Address(glProgramUniform1i64vARB as *const ())),
+    (b"glProgramUniform1i64vNV", 1179, crate::Address(glProgramUniform1i64vNV as *const ())),
+    (b"glProgramUniform1iEXT", 1099, crate::Address(glProgramUniform1iEXT as *const ())),
+    (b"glProgramUniform1iv", 1100, crate::Address(glProgramUniform1iv as *const ())),
+    (b"glProgramUniform1ivEXT", 1101, crate::Address(glProgramUniform1ivEXT as *const ())),
+    (b"glProgramUniform1ui", 1102, crate::Address(glProgramUniform1ui as *const ())),
+    (b"glProgramUniform1ui64ARB", 1180, crate::Address(glProgramUniform1ui64ARB as *const ())),
+    (b"glProgramUniform1ui64NV", 1181, crate::Address(glProgramUniform1ui64NV as *const ())),
+    (b"glProgramUniform1ui64vARB", 1182, crate::Address(glProgramUniform1ui64vARB as *const ())),
+    (b"glProgramUniform1ui64vNV", 1183, crate::Address(glProgramUniform1ui64vNV as *const ())),
+    (b"glProgramUniform1uiEXT", 1103, crate::Address(glProgramUniform1uiEXT as *const ())),
+    (b"glProgramUniform1uiv", 1104, crate::Address(glProgramUniform1uiv as *const ())),
+    (b"glProgramUniform1uivEXT", 1105, crate::Address(glProgramUniform1uivEXT as *const ())),
+    (b"glProgramUniform2d", 1106, crate::Address(glProgramUniform2d as *const ())),
+    (b"glProgramUniform2dEXT", 1259, crate::Address(glProgramUniform2dEXT as *const ())),
+    (b"glProgramUniform2dv", 1107, crate::Address(glProgramUniform2dv as *const ())),
+    (b"glProgramUniform2dvEXT", 1260, crate::Address(glProgramUniform2dvEXT as *const ())),
+    (b"glProgramUniform2f", 1108, crate::Address(glProgramUniform2f as *const ())),
+    (b"glProgramUniform2fEXT", 1109, crate::Address(glProgramUniform2fEXT as *const ())),
+    (b"glProgramUniform2fv", 1110, crate::Address(glProgramUniform2fv as *const ())),
+    (b"glProgramUniform2fvEXT", 1111, crate::Address(glProgramUniform2fvEXT as *const ())),
+    (b"glProgramUniform2i", 1112, crate::Address(glProgramUniform2i as *const ())),
+    (b"glProgramUniform2i64ARB", 1184, crate::Address(glProgramUniform2i64ARB as *const ())),
+    (b"glProgramUniform2i64NV", 1185, crate::Address(glProgramUniform2i64NV as *const ())),
+    (b"glProgramUniform2i64vARB", 1186, crate::Address(glProgramUniform2i64vARB as *const ())),
+    (b"glProgramUniform2i64vNV", 1187, crate::Address(glProgramUniform2i64vNV as *const ())),
+    (b"glProgramUniform2iEXT", 1113, crate::Address(glProgramUniform2iEXT as *const ())),
+    (b"glProgramUniform2iv", 1114, crate::Address(glProgramUniform2iv as *const ())),
+    (b"glProgramUniform2ivEXT", 1115, crate::Address(glProgramUniform2ivEXT as *const ())),
+    (b"glProgramUniform2ui", 1116, crate::Address(glProgramUniform2ui as *const ())),
+    (b"glProgramUniform2ui64ARB", 1188, crate::Address(glProgramUniform2ui64ARB as *const ())),
+    (b"glProgramUniform2ui64NV", 1189, crate::Address(glProgramUniform2ui64NV as *const ())),
+    (b"glProgramUniform2ui64vARB", 1190, crate::Address(glProgramUniform2ui64vARB as *const ())),
+    (b"glProgramUniform2ui64vNV", 1191, crate::Address(glProgramUniform2ui64vNV as *const ())),
+    (b"glProgramUniform2uiEXT", 1117, crate::Address(glProgramUniform2uiEXT as *const ())),
+    (b"glProgramUniform2uiv", 1118, crate::Address(glProgramUniform2uiv as *const ())),
+    (b"glProgramUniform2uivEXT", 1119, crate::Address(glProgramUniform2uivEXT as *const ())),
+    (b"glProgramUniform3d", 1120, crate::Address(glProgramUniform3d as *const ())),
+    (b"glProgramUniform3dEXT", 1261, crate::Address(glProgramUniform3dEXT as *const ())),
+    (b"glProgramUniform3dv", 1121, crate::Address(glProgramUniform3dv as *const ())),
+    (b"glProgramUniform3dvEXT", 1262, crate::Address(glProgramUniform3dvEXT as *const ())),
+    (b"glProgramUniform3f", 1122, crate::Address(glProgramUniform3f as *const ())),
+    (b"glProgramUniform3fEXT", 1123, crate::Address(glProgramUniform3fEXT as *const ())),
+    (b"glProgramUniform3fv", 1124, crate::Address(glProgramUniform3fv as *const ())),
+    (b"glProgramUniform3fvEXT", 1125, crate::Address(glProgramUniform3fvEXT as *const ())),
+    (b"glProgramUniform3i", 1126, crate::Address(glProgramUniform3i as *const ())),
+    (b"glProgramUniform3i64ARB", 1192, crate::Address(glProgramUniform3i64ARB as *const ())),
+    (b"glProgramUniform3i64NV", 1193, crate::Address(glProgramUniform3i64NV as *const ())),
+    (b"glProgramUniform3i64vARB", 1194, crate::Address(glProgramUniform3i64vARB as *const ())),
+    (b"glProgramUniform3i64vNV", 1195, crate::Address(glProgramUniform3i64vNV as *const ())),
+    (b"glProgramUniform3iEXT", 1127, crate::Address(glProgramUniform3iEXT as *const ())),
+    (b"glProgramUniform3iv", 1128, crate::Address(glProgramUniform3iv as *const ())),
+    (b"glProgramUniform3ivEXT", 1129, crate::Address(glProgramUniform3ivEXT as *const ())),
+    (b"glProgramUniform3ui", 1130, crate::Address(glProgramUniform3ui as *const ())),
+    (b"glProgramUniform3ui64ARB", 1196, crate::Address(glProgramUniform3ui64ARB as *const ())),
+    (b"glProgramUniform3ui64NV", 1197, crate::Address(glProgramUniform3ui64NV as *const ())),
+    (b"glProgramUniform3ui64vARB", 1198, crate::Address(glProgramUniform3ui64vARB as *const ())),
+    (b"glProgramUniform3ui64vNV", 1199, crate::Address(glProgramUniform3ui64vNV as *const ())),
+    (b"glProgramUniform3uiEXT", 1131, crate::Address(glProgramUniform3uiEXT as *const ())),
+    (b"glProgramUniform3uiv", 1132, crate::Address(glProgramUniform3uiv as *const ())),
+    (b"glProgramUniform3uivEXT", 1133, crate::Address(glProgramUniform3uivEXT as *const ())),
+    (b"glProgramUniform4d", 1134, crate::Address(glProgramUniform4d as *const ())),
+    (b"glProgramUniform4dEXT", 1263, crate::Address(glProgramUniform4dEXT as *const ())),
+    (b"glProgramUniform4dv", 1135, crate::Address(glProgramUniform4dv as *const ())),
+    (b"glProgramUniform4dvEXT", 1264, crate::Address(glProgramUniform4dvEXT as *const ())),
+    (b"glProgramUniform4f", 1136, crate::Address(glProgramUniform4f as *const ())),
+    (b"glProgramUniform4fEXT", 1137, crate::Address(glProgramUniform4fEXT as *const ())),
+    (b"glProgramUniform4fv", 1138, crate::Address(glProgramUniform4fv as *const ())),
+    (b"glProgramUniform4fvEXT", 1139, crate::Address(glProgramUniform4fvEXT as *const ())),
+    (b"glProgramUniform4i", 1140, crate::Address(glProgramUniform4i as *const ())),
+    (b"glProgramUniform4i64ARB", 1200, crate::Address(glProgramUniform4i64ARB as *const ())),
+    (b"glProgramUniform4i64NV", 1201, crate::Address(glProgramUniform4i64NV as *const ())),
+    (b"glProgramUniform4i64vARB", 1202, crate::Address(glProgramUniform4i64vARB as *const ())),
+    (b"glProgramUniform4i64vNV", 1203, crate::Address(glProgramUniform4i64vNV as *const ())),
+    (b"glProgramUniform4iEXT", 1141, crate::Address(glProgramUniform4iEXT as *const ())),
+    (b"glProgramUniform4iv", 1142, crate::Address(glProgramUniform4iv as *const ())),
+    (b"glProgramUniform4ivEXT", 1143, crate::Address(glProgramUniform4ivEXT as *const ())),
+    (b"glProgramUniform4ui", 1144, crate::Address(glProgramUniform4ui as *const ())),
+    (b"glProgramUniform4ui64ARB", 1204, crate::Address(glProgramUniform4ui64ARB as *const ())),
+    (b"glProgramUniform4ui64NV", 1205, crate::Address(glProgramUniform4ui64NV as *const ())),
+    (b"glProgramUniform4ui64vARB", 1206, crate::Address(glProgramUniform4ui64vARB as *const ())),
+    (b"glProgramUniform4ui64vNV", 1207, crate::Address(glProgramUniform4ui64vNV as *const ())),
+    (b"glProgramUniform4uiEXT", 1145, crate::Address(glProgramUniform4uiEXT as *const ())),
+    (b"glProgramUniform4uiv", 1146, crate::Address(glProgramUniform4uiv as *const ())),
+    (b"glProgramUniform4uivEXT", 1147, crate::Address(glProgramUniform4uivEXT as *const ())),
+    (b"glProgramUniformHandleui64ARB", 1240, crate::Address(glProgramUniformHandleui64ARB as *const ())),
+    (b"glProgramUniformHandleui64IMG", 1241, crate::Address(glProgramUniformHandleui64IMG as *const ())),
+    (b"glProgramUniformHandleui64NV", 1242, crate::Address(glProgramUniformHandleui64NV as *const ())),
+    (b"glProgramUniformHandleui64vARB", 1243, crate::Address(glProgramUniformHandleui64vARB as *const ())),
+    (b"glProgramUniformHandleui64vIMG", 1244, crate::Address(glProgramUniformHandleui64vIMG as *const ())),
+    (b"glProgramUniformHandleui64vNV", 1245, crate::Address(glProgramUniformHandleui64vNV as *const ())),
+    (b"glProgramUniformMatrix2dv", 1148, crate::Address(glProgramUniformMatrix2dv as *const ())),
+    (b"glProgramUniformMatrix2dvEXT", 1265, crate::Address(glProgramUniformMatrix2dvEXT as *const ())),
+    (b"glProgramUniformMatrix2fv", 1149, crate::Address(glProgramUniformMatrix2fv as *const ())),
+    (b"glProgramUniformMatrix2fvEXT", 1150, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x3dv", 1151, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
+    (b"glProgramUniformMatrix2x3dvEXT", 1266, crate::Address(glProgramUniformMatrix2x3dvEXT as *const ())),
+    (b"glProgramUniformMatrix2x3fv", 1152, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
+    (b"glProgramUniformMatrix2x3fvEXT", 1153, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x4dv", 1154, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
+    (b"glProgramUniformMatrix2x4dvEXT", 1267, crate::Address(glProgramUniformMatrix2x4dvEXT as *const ())),
+    (b"glProgramUniformMatrix2x4fv", 1155, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
+    (b"glProgramUniformMatrix2x4fvEXT", 1156, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix3dv", 1157, crate::Address(glProgramUniformMatrix3dv as *const ())),
+    (b"glProgramUniformMatrix3dvEXT", 1268, crate::Address(glProgramUniformMatrix3dvEXT as *const ())),
+    (b"glProgramUniformMatrix3fv", 1158, crate::Address(glProgramUniformMatrix3fv as *const ())),
+    (b"glProgramUniformMatrix3fvEXT", 1159, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x2dv", 1160, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
+    (b"glProgramUniformMatrix3x2dvEXT", 1269, crate::Address(glProgramUniformMatrix3x2dvEXT as *const ())),
+    (b"glProgramUniformMatrix3x2fv", 1161, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
+    (b"glProgramUniformMatrix3x2fvEXT", 1162, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x4dv", 1163, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
+    (b"glProgramUniformMatrix3x4dvEXT", 1270, crate::Address(glProgramUniformMatrix3x4dvEXT as *const ())),
+    (b"glProgramUniformMatrix3x4fv", 1164, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
+    (b"glProgramUniformMatrix3x4fvEXT", 1165, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4dv", 1166, crate::Address(glProgramUniformMatrix4dv as *const ())),
+    (b"glProgramUniformMatrix4dvEXT", 1271, crate::Address(glProgramUniformMatrix4dvEXT as *const ())),
+    (b"glProgramUniformMatrix4fv", 1167, crate::Address(glProgramUniformMatrix4fv as *const ())),
+    (b"glProgramUniformMatrix4fvEXT", 1168, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x2dv", 1169, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
+    (b"glProgramUniformMatrix4x2dvEXT", 1272, crate::Address(glProgramUniformMatrix4x2dvEXT as *const ())),
+    (b"glProgramUniformMatrix4x2fv", 1170, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
+    (b"glProgramUniformMatrix4x2fvEXT", 1171, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x3dv", 1172, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
+    (b"glProgramUniformMatrix4x3dvEXT", 1273, crate::Address(glProgramUniformMatrix4x3dvEXT as *const ())),
+    (b"glProgramUniformMatrix4x3fv", 1173, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
+    (b"glProgramUniformMatrix4x3fvEXT", 1174, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
+    (b"glProgramUniformui64NV", 1252, crate::Address(glProgramUniformui64NV as *const ())),
+    (b"glProgramUniformui64vNV", 1253, crate::Address(glProgramUniformui64vNV as *const ())),
     (b"glProvokingVertex", 601, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 602, crate::Address(glProvokingVertexEXT as *const ())),
     (b"glPushAttrib", 628, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1707, crate::Address(glPushClientAttrib as *const ())),
-    (b"glPushClientAttribDefaultEXT", 1710, crate::Address(glPushClientAttribDefaultEXT as *const ())),
+    (b"glPushClientAttrib", 1709, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushClientAttribDefaultEXT", 1712, crate::Address(glPushClientAttribDefaultEXT as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
     (b"glPushName", 775, crate::Address(glPushName as *const ())),
     (b"glRasterPos2d", 630, crate::Address(glRasterPos2d as *const ())),
@@ -6648,35 +6679,35 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glRasterPos4s", 652, crate::Address(glRasterPos4s as *const ())),
     (b"glRasterPos4sv", 653, crate::Address(glRasterPos4sv as *const ())),
     (b"glRasterSamplesEXT", 824, crate::Address(glRasterSamplesEXT as *const ())),
-    (b"glReadBuffer", 1418, crate::Address(glReadBuffer as *const ())),
-    (b"glReadBufferNV", 1533, crate::Address(glReadBufferNV as *const ())),
-    (b"glReadPixels", 1504, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1505, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1506, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1507, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1508, crate::Address(glReadnPixelsKHR as *const ())),
-    (b"glRectd", 1336, crate::Address(glRectd as *const ())),
-    (b"glRectdv", 1337, crate::Address(glRectdv as *const ())),
-    (b"glRectf", 1338, crate::Address(glRectf as *const ())),
-    (b"glRectfv", 1339, crate::Address(glRectfv as *const ())),
-    (b"glRecti", 1340, crate::Address(glRecti as *const ())),
-    (b"glRectiv", 1341, crate::Address(glRectiv as *const ())),
-    (b"glRects", 1342, crate::Address(glRects as *const ())),
-    (b"glRectsv", 1343, crate::Address(glRectsv as *const ())),
-    (b"glRectxOES", 1390, crate::Address(glRectxOES as *const ())),
-    (b"glRectxvOES", 1391, crate::Address(glRectxvOES as *const ())),
+    (b"glReadBuffer", 1420, crate::Address(glReadBuffer as *const ())),
+    (b"glReadBufferNV", 1535, crate::Address(glReadBufferNV as *const ())),
+    (b"glReadPixels", 1506, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1507, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1508, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1509, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1510, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glRectd", 1338, crate::Address(glRectd as *const ())),
+    (b"glRectdv", 1339, crate::Address(glRectdv as *const ())),
+    (b"glRectf", 1340, crate::Address(glRectf as *const ())),
+    (b"glRectfv", 1341, crate::Address(glRectfv as *const ())),
+    (b"glRecti", 1342, crate::Address(glRecti as *const ())),
+    (b"glRectiv", 1343, crate::Address(glRectiv as *const ())),
+    (b"glRects", 1344, crate::Address(glRects as *const ())),
+    (b"glRectsv", 1345, crate::Address(glRectsv as *const ())),
+    (b"glRectxOES", 1392, crate::Address(glRectxOES as *const ())),
+    (b"glRectxvOES", 1393, crate::Address(glRectxvOES as *const ())),
     (b"glRenderMode", 710, crate::Address(glRenderMode as *const ())),
-    (b"glRenderbufferStorage", 1631, crate::Address(glRenderbufferStorage as *const ())),
-    (b"glRenderbufferStorageEXT", 1632, crate::Address(glRenderbufferStorageEXT as *const ())),
-    (b"glRenderbufferStorageMultisample", 1633, crate::Address(glRenderbufferStorageMultisample as *const ())),
-    (b"glRenderbufferStorageMultisampleANGLE", 1637, crate::Address(glRenderbufferStorageMultisampleANGLE as *const ())),
-    (b"glRenderbufferStorageMultisampleAPPLE", 1638, crate::Address(glRenderbufferStorageMultisampleAPPLE as *const ())),
-    (b"glRenderbufferStorageMultisampleAdvancedAMD", 1639, crate::Address(glRenderbufferStorageMultisampleAdvancedAMD as *const ())),
-    (b"glRenderbufferStorageMultisampleCoverageNV", 1640, crate::Address(glRenderbufferStorageMultisampleCoverageNV as *const ())),
-    (b"glRenderbufferStorageMultisampleEXT", 1634, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glRenderbufferStorageMultisampleIMG", 1641, crate::Address(glRenderbufferStorageMultisampleIMG as *const ())),
-    (b"glRenderbufferStorageMultisampleNV", 1635, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
-    (b"glResolveDepthValuesNV", 1644, crate::Address(glResolveDepthValuesNV as *const ())),
+    (b"glRenderbufferStorage", 1633, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1634, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1635, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleANGLE", 1639, crate::Address(glRenderbufferStorageMultisampleANGLE as *const ())),
+    (b"glRenderbufferStorageMultisampleAPPLE", 1640, crate::Address(glRenderbufferStorageMultisampleAPPLE as *const ())),
+    (b"glRenderbufferStorageMultisampleAdvancedAMD", 1641, crate::Address(glRenderbufferStorageMultisampleAdvancedAMD as *const ())),
+    (b"glRenderbufferStorageMultisampleCoverageNV", 1642, crate::Address(glRenderbufferStorageMultisampleCoverageNV as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1636, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleIMG", 1643, crate::Address(glRenderbufferStorageMultisampleIMG as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1637, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
+    (b"glResolveDepthValuesNV", 1646, crate::Address(glResolveDepthValuesNV as *const ())),
     (b"glResumeTransformFeedback", 719, crate::Address(glResumeTransformFeedback as *const ())),
     (b"glResumeTransformFeedbackNV", 720, crate::Address(glResumeTransformFeedbackNV as *const ())),
     (b"glRotated", 470, crate::Address(glRotated as *const ())),
@@ -6735,12 +6766,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1726, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1727, crate::Address(glSecondaryColorPointerEXT as *const ())),
-    (b"glSelectBuffer", 1624, crate::Address(glSelectBuffer as *const ())),
+    (b"glSecondaryColorPointer", 1728, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1729, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1626, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 592, crate::Address(glShadeModel as *const ())),
-    (b"glStencilFillPathInstancedNV", 1374, crate::Address(glStencilFillPathInstancedNV as *const ())),
-    (b"glStencilFillPathNV", 1375, crate::Address(glStencilFillPathNV as *const ())),
+    (b"glStencilFillPathInstancedNV", 1376, crate::Address(glStencilFillPathInstancedNV as *const ())),
+    (b"glStencilFillPathNV", 1377, crate::Address(glStencilFillPathNV as *const ())),
     (b"glStencilFunc", 806, crate::Address(glStencilFunc as *const ())),
     (b"glStencilFuncSeparate", 807, crate::Address(glStencilFuncSeparate as *const ())),
     (b"glStencilFuncSeparateATI", 819, crate::Address(glStencilFuncSeparateATI as *const ())),
@@ -6749,12 +6780,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glStencilOp", 810, crate::Address(glStencilOp as *const ())),
     (b"glStencilOpSeparate", 811, crate::Address(glStencilOpSeparate as *const ())),
     (b"glStencilOpSeparateATI", 812, crate::Address(glStencilOpSeparateATI as *const ())),
-    (b"glStencilStrokePathInstancedNV", 1376, crate::Address(glStencilStrokePathInstancedNV as *const ())),
-    (b"glStencilStrokePathNV", 1377, crate::Address(glStencilStrokePathNV as *const ())),
-    (b"glStencilThenCoverFillPathInstancedNV", 1378, crate::Address(glStencilThenCoverFillPathInstancedNV as *const ())),
-    (b"glStencilThenCoverFillPathNV", 1379, crate::Address(glStencilThenCoverFillPathNV as *const ())),
-    (b"glStencilThenCoverStrokePathInstancedNV", 1380, crate::Address(glStencilThenCoverStrokePathInstancedNV as *const ())),
-    (b"glStencilThenCoverStrokePathNV", 1381, crate::Address(glStencilThenCoverStrokePathNV as *const ())),
+    (b"glStencilStrokePathInstancedNV", 1378, crate::Address(glStencilStrokePathInstancedNV as *const ())),
+    (b"glStencilStrokePathNV", 1379, crate::Address(glStencilStrokePathNV as *const ())),
+    (b"glStencilThenCoverFillPathInstancedNV", 1380, crate::Address(glStencilThenCoverFillPathInstancedNV as *const ())),
+    (b"glStencilThenCoverFillPathNV", 1381, crate::Address(glStencilThenCoverFillPathNV as *const ())),
+    (b"glStencilThenCoverStrokePathInstancedNV", 1382, crate::Address(glStencilThenCoverStrokePathInstancedNV as *const ())),
+    (b"glStencilThenCoverStrokePathNV", 1383, crate::Address(glStencilThenCoverStrokePathNV as *const ())),
     (b"glTexCoord1d", 78, crate::Address(glTexCoord1d as *const ())),
     (b"glTexCoord1dv", 79, crate::Address(glTexCoord1dv as *const ())),
     (b"glTexCoord1f", 80, crate::Address(glTexCoord1f as *const ())),
@@ -6803,7 +6834,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1728, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1730, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 595, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 596, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 597, crate::Address(glTexEnvi as *const ())),
@@ -6910,138 +6941,138 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glTextureViewOES", 972, crate::Address(glTextureViewOES as *const ())),
     (b"glTranslated", 474, crate::Address(glTranslated as *const ())),
     (b"glTranslatef", 475, crate::Address(glTranslatef as *const ())),
-    (b"glUniform1d", 1007, crate::Address(glUniform1d as *const ())),
-    (b"glUniform1dv", 1008, crate::Address(glUniform1dv as *const ())),
-    (b"glUniform1f", 1009, crate::Address(glUniform1f as *const ())),
-    (b"glUniform1fARB", 1010, crate::Address(glUniform1fARB as *const ())),
-    (b"glUniform1fv", 1011, crate::Address(glUniform1fv as *const ())),
-    (b"glUniform1fvARB", 1012, crate::Address(glUniform1fvARB as *const ())),
-    (b"glUniform1i", 1013, crate::Address(glUniform1i as *const ())),
-    (b"glUniform1i64ARB", 1206, crate::Address(glUniform1i64ARB as *const ())),
-    (b"glUniform1i64NV", 1207, crate::Address(glUniform1i64NV as *const ())),
-    (b"glUniform1i64vARB", 1208, crate::Address(glUniform1i64vARB as *const ())),
-    (b"glUniform1i64vNV", 1209, crate::Address(glUniform1i64vNV as *const ())),
-    (b"glUniform1iARB", 1014, crate::Address(glUniform1iARB as *const ())),
-    (b"glUniform1iv", 1015, crate::Address(glUniform1iv as *const ())),
-    (b"glUniform1ivARB", 1016, crate::Address(glUniform1ivARB as *const ())),
-    (b"glUniform1ui", 1017, crate::Address(glUniform1ui as *const ())),
-    (b"glUniform1ui64ARB", 1210, crate::Address(glUniform1ui64ARB as *const ())),
-    (b"glUniform1ui64NV", 1211, crate::Address(glUniform1ui64NV as *const ())),
-    (b"glUniform1ui64vARB", 1212, crate::Address(glUniform1ui64vARB as *const ())),
-    (b"glUniform1ui64vNV", 1213, crate::Address(glUniform1ui64vNV as *const ())),
-    (b"glUniform1uiEXT", 1018, crate::Address(glUniform1uiEXT as *const ())),
-    (b"glUniform1uiv", 1019, crate::Address(glUniform1uiv as *const ())),
-    (b"glUniform1uivEXT", 1020, crate::Address(glUniform1uivEXT as *const ())),
-    (b"glUniform2d", 1021, crate::Address(glUniform2d as *const ())),
-    (b"glUniform2dv", 1022, crate::Address(glUniform2dv as *const ())),
-    (b"glUniform2f", 1023, crate::Address(glUniform2f as *const ())),
-    (b"glUniform2fARB", 1024, crate::Address(glUniform2fARB as *const ())),
-    (b"glUniform2fv", 1025, crate::Address(glUniform2fv as *const ())),
-    (b"glUniform2fvARB", 1026, crate::Address(glUniform2fvARB as *const ())),
-    (b"glUniform2i", 1027, crate::Address(glUniform2i as *const ())),
-    (b"glUniform2i64ARB", 1214, crate::Address(glUniform2i64ARB as *const ())),
-    (b"glUniform2i64NV", 1215, crate::Address(glUniform2i64NV as *const ())),
-    (b"glUniform2i64vARB", 1216, crate::Address(glUniform2i64vARB as *const ())),
-    (b"glUniform2i64vNV", 1217, crate::Address(glUniform2i64vNV as *const ())),
-    (b"glUniform2iARB", 1028, crate::Address(glUniform2iARB as *const ())),
-    (b"glUniform2iv", 1029, crate::Address(glUniform2iv as *const ())),
-    (b"glUniform2ivARB", 1030, crate::Address(glUniform2ivARB as *const ())),
-    (b"glUniform2ui", 1031, crate::Address(glUniform2ui as *const ())),
-    (b"glUniform2ui64ARB", 1218, crate::Address(glUniform2ui64ARB as *const ())),
-    (b"glUniform2ui64NV", 1219, crate::Address(glUniform2ui64NV as *const ())),
-    (b"glUniform2ui64vARB", 1220, crate::Address(glUniform2ui64vARB as *const ())),
-    (b"glUniform2ui64vNV", 1221, crate::Address(glUniform2ui64vNV as *const ())),
-    (b"glUniform2uiEXT", 1032, crate::Address(glUniform2uiEXT as *const ())),
-    (b"glUniform2uiv", 1033, crate::Address(glUniform2uiv as *const ())),
-    (b"glUniform2uivEXT", 1034, crate::Address(glUniform2uivEXT as *const ())),
-    (b"glUniform3d", 1035, crate::Address(glUniform3d as *const ())),
-    (b"glUniform3dv", 1036, crate::Address(glUniform3dv as *const ())),
-    (b"glUniform3f", 1037, crate::Address(glUniform3f as *const ())),
-    (b"glUniform3fARB", 1038, crate::Address(glUniform3fARB as *const ())),
-    (b"glUniform3fv", 1039, crate::Address(glUniform3fv as *const ())),
-    (b"glUniform3fvARB", 1040, crate::Address(glUniform3fvARB as *const ())),
-    (b"glUniform3i", 1041, crate::Address(glUniform3i as *const ())),
-    (b"glUniform3i64ARB", 1222, crate::Address(glUniform3i64ARB as *const ())),
-    (b"glUniform3i64NV", 1223, crate::Address(glUniform3i64NV as *const ())),
-    (b"glUniform3i64vARB", 1224, crate::Address(glUniform3i64vARB as *const ())),
-    (b"glUniform3i64vNV", 1225, crate::Address(glUniform3i64vNV as *const ())),
-    (b"glUniform3iARB", 1042, crate::Address(glUniform3iARB as *const ())),
-    (b"glUniform3iv", 1043, crate::Address(glUniform3iv as *const ())),
-    (b"glUniform3ivARB", 1044, crate::Address(glUniform3ivARB as *const ())),
-    (b"glUniform3ui", 1045, crate::Address(glUniform3ui as *const ())),
-    (b"glUniform3ui64ARB", 1226, crate::Address(glUniform3ui64ARB as *const ())),
-    (b"glUniform3ui64NV", 1227, crate::Address(glUniform3ui64NV as *const ())),
-    (b"glUniform3ui64vARB", 1228, crate::Address(glUniform3ui64vARB as *const ())),
-    (b"glUniform3ui64vNV", 1229, crate::Address(glUniform3ui64vNV as *const ())),
-    (b"glUniform3uiEXT", 1046, crate::Address(glUniform3uiEXT as *const ())),
-    (b"glUniform3uiv", 1047, crate::Address(glUniform3uiv as *const ())),
-    (b"glUniform3uivEXT", 1048, crate::Address(glUniform3uivEXT as *const ())),
-    (b"glUniform4d", 1049, crate::Address(glUniform4d as *const ())),
-    (b"glUniform4dv", 1050, crate::Address(glUniform4dv as *const ())),
-    (b"glUniform4f", 1051, crate::Address(glUniform4f as *const ())),
-    (b"glUniform4fARB", 1052, crate::Address(glUniform4fARB as *const ())),
-    (b"glUniform4fv", 1053, crate::Address(glUniform4fv as *const ())),
-    (b"glUniform4fvARB", 1054, crate::Address(glUniform4fvARB as *const ())),
-    (b"glUniform4i", 1055, crate::Address(glUniform4i as *const ())),
-    (b"glUniform4i64ARB", 1230, crate::Address(glUniform4i64ARB as *const ())),
-    (b"glUniform4i64NV", 1231, crate::Address(glUniform4i64NV as *const ())),
-    (b"glUniform4i64vARB", 1232, crate::Address(glUniform4i64vARB as *const ())),
-    (b"glUniform4i64vNV", 1233, crate::Address(glUniform4i64vNV as *const ())),
-    (b"glUniform4iARB", 1056, crate::Address(glUniform4iARB as *const ())),
-    (b"glUniform4iv", 1057, crate::Address(glUniform4iv as *const ())),
-    (b"glUniform4ivARB", 1058, crate::Address(glUniform4ivARB as *const ())),
-    (b"glUniform4ui", 1059, crate::Address(glUniform4ui as *const ())),
-    (b"glUniform4ui64ARB", 1234, crate::Address(glUniform4ui64ARB as *const ())),
-    (b"glUniform4ui64NV", 1235, crate::Address(glUniform4ui64NV as *const ())),
-    (b"glUniform4ui64vARB", 1236, crate::Address(glUniform4ui64vARB as *const ())),
-    (b"glUniform4ui64vNV", 1237, crate::Address(glUniform4ui64vNV as *const ())),
-    (b"glUniform4uiEXT", 1060, crate::Address(glUniform4uiEXT as *const ())),
-    (b"glUniform4uiv", 1061, crate::Address(glUniform4uiv as *const ())),
-    (b"glUniform4uivEXT", 1062, crate::Address(glUniform4uivEXT as *const ())),
-    (b"glUniformBlockBinding", 1173, crate::Address(glUniformBlockBinding as *const ())),
-    (b"glUniformBufferEXT", 1254, crate::Address(glUniformBufferEXT as *const ())),
-    (b"glUniformHandleui64ARB", 1244, crate::Address(glUniformHandleui64ARB as *const ())),
-    (b"glUniformHandleui64IMG", 1245, crate::Address(glUniformHandleui64IMG as *const ())),
-    (b"glUniformHandleui64NV", 1246, crate::Address(glUniformHandleui64NV as *const ())),
-    (b"glUniformHandleui64vARB", 1247, crate::Address(glUniformHandleui64vARB as *const ())),
-    (b"glUniformHandleui64vIMG", 1248, crate::Address(glUniformHandleui64vIMG as *const ())),
-    (b"glUniformHandleui64vNV", 1249, crate::Address(glUniformHandleui64vNV as *const ())),
-    (b"glUniformMatrix2dv", 1063, crate::Address(glUniformMatrix2dv as *const ())),
-    (b"glUniformMatrix2fv", 1064, crate::Address(glUniformMatrix2fv as *const ())),
-    (b"glUniformMatrix2fvARB", 1065, crate::Address(glUniformMatrix2fvARB as *const ())),
-    (b"glUniformMatrix2x3dv", 1066, crate::Address(glUniformMatrix2x3dv as *const ())),
-    (b"glUniformMatrix2x3fv", 1067, crate::Address(glUniformMatrix2x3fv as *const ())),
-    (b"glUniformMatrix2x3fvNV", 1068, crate::Address(glUniformMatrix2x3fvNV as *const ())),
-    (b"glUniformMatrix2x4dv", 1069, crate::Address(glUniformMatrix2x4dv as *const ())),
-    (b"glUniformMatrix2x4fv", 1070, crate::Address(glUniformMatrix2x4fv as *const ())),
-    (b"glUniformMatrix2x4fvNV", 1071, crate::Address(glUniformMatrix2x4fvNV as *const ())),
-    (b"glUniformMatrix3dv", 1072, crate::Address(glUniformMatrix3dv as *const ())),
-    (b"glUniformMatrix3fv", 1073, crate::Address(glUniformMatrix3fv as *const ())),
-    (b"glUniformMatrix3fvARB", 1074, crate::Address(glUniformMatrix3fvARB as *const ())),
-    (b"glUniformMatrix3x2dv", 1075, crate::Address(glUniformMatrix3x2dv as *const ())),
-    (b"glUniformMatrix3x2fv", 1076, crate::Address(glUniformMatrix3x2fv as *const ())),
-    (b"glUniformMatrix3x2fvNV", 1077, crate::Address(glUniformMatrix3x2fvNV as *const ())),
-    (b"glUniformMatrix3x4dv", 1078, crate::Address(glUniformMatrix3x4dv as *const ())),
-    (b"glUniformMatrix3x4fv", 1079, crate::Address(glUniformMatrix3x4fv as *const ())),
-    (b"glUniformMatrix3x4fvNV", 1080, crate::Address(glUniformMatrix3x4fvNV as *const ())),
-    (b"glUniformMatrix4dv", 1081, crate::Address(glUniformMatrix4dv as *const ())),
-    (b"glUniformMatrix4fv", 1082, crate::Address(glUniformMatrix4fv as *const ())),
-    (b"glUniformMatrix4fvARB", 1083, crate::Address(glUniformMatrix4fvARB as *const ())),
-    (b"glUniformMatrix4x2dv", 1084, crate::Address(glUniformMatrix4x2dv as *const ())),
-    (b"glUniformMatrix4x2fv", 1085, crate::Address(glUniformMatrix4x2fv as *const ())),
-    (b"glUniformMatrix4x2fvNV", 1086, crate::Address(glUniformMatrix4x2fvNV as *const ())),
-    (b"glUniformMatrix4x3dv", 1087, crate::Address(glUniformMatrix4x3dv as *const ())),
-    (b"glUniformMatrix4x3fv", 1088, crate::Address(glUniformMatrix4x3fv as *const ())),
-    (b"glUniformMatrix4x3fvNV", 1089, crate::Address(glUniformMatrix4x3fvNV as *const ())),
-    (b"glUniformui64NV", 1252, crate::Address(glUniformui64NV as *const ())),
-    (b"glUniformui64vNV", 1253, crate::Address(glUniformui64vNV as *const ())),
-    (b"glUnmapBuffer", 1694, crate::Address(glUnmapBuffer as *const ())),
-    (b"glUnmapBufferARB", 1695, crate::Address(glUnmapBufferARB as *const ())),
-    (b"glUnmapBufferOES", 1696, crate::Address(glUnmapBufferOES as *const ())),
-    (b"glUnmapNamedBuffer", 1697, crate::Address(glUnmapNamedBuffer as *const ())),
-    (b"glUnmapNamedBufferEXT", 1673, crate::Address(glUnmapNamedBufferEXT as *const ())),
-    (b"glUseProgram", 1276, crate::Address(glUseProgram as *const ())),
-    (b"glUseProgramObjectARB", 1277, crate::Address(glUseProgramObjectARB as *const ())),
+    (b"glUniform1d", 1009, crate::Address(glUniform1d as *const ())),
+    (b"glUniform1dv", 1010, crate::Address(glUniform1dv as *const ())),
+    (b"glUniform1f", 1011, crate::Address(glUniform1f as *const ())),
+    (b"glUniform1fARB", 1012, crate::Address(glUniform1fARB as *const ())),
+    (b"glUniform1fv", 1013, crate::Address(glUniform1fv as *const ())),
+    (b"glUniform1fvARB", 1014, crate::Address(glUniform1fvARB as *const ())),
+    (b"glUniform1i", 1015, crate::Address(glUniform1i as *const ())),
+    (b"glUniform1i64ARB", 1208, crate::Address(glUniform1i64ARB as *const ())),
+    (b"glUniform1i64NV", 1209, crate::Address(glUniform1i64NV as *const ())),
+    (b"glUniform1i64vARB", 1210, crate::Address(glUniform1i64vARB as *const ())),
+    (b"glUniform1i64vNV", 1211, crate::Address(glUniform1i64vNV as *const ())),
+    (b"glUniform1iARB", 1016, crate::Address(glUniform1iARB as *const ())),
+    (b"glUniform1iv", 1017, crate::Address(glUniform1iv as *const ())),
+    (b"glUniform1ivARB", 1018, crate::Address(glUniform1ivARB as *const ())),
+    (b"glUniform1ui", 1019, crate::Address(glUniform1ui as *const ())),
+    (b"glUniform1ui64ARB", 1212, crate::Address(glUniform1ui64ARB as *const ())),
+    (b"glUniform1ui64NV", 1213, crate::Address(glUniform1ui64NV as *const ())),
+    (b"glUniform1ui64vARB", 1214, crate::Address(glUniform1ui64vARB as *const ())),
+    (b"glUniform1ui64vNV", 1215, crate::Address(glUniform1ui64vNV as *const ())),
+    (b"glUniform1uiEXT", 1020, crate::Address(glUniform1uiEXT as *const ())),
+    (b"glUniform1uiv", 1021, crate::Address(glUniform1uiv as *const ())),
+    (b"glUniform1uivEXT", 1022, crate::Address(glUniform1uivEXT as *const ())),
+    (b"glUniform2d", 1023, crate::Address(glUniform2d as *const ())),
+    (b"glUniform2dv", 1024, crate::Address(glUniform2dv as *const ())),
+    (b"glUniform2f", 1025, crate::Address(glUniform2f as *const ())),
+    (b"glUniform2fARB", 1026, crate::Address(glUniform2fARB as *const ())),
+    (b"glUniform2fv", 1027, crate::Address(glUniform2fv as *const ())),
+    (b"glUniform2fvARB", 1028, crate::Address(glUniform2fvARB as *const ())),
+    (b"glUniform2i", 1029, crate::Address(glUniform2i as *const ())),
+    (b"glUniform2i64ARB", 1216, crate::Address(glUniform2i64ARB as *const ())),
+    (b"glUniform2i64NV", 1217, crate::Address(glUniform2i64NV as *const ())),
+    (b"glUniform2i64vARB", 1218, crate::Address(glUniform2i64vARB as *const ())),
+    (b"glUniform2i64vNV", 1219, crate::Address(glUniform2i64vNV as *const ())),
+    (b"glUniform2iARB", 1030, crate::Address(glUniform2iARB as *const ())),
+    (b"glUniform2iv", 1031, crate::Address(glUniform2iv as *const ())),
+    (b"glUniform2ivARB", 1032, crate::Address(glUniform2ivARB as *const ())),
+    (b"glUniform2ui", 1033, crate::Address(glUniform2ui as *const ())),
+    (b"glUniform2ui64ARB", 1220, crate::Address(glUniform2ui64ARB as *const ())),
+    (b"glUniform2ui64NV", 1221, crate::Address(glUniform2ui64NV as *const ())),
+    (b"glUniform2ui64vARB", 1222, crate::Address(glUniform2ui64vARB as *const ())),
+    (b"glUniform2ui64vNV", 1223, crate::Address(glUniform2ui64vNV as *const ())),
+    (b"glUniform2uiEXT", 1034, crate::Address(glUniform2uiEXT as *const ())),
+    (b"glUniform2uiv", 1035, crate::Address(glUniform2uiv as *const ())),
+    (b"glUniform2uivEXT", 1036, crate::Address(glUniform2uivEXT as *const ())),
+    (b"glUniform3d", 1037, crate::Address(glUniform3d as *const ())),
+    (b"glUniform3dv", 1038, crate::Address(glUniform3dv as *const ())),
+    (b"glUniform3f", 1039, crate::Address(glUniform3f as *const ())),
+    (b"glUniform3fARB", 1040, crate::Address(glUniform3fARB as *const ())),
+    (b"glUniform3fv", 1041, crate::Address(glUniform3fv as *const ())),
+    (b"glUniform3fvARB", 1042, crate::Address(glUniform3fvARB as *const ())),
+    (b"glUniform3i", 1043, crate::Address(glUniform3i as *const ())),
+    (b"glUniform3i64ARB", 1224, crate::Address(glUniform3i64ARB as *const ())),
+    (b"glUniform3i64NV", 1225, crate::Address(glUniform3i64NV as *const ())),
+    (b"glUniform3i64vARB", 1226, crate::Address(glUniform3i64vARB as *const ())),
+    (b"glUniform3i64vNV", 1227, crate::Address(glUniform3i64vNV as *const ())),
+    (b"glUniform3iARB", 1044, crate::Address(glUniform3iARB as *const ())),
+    (b"glUniform3iv", 1045, crate::Address(glUniform3iv as *const ())),
+    (b"glUniform3ivARB", 1046, crate::Address(glUniform3ivARB as *const ())),
+    (b"glUniform3ui", 1047, crate::Address(glUniform3ui as *const ())),
+    (b"glUniform3ui64ARB", 1228, crate::Address(glUniform3ui64ARB as *const ())),
+    (b"glUniform3ui64NV", 1229, crate::Address(glUniform3ui64NV as *const ())),
+    (b"glUniform3ui64vARB", 1230, crate::Address(glUniform3ui64vARB as *const ())),
+    (b"glUniform3ui64vNV", 1231, crate::Address(glUniform3ui64vNV as *const ())),
+    (b"glUniform3uiEXT", 1048, crate::Address(glUniform3uiEXT as *const ())),
+    (b"glUniform3uiv", 1049, crate::Address(glUniform3uiv as *const ())),
+    (b"glUniform3uivEXT", 1050, crate::Address(glUniform3uivEXT as *const ())),
+    (b"glUniform4d", 1051, crate::Address(glUniform4d as *const ())),
+    (b"glUniform4dv", 1052, crate::Address(glUniform4dv as *const ())),
+    (b"glUniform4f", 1053, crate::Address(glUniform4f as *const ())),
+    (b"glUniform4fARB", 1054, crate::Address(glUniform4fARB as *const ())),
+    (b"glUniform4fv", 1055, crate::Address(glUniform4fv as *const ())),
+    (b"glUniform4fvARB", 1056, crate::Address(glUniform4fvARB as *const ())),
+    (b"glUniform4i", 1057, crate::Address(glUniform4i as *const ())),
+    (b"glUniform4i64ARB", 1232, crate::Address(glUniform4i64ARB as *const ())),
+    (b"glUniform4i64NV", 1233, crate::Address(glUniform4i64NV as *const ())),
+    (b"glUniform4i64vARB", 1234, crate::Address(glUniform4i64vARB as *const ())),
+    (b"glUniform4i64vNV", 1235, crate::Address(glUniform4i64vNV as *const ())),
+    (b"glUniform4iARB", 1058, crate::Address(glUniform4iARB as *const ())),
+    (b"glUniform4iv", 1059, crate::Address(glUniform4iv as *const ())),
+    (b"glUniform4ivARB", 1060, crate::Address(glUniform4ivARB as *const ())),
+    (b"glUniform4ui", 1061, crate::Address(glUniform4ui as *const ())),
+    (b"glUniform4ui64ARB", 1236, crate::Address(glUniform4ui64ARB as *const ())),
+    (b"glUniform4ui64NV", 1237, crate::Address(glUniform4ui64NV as *const ())),
+    (b"glUniform4ui64vARB", 1238, crate::Address(glUniform4ui64vARB as *const ())),
+    (b"glUniform4ui64vNV", 1239, crate::Address(glUniform4ui64vNV as *const ())),
+    (b"glUniform4uiEXT", 1062, crate::Address(glUniform4uiEXT as *const ())),
+    (b"glUniform4uiv", 1063, crate::Address(glUniform4uiv as *const ())),
+    (b"glUniform4uivEXT", 1064, crate::Address(glUniform4uivEXT as *const ())),
+    (b"glUniformBlockBinding", 1175, crate::Address(glUniformBlockBinding as *const ())),
+    (b"glUniformBufferEXT", 1256, crate::Address(glUniformBufferEXT as *const ())),
+    (b"glUniformHandleui64ARB", 1246, crate::Address(glUniformHandleui64ARB as *const ())),
+    (b"glUniformHandleui64IMG", 1247, crate::Address(glUniformHandleui64IMG as *const ())),
+    (b"glUniformHandleui64NV", 1248, crate::Address(glUniformHandleui64NV as *const ())),
+    (b"glUniformHandleui64vARB", 1249, crate::Address(glUniformHandleui64vARB as *const ())),
+    (b"glUniformHandleui64vIMG", 1250, crate::Address(glUniformHandleui64vIMG as *const ())),
+    (b"glUniformHandleui64vNV", 1251, crate::Address(glUniformHandleui64vNV as *const ())),
+    (b"glUniformMatrix2dv", 1065, crate::Address(glUniformMatrix2dv as *const ())),
+    (b"glUniformMatrix2fv", 1066, crate::Address(glUniformMatrix2fv as *const ())),
+    (b"glUniformMatrix2fvARB", 1067, crate::Address(glUniformMatrix2fvARB as *const ())),
+    (b"glUniformMatrix2x3dv", 1068, crate::Address(glUniformMatrix2x3dv as *const ())),
+    (b"glUniformMatrix2x3fv", 1069, crate::Address(glUniformMatrix2x3fv as *const ())),
+    (b"glUniformMatrix2x3fvNV", 1070, crate::Address(glUniformMatrix2x3fvNV as *const ())),
+    (b"glUniformMatrix2x4dv", 1071, crate::Address(glUniformMatrix2x4dv as *const ())),
+    (b"glUniformMatrix2x4fv", 1072, crate::Address(glUniformMatrix2x4fv as *const ())),
+    (b"glUniformMatrix2x4fvNV", 1073, crate::Address(glUniformMatrix2x4fvNV as *const ())),
+    (b"glUniformMatrix3dv", 1074, crate::Address(glUniformMatrix3dv as *const ())),
+    (b"glUniformMatrix3fv", 1075, crate::Address(glUniformMatrix3fv as *const ())),
+    (b"glUniformMatrix3fvARB", 1076, crate::Address(glUniformMatrix3fvARB as *const ())),
+    (b"glUniformMatrix3x2dv", 1077, crate::Address(glUniformMatrix3x2dv as *const ())),
+    (b"glUniformMatrix3x2fv", 1078, crate::Address(glUniformMatrix3x2fv as *const ())),
+    (b"glUniformMatrix3x2fvNV", 1079, crate::Address(glUniformMatrix3x2fvNV as *const ())),
+    (b"glUniformMatrix3x4dv", 1080, crate::Address(glUniformMatrix3x4dv as *const ())),
+    (b"glUniformMatrix3x4fv", 1081, crate::Address(glUniformMatrix3x4fv as *const ())),
+    (b"glUniformMatrix3x4fvNV", 1082, crate::Address(glUniformMatrix3x4fvNV as *const ())),
+    (b"glUniformMatrix4dv", 1083, crate::Address(glUniformMatrix4dv as *const ())),
+    (b"glUniformMatrix4fv", 1084, crate::Address(glUniformMatrix4fv as *const ())),
+    (b"glUniformMatrix4fvARB", 1085, crate::Address(glUniformMatrix4fvARB as *const ())),
+    (b"glUniformMatrix4x2dv", 1086, crate::Address(glUniformMatrix4x2dv as *const ())),
+    (b"glUniformMatrix4x2fv", 1087, crate::Address(glUniformMatrix4x2fv as *const ())),
+    (b"glUniformMatrix4x2fvNV", 1088, crate::Address(glUniformMatrix4x2fvNV as *const ())),
+    (b"glUniformMatrix4x3dv", 1089, crate::Address(glUniformMatrix4x3dv as *const ())),
+    (b"glUniformMatrix4x3fv", 1090, crate::Address(glUniformMatrix4x3fv as *const ())),
+    (b"glUniformMatrix4x3fvNV", 1091, crate::Address(glUniformMatrix4x3fvNV as *const ())),
+    (b"glUniformui64NV", 1254, crate::Address(glUniformui64NV as *const ())),
+    (b"glUniformui64vNV", 1255, crate::Address(glUniformui64vNV as *const ())),
+    (b"glUnmapBuffer", 1696, crate::Address(glUnmapBuffer as *const ())),
+    (b"glUnmapBufferARB", 1697, crate::Address(glUnmapBufferARB as *const ())),
+    (b"glUnmapBufferOES", 1698, crate::Address(glUnmapBufferOES as *const ())),
+    (b"glUnmapNamedBuffer", 1699, crate::Address(glUnmapNamedBuffer as *const ())),
+    (b"glUnmapNamedBufferEXT", 1675, crate::Address(glUnmapNamedBufferEXT as *const ())),
+    (b"glUseProgram", 1278, crate::Address(glUseProgram as *const ())),
+    (b"glUseProgramObjectARB", 1279, crate::Address(glUseProgramObjectARB as *const ())),
     (b"glUseProgramStages", 607, crate::Address(glUseProgramStages as *const ())),
     (b"glUseProgramStagesEXT", 608, crate::Address(glUseProgramStagesEXT as *const ())),
     (b"glUseShaderProgramEXT", 627, crate::Address(glUseShaderProgramEXT as *const ())),
@@ -7075,7 +7106,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glVertex4iv", 21, crate::Address(glVertex4iv as *const ())),
     (b"glVertex4s", 22, crate::Address(glVertex4s as *const ())),
     (b"glVertex4sv", 23, crate::Address(glVertex4sv as *const ())),
+    (b"glVertexArrayAttribBinding", 1744, crate::Address(glVertexArrayAttribBinding as *const ())),
     (b"glVertexArrayBindingDivisor", 998, crate::Address(glVertexArrayBindingDivisor as *const ())),
+    (b"glVertexArrayVertexAttribBindingEXT", 1749, crate::Address(glVertexArrayVertexAttribBindingEXT as *const ())),
+    (b"glVertexArrayVertexAttribDivisorEXT", 1000, crate::Address(glVertexArrayVertexAttribDivisorEXT as *const ())),
+    (b"glVertexArrayVertexBindingDivisorEXT", 999, crate::Address(glVertexArrayVertexBindingDivisorEXT as *const ())),
     (b"glVertexAttrib1d", 262, crate::Address(glVertexAttrib1d as *const ())),
     (b"glVertexAttrib1dARB", 263, crate::Address(glVertexAttrib1dARB as *const ())),
     (b"glVertexAttrib1dNV", 264, crate::Address(glVertexAttrib1dNV as *const ())),
@@ -7174,6 +7209,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glVertexAttrib4uivARB", 354, crate::Address(glVertexAttrib4uivARB as *const ())),
     (b"glVertexAttrib4usv", 355, crate::Address(glVertexAttrib4usv as *const ())),
     (b"glVertexAttrib4usvARB", 356, crate::Address(glVertexAttrib4usvARB as *const ())),
+    (b"glVertexAttribBinding", 1743, crate::Address(glVertexAttribBinding as *const ())),
     (b"glVertexAttribDivisor", 992, crate::Address(glVertexAttribDivisor as *const ())),
     (b"glVertexAttribDivisorANGLE", 993, crate::Address(glVertexAttribDivisorANGLE as *const ())),
     (b"glVertexAttribDivisorARB", 994, crate::Address(glVertexAttribDivisorARB as *const ())),
@@ -7243,8 +7279,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glVertexAttribP3uiv", 451, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 452, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 453, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1735, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1736, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexAttribPointer", 1737, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1738, crate::Address(glVertexAttribPointerARB as *const ())),
     (b"glVertexBindingDivisor", 997, crate::Address(glVertexBindingDivisor as *const ())),
     (b"glVertexBlendARB", 624, crate::Address(glVertexBlendARB as *const ())),
     (b"glVertexP2ui", 432, crate::Address(glVertexP2ui as *const ())),
@@ -7253,7 +7289,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glVertexP3uiv", 435, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 436, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 437, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1729, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1731, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 504, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 515, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 516, crate::Address(glViewportArrayvNV as *const ())),
@@ -7323,32 +7359,32 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1796] = [
     (b"glWindowPos4sMESA", 708, crate::Address(glWindowPos4sMESA as *const ())),
     (b"glWindowPos4svMESA", 709, crate::Address(glWindowPos4svMESA as *const ())),
     (b"glWindowRectanglesEXT", 526, crate::Address(glWindowRectanglesEXT as *const ())),
-    (b"glXBindTexImageEXT", 1749, crate::Address(glXBindTexImageEXT as *const ())),
-    (b"glXChooseFBConfig", 1742, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1743, crate::Address(glXChooseFBConfigSGIX as *const ())),
-    (b"glXChooseVisual", 1741, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCopyContext", 1757, crate::Address(glXCopyContext as *const ())),
-    (b"glXCopySubBufferMESA", 1746, crate::Address(glXCopySubBufferMESA as *const ())),
-    (b"glXCreateContext", 1753, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1755, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1756, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1754, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1759, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1758, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyGLXPbufferSGIX", 1762, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
-    (b"glXDestroyGLXPixmap", 1764, crate::Address(glXDestroyGLXPixmap as *const ())),
-    (b"glXDestroyPbuffer", 1761, crate::Address(glXDestroyPbuffer as *const ())),
-    (b"glXDestroyPixmap", 1763, crate::Address(glXDestroyPixmap as *const ())),
-    (b"glXDestroyWindow", 1760, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1765, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1766, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1751, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1750, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1752, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1744, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1745, crate::Address(glXSwapBuffersMscOML as *const ())),
-    (b"glXUseXFont", 1748, crate::Address(glXUseXFont as *const ())),
-    (b"glXWaitGL", 1747, crate::Address(glXWaitGL as *const ())),
+    (b"glXBindTexImageEXT", 1758, crate::Address(glXBindTexImageEXT as *const ())),
+    (b"glXChooseFBConfig", 1751, crate::Address(glXChooseFBConfig as *const ())),
+    (b"glXChooseFBConfigSGIX", 1752, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseVisual", 1750, crate::Address(glXChooseVisual as *const ())),
+    (b"glXCopyContext", 1766, crate::Address(glXCopyContext as *const ())),
+    (b"glXCopySubBufferMESA", 1755, crate::Address(glXCopySubBufferMESA as *const ())),
+    (b"glXCreateContext", 1762, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1764, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1765, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1763, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1768, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1767, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyGLXPbufferSGIX", 1771, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
+    (b"glXDestroyGLXPixmap", 1773, crate::Address(glXDestroyGLXPixmap as *const ())),
+    (b"glXDestroyPbuffer", 1770, crate::Address(glXDestroyPbuffer as *const ())),
+    (b"glXDestroyPixmap", 1772, crate::Address(glXDestroyPixmap as *const ())),
+    (b"glXDestroyWindow", 1769, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1774, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1775, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1760, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1759, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1761, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1753, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1754, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXUseXFont", 1757, crate::Address(glXUseXFont as *const ())),
+    (b"glXWaitGL", 1756, crate::Address(glXWaitGL as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, zeros_glVertex2d, (x: f64, y: f64) -> (), {
@@ -15779,3981 +15815,4035 @@ export! { 998, glVertexArrayBindingDivisor, first_glVertexArrayBindingDivisor, h
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayBindingDivisor(vaobj, bindingindex, divisor) };
 } }
-export! { 999, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, zeros_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 999, glVertexArrayVertexBindingDivisorEXT, first_glVertexArrayVertexBindingDivisorEXT, hook_glVertexArrayVertexBindingDivisorEXT, zeros_glVertexArrayVertexBindingDivisorEXT, (vaobj: u32, bindingindex: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexArrayVertexBindingDivisorEXT(vaobj, bindingindex, divisor) };
+} }
+export! { 1000, glVertexArrayVertexAttribDivisorEXT, first_glVertexArrayVertexAttribDivisorEXT, hook_glVertexArrayVertexAttribDivisorEXT, zeros_glVertexArrayVertexAttribDivisorEXT, (vaobj: u32, index: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexArrayVertexAttribDivisorEXT(vaobj, index, divisor) };
+} }
+export! { 1001, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, zeros_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 1000, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, zeros_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 1002, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, zeros_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dvARB(target, index, params) };
 } }
-export! { 1001, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, zeros_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 1003, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, zeros_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 1002, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, zeros_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 1004, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, zeros_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fvARB(target, index, params) };
 } }
-export! { 1003, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, zeros_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 1005, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, zeros_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 1004, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, zeros_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 1006, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, zeros_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dvARB(target, index, params) };
 } }
-export! { 1005, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, zeros_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 1007, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, zeros_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 1006, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, zeros_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 1008, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, zeros_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fvARB(target, index, params) };
 } }
-export! { 1007, glUniform1d, first_glUniform1d, hook_glUniform1d, zeros_glUniform1d, (location: i32, x: f64) -> (), {
+export! { 1009, glUniform1d, first_glUniform1d, hook_glUniform1d, zeros_glUniform1d, (location: i32, x: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1d(location, x) };
 } }
-export! { 1008, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, zeros_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1010, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, zeros_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1dv(location, count, value) };
 } }
-export! { 1009, glUniform1f, first_glUniform1f, hook_glUniform1f, zeros_glUniform1f, (location: i32, v0: f32) -> (), {
+export! { 1011, glUniform1f, first_glUniform1f, hook_glUniform1f, zeros_glUniform1f, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1f(location, v0) };
 } }
-export! { 1010, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, zeros_glUniform1fARB, (location: i32, v0: f32) -> (), {
+export! { 1012, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, zeros_glUniform1fARB, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fARB(location, v0) };
 } }
-export! { 1011, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, zeros_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1013, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, zeros_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fv(location, count, value) };
 } }
-export! { 1012, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, zeros_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1014, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, zeros_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fvARB(location, count, value) };
 } }
-export! { 1013, glUniform1i, first_glUniform1i, hook_glUniform1i, zeros_glUniform1i, (location: i32, v0: i32) -> (), {
+export! { 1015, glUniform1i, first_glUniform1i, hook_glUniform1i, zeros_glUniform1i, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i(location, v0) };
 } }
-export! { 1014, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, zeros_glUniform1iARB, (location: i32, v0: i32) -> (), {
+export! { 1016, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, zeros_glUniform1iARB, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iARB(location, v0) };
 } }
-export! { 1015, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, zeros_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1017, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, zeros_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iv(location, count, value) };
 } }
-export! { 1016, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, zeros_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1018, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, zeros_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ivARB(location, count, value) };
 } }
-export! { 1017, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, zeros_glUniform1ui, (location: i32, v0: u32) -> (), {
+export! { 1019, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, zeros_glUniform1ui, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui(location, v0) };
 } }
-export! { 1018, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, zeros_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
+export! { 1020, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, zeros_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiEXT(location, v0) };
 } }
-export! { 1019, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, zeros_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1021, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, zeros_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiv(location, count, value) };
 } }
-export! { 1020, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, zeros_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1022, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, zeros_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uivEXT(location, count, value) };
 } }
-export! { 1021, glUniform2d, first_glUniform2d, hook_glUniform2d, zeros_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
+export! { 1023, glUniform2d, first_glUniform2d, hook_glUniform2d, zeros_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2d(location, x, y) };
 } }
-export! { 1022, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, zeros_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1024, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, zeros_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2dv(location, count, value) };
 } }
-export! { 1023, glUniform2f, first_glUniform2f, hook_glUniform2f, zeros_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 1025, glUniform2f, first_glUniform2f, hook_glUniform2f, zeros_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2f(location, v0, v1) };
 } }
-export! { 1024, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, zeros_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 1026, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, zeros_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fARB(location, v0, v1) };
 } }
-export! { 1025, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, zeros_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1027, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, zeros_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fv(location, count, value) };
 } }
-export! { 1026, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, zeros_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1028, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, zeros_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fvARB(location, count, value) };
 } }
-export! { 1027, glUniform2i, first_glUniform2i, hook_glUniform2i, zeros_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 1029, glUniform2i, first_glUniform2i, hook_glUniform2i, zeros_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i(location, v0, v1) };
 } }
-export! { 1028, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, zeros_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 1030, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, zeros_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iARB(location, v0, v1) };
 } }
-export! { 1029, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, zeros_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1031, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, zeros_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iv(location, count, value) };
 } }
-export! { 1030, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, zeros_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1032, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, zeros_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ivARB(location, count, value) };
 } }
-export! { 1031, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, zeros_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 1033, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, zeros_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui(location, v0, v1) };
 } }
-export! { 1032, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, zeros_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 1034, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, zeros_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiEXT(location, v0, v1) };
 } }
-export! { 1033, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, zeros_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1035, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, zeros_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiv(location, count, value) };
 } }
-export! { 1034, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, zeros_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1036, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, zeros_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uivEXT(location, count, value) };
 } }
-export! { 1035, glUniform3d, first_glUniform3d, hook_glUniform3d, zeros_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 1037, glUniform3d, first_glUniform3d, hook_glUniform3d, zeros_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3d(location, x, y, z) };
 } }
-export! { 1036, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, zeros_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1038, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, zeros_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3dv(location, count, value) };
 } }
-export! { 1037, glUniform3f, first_glUniform3f, hook_glUniform3f, zeros_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 1039, glUniform3f, first_glUniform3f, hook_glUniform3f, zeros_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3f(location, v0, v1, v2) };
 } }
-export! { 1038, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, zeros_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 1040, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, zeros_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fARB(location, v0, v1, v2) };
 } }
-export! { 1039, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, zeros_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1041, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, zeros_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fv(location, count, value) };
 } }
-export! { 1040, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, zeros_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1042, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, zeros_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fvARB(location, count, value) };
 } }
-export! { 1041, glUniform3i, first_glUniform3i, hook_glUniform3i, zeros_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 1043, glUniform3i, first_glUniform3i, hook_glUniform3i, zeros_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i(location, v0, v1, v2) };
 } }
-export! { 1042, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, zeros_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 1044, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, zeros_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iARB(location, v0, v1, v2) };
 } }
-export! { 1043, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, zeros_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1045, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, zeros_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iv(location, count, value) };
 } }
-export! { 1044, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, zeros_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1046, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, zeros_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ivARB(location, count, value) };
 } }
-export! { 1045, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, zeros_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 1047, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, zeros_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui(location, v0, v1, v2) };
 } }
-export! { 1046, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, zeros_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 1048, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, zeros_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiEXT(location, v0, v1, v2) };
 } }
-export! { 1047, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, zeros_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1049, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, zeros_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiv(location, count, value) };
 } }
-export! { 1048, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, zeros_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1050, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, zeros_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uivEXT(location, count, value) };
 } }
-export! { 1049, glUniform4d, first_glUniform4d, hook_glUniform4d, zeros_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 1051, glUniform4d, first_glUniform4d, hook_glUniform4d, zeros_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4d(location, x, y, z, w) };
 } }
-export! { 1050, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, zeros_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1052, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, zeros_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4dv(location, count, value) };
 } }
-export! { 1051, glUniform4f, first_glUniform4f, hook_glUniform4f, zeros_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 1053, glUniform4f, first_glUniform4f, hook_glUniform4f, zeros_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4f(location, v0, v1, v2, v3) };
 } }
-export! { 1052, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, zeros_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 1054, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, zeros_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fARB(location, v0, v1, v2, v3) };
 } }
-export! { 1053, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, zeros_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1055, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, zeros_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fv(location, count, value) };
 } }
-export! { 1054, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, zeros_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1056, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, zeros_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fvARB(location, count, value) };
 } }
-export! { 1055, glUniform4i, first_glUniform4i, hook_glUniform4i, zeros_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 1057, glUniform4i, first_glUniform4i, hook_glUniform4i, zeros_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i(location, v0, v1, v2, v3) };
 } }
-export! { 1056, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, zeros_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 1058, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, zeros_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iARB(location, v0, v1, v2, v3) };
 } }
-export! { 1057, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, zeros_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1059, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, zeros_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iv(location, count, value) };
 } }
-export! { 1058, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, zeros_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1060, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, zeros_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ivARB(location, count, value) };
 } }
-export! { 1059, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, zeros_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1061, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, zeros_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui(location, v0, v1, v2, v3) };
 } }
-export! { 1060, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, zeros_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1062, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, zeros_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiEXT(location, v0, v1, v2, v3) };
 } }
-export! { 1061, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, zeros_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1063, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, zeros_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiv(location, count, value) };
 } }
-export! { 1062, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, zeros_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1064, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, zeros_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uivEXT(location, count, value) };
 } }
-export! { 1063, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, zeros_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1065, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, zeros_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2dv(location, count, transpose, value) };
 } }
-export! { 1064, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, zeros_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1066, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, zeros_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fv(location, count, transpose, value) };
 } }
-export! { 1065, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, zeros_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1067, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, zeros_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fvARB(location, count, transpose, value) };
 } }
-export! { 1066, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, zeros_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1068, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, zeros_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3dv(location, count, transpose, value) };
 } }
-export! { 1067, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, zeros_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1069, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, zeros_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fv(location, count, transpose, value) };
 } }
-export! { 1068, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, zeros_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1070, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, zeros_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fvNV(location, count, transpose, value) };
 } }
-export! { 1069, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, zeros_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1071, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, zeros_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4dv(location, count, transpose, value) };
 } }
-export! { 1070, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, zeros_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1072, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, zeros_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fv(location, count, transpose, value) };
 } }
-export! { 1071, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, zeros_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1073, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, zeros_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fvNV(location, count, transpose, value) };
 } }
-export! { 1072, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, zeros_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1074, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, zeros_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3dv(location, count, transpose, value) };
 } }
-export! { 1073, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, zeros_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1075, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, zeros_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fv(location, count, transpose, value) };
 } }
-export! { 1074, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, zeros_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1076, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, zeros_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fvARB(location, count, transpose, value) };
 } }
-export! { 1075, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, zeros_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1077, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, zeros_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2dv(location, count, transpose, value) };
 } }
-export! { 1076, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, zeros_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1078, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, zeros_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fv(location, count, transpose, value) };
 } }
-export! { 1077, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, zeros_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1079, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, zeros_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fvNV(location, count, transpose, value) };
 } }
-export! { 1078, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, zeros_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1080, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, zeros_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4dv(location, count, transpose, value) };
 } }
-export! { 1079, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, zeros_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1081, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, zeros_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fv(location, count, transpose, value) };
 } }
-export! { 1080, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, zeros_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1082, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, zeros_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fvNV(location, count, transpose, value) };
 } }
-export! { 1081, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, zeros_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1083, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, zeros_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4dv(location, count, transpose, value) };
 } }
-export! { 1082, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, zeros_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1084, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, zeros_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fv(location, count, transpose, value) };
 } }
-export! { 1083, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, zeros_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1085, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, zeros_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fvARB(location, count, transpose, value) };
 } }
-export! { 1084, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, zeros_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1086, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, zeros_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2dv(location, count, transpose, value) };
 } }
-export! { 1085, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, zeros_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1087, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, zeros_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fv(location, count, transpose, value) };
 } }
-export! { 1086, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, zeros_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1088, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, zeros_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fvNV(location, count, transpose, value) };
 } }
-export! { 1087, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, zeros_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1089, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, zeros_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3dv(location, count, transpose, value) };
 } }
-export! { 1088, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, zeros_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1090, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, zeros_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fv(location, count, transpose, value) };
 } }
-export! { 1089, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, zeros_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1091, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, zeros_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fvNV(location, count, transpose, value) };
 } }
-export! { 1090, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, zeros_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
+export! { 1092, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, zeros_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1d(program, location, v0) };
 } }
-export! { 1091, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, zeros_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1093, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, zeros_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dv(program, location, count, value) };
 } }
-export! { 1092, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, zeros_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
+export! { 1094, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, zeros_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1f(program, location, v0) };
 } }
-export! { 1093, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, zeros_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
+export! { 1095, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, zeros_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fEXT(program, location, v0) };
 } }
-export! { 1094, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, zeros_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1096, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, zeros_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fv(program, location, count, value) };
 } }
-export! { 1095, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, zeros_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1097, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, zeros_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fvEXT(program, location, count, value) };
 } }
-export! { 1096, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, zeros_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
+export! { 1098, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, zeros_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i(program, location, v0) };
 } }
-export! { 1097, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, zeros_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
+export! { 1099, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, zeros_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iEXT(program, location, v0) };
 } }
-export! { 1098, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, zeros_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1100, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, zeros_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iv(program, location, count, value) };
 } }
-export! { 1099, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, zeros_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1101, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, zeros_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ivEXT(program, location, count, value) };
 } }
-export! { 1100, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, zeros_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
+export! { 1102, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, zeros_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui(program, location, v0) };
 } }
-export! { 1101, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, zeros_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
+export! { 1103, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, zeros_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiEXT(program, location, v0) };
 } }
-export! { 1102, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, zeros_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1104, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, zeros_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiv(program, location, count, value) };
 } }
-export! { 1103, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, zeros_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1105, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, zeros_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uivEXT(program, location, count, value) };
 } }
-export! { 1104, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, zeros_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
+export! { 1106, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, zeros_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2d(program, location, v0, v1) };
 } }
-export! { 1105, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, zeros_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1107, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, zeros_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dv(program, location, count, value) };
 } }
-export! { 1106, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, zeros_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 1108, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, zeros_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2f(program, location, v0, v1) };
 } }
-export! { 1107, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, zeros_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 1109, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, zeros_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fEXT(program, location, v0, v1) };
 } }
-export! { 1108, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, zeros_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1110, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, zeros_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fv(program, location, count, value) };
 } }
-export! { 1109, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, zeros_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1111, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, zeros_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fvEXT(program, location, count, value) };
 } }
-export! { 1110, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, zeros_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 1112, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, zeros_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i(program, location, v0, v1) };
 } }
-export! { 1111, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, zeros_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 1113, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, zeros_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iEXT(program, location, v0, v1) };
 } }
-export! { 1112, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, zeros_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1114, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, zeros_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iv(program, location, count, value) };
 } }
-export! { 1113, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, zeros_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1115, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, zeros_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ivEXT(program, location, count, value) };
 } }
-export! { 1114, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, zeros_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 1116, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, zeros_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui(program, location, v0, v1) };
 } }
-export! { 1115, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, zeros_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 1117, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, zeros_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiEXT(program, location, v0, v1) };
 } }
-export! { 1116, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, zeros_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1118, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, zeros_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiv(program, location, count, value) };
 } }
-export! { 1117, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, zeros_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1119, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, zeros_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uivEXT(program, location, count, value) };
 } }
-export! { 1118, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, zeros_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
+export! { 1120, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, zeros_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3d(program, location, v0, v1, v2) };
 } }
-export! { 1119, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, zeros_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1121, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, zeros_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dv(program, location, count, value) };
 } }
-export! { 1120, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, zeros_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 1122, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, zeros_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3f(program, location, v0, v1, v2) };
 } }
-export! { 1121, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, zeros_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 1123, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, zeros_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fEXT(program, location, v0, v1, v2) };
 } }
-export! { 1122, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, zeros_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1124, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, zeros_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fv(program, location, count, value) };
 } }
-export! { 1123, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, zeros_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1125, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, zeros_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fvEXT(program, location, count, value) };
 } }
-export! { 1124, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, zeros_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 1126, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, zeros_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i(program, location, v0, v1, v2) };
 } }
-export! { 1125, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, zeros_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 1127, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, zeros_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iEXT(program, location, v0, v1, v2) };
 } }
-export! { 1126, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, zeros_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1128, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, zeros_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iv(program, location, count, value) };
 } }
-export! { 1127, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, zeros_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1129, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, zeros_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ivEXT(program, location, count, value) };
 } }
-export! { 1128, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, zeros_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 1130, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, zeros_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui(program, location, v0, v1, v2) };
 } }
-export! { 1129, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, zeros_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 1131, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, zeros_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiEXT(program, location, v0, v1, v2) };
 } }
-export! { 1130, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, zeros_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1132, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, zeros_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiv(program, location, count, value) };
 } }
-export! { 1131, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, zeros_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1133, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, zeros_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uivEXT(program, location, count, value) };
 } }
-export! { 1132, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, zeros_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
+export! { 1134, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, zeros_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4d(program, location, v0, v1, v2, v3) };
 } }
-export! { 1133, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, zeros_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1135, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, zeros_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dv(program, location, count, value) };
 } }
-export! { 1134, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, zeros_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 1136, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, zeros_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4f(program, location, v0, v1, v2, v3) };
 } }
-export! { 1135, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, zeros_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 1137, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, zeros_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 1136, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, zeros_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1138, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, zeros_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fv(program, location, count, value) };
 } }
-export! { 1137, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, zeros_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1139, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, zeros_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fvEXT(program, location, count, value) };
 } }
-export! { 1138, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, zeros_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 1140, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, zeros_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i(program, location, v0, v1, v2, v3) };
 } }
-export! { 1139, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, zeros_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 1141, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, zeros_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 1140, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, zeros_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1142, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, zeros_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iv(program, location, count, value) };
 } }
-export! { 1141, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, zeros_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1143, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, zeros_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ivEXT(program, location, count, value) };
 } }
-export! { 1142, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, zeros_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1144, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, zeros_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui(program, location, v0, v1, v2, v3) };
 } }
-export! { 1143, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, zeros_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1145, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, zeros_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 1144, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, zeros_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1146, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, zeros_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiv(program, location, count, value) };
 } }
-export! { 1145, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, zeros_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1147, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, zeros_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uivEXT(program, location, count, value) };
 } }
-export! { 1146, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, zeros_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1148, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, zeros_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2dv(program, location, count, transpose, value) };
 } }
-export! { 1147, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, zeros_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1149, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, zeros_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fv(program, location, count, transpose, value) };
 } }
-export! { 1148, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, zeros_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1150, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, zeros_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1149, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, zeros_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1151, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, zeros_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3dv(program, location, count, transpose, value) };
 } }
-export! { 1150, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, zeros_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1152, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, zeros_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fv(program, location, count, transpose, value) };
 } }
-export! { 1151, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, zeros_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1153, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, zeros_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1152, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, zeros_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1154, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, zeros_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4dv(program, location, count, transpose, value) };
 } }
-export! { 1153, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, zeros_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1155, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, zeros_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fv(program, location, count, transpose, value) };
 } }
-export! { 1154, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, zeros_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1156, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, zeros_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1155, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, zeros_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1157, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, zeros_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3dv(program, location, count, transpose, value) };
 } }
-export! { 1156, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, zeros_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1158, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, zeros_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fv(program, location, count, transpose, value) };
 } }
-export! { 1157, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, zeros_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1159, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, zeros_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1158, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, zeros_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1160, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, zeros_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2dv(program, location, count, transpose, value) };
 } }
-export! { 1159, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, zeros_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1161, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, zeros_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fv(program, location, count, transpose, value) };
 } }
-export! { 1160, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, zeros_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1162, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, zeros_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1161, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, zeros_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1163, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, zeros_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4dv(program, location, count, transpose, value) };
 } }
-export! { 1162, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, zeros_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1164, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, zeros_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fv(program, location, count, transpose, value) };
 } }
-export! { 1163, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, zeros_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1165, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, zeros_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1164, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, zeros_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1166, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, zeros_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4dv(program, location, count, transpose, value) };
 } }
-export! { 1165, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, zeros_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1167, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, zeros_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fv(program, location, count, transpose, value) };
 } }
-export! { 1166, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, zeros_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1168, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, zeros_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1167, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, zeros_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1169, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, zeros_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2dv(program, location, count, transpose, value) };
 } }
-export! { 1168, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, zeros_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1170, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, zeros_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fv(program, location, count, transpose, value) };
 } }
-export! { 1169, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, zeros_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1171, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, zeros_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1170, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, zeros_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1172, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, zeros_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3dv(program, location, count, transpose, value) };
 } }
-export! { 1171, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, zeros_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1173, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, zeros_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fv(program, location, count, transpose, value) };
 } }
-export! { 1172, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, zeros_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1174, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, zeros_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1173, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, zeros_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
+export! { 1175, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, zeros_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUniformBlockBinding(program, uniformBlockIndex, uniformBlockBinding) }
 } }
-export! { 1174, glProgramUniform1i64ARB, first_glProgramUniform1i64ARB, hook_glProgramUniform1i64ARB, zeros_glProgramUniform1i64ARB, (program: u32, location: i32, x: i64) -> (), {
+export! { 1176, glProgramUniform1i64ARB, first_glProgramUniform1i64ARB, hook_glProgramUniform1i64ARB, zeros_glProgramUniform1i64ARB, (program: u32, location: i32, x: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i64ARB(program, location, x) };
 } }
-export! { 1175, glProgramUniform1i64NV, first_glProgramUniform1i64NV, hook_glProgramUniform1i64NV, zeros_glProgramUniform1i64NV, (program: u32, location: i32, x: i64) -> (), {
+export! { 1177, glProgramUniform1i64NV, first_glProgramUniform1i64NV, hook_glProgramUniform1i64NV, zeros_glProgramUniform1i64NV, (program: u32, location: i32, x: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i64NV(program, location, x) };
 } }
-export! { 1176, glProgramUniform1i64vARB, first_glProgramUniform1i64vARB, hook_glProgramUniform1i64vARB, zeros_glProgramUniform1i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1178, glProgramUniform1i64vARB, first_glProgramUniform1i64vARB, hook_glProgramUniform1i64vARB, zeros_glProgramUniform1i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i64vARB(program, location, count, value) };
 } }
-export! { 1177, glProgramUniform1i64vNV, first_glProgramUniform1i64vNV, hook_glProgramUniform1i64vNV, zeros_glProgramUniform1i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1179, glProgramUniform1i64vNV, first_glProgramUniform1i64vNV, hook_glProgramUniform1i64vNV, zeros_glProgramUniform1i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i64vNV(program, location, count, value) };
 } }
-export! { 1178, glProgramUniform1ui64ARB, first_glProgramUniform1ui64ARB, hook_glProgramUniform1ui64ARB, zeros_glProgramUniform1ui64ARB, (program: u32, location: i32, x: u64) -> (), {
+export! { 1180, glProgramUniform1ui64ARB, first_glProgramUniform1ui64ARB, hook_glProgramUniform1ui64ARB, zeros_glProgramUniform1ui64ARB, (program: u32, location: i32, x: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui64ARB(program, location, x) };
 } }
-export! { 1179, glProgramUniform1ui64NV, first_glProgramUniform1ui64NV, hook_glProgramUniform1ui64NV, zeros_glProgramUniform1ui64NV, (program: u32, location: i32, x: u64) -> (), {
+export! { 1181, glProgramUniform1ui64NV, first_glProgramUniform1ui64NV, hook_glProgramUniform1ui64NV, zeros_glProgramUniform1ui64NV, (program: u32, location: i32, x: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui64NV(program, location, x) };
 } }
-export! { 1180, glProgramUniform1ui64vARB, first_glProgramUniform1ui64vARB, hook_glProgramUniform1ui64vARB, zeros_glProgramUniform1ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1182, glProgramUniform1ui64vARB, first_glProgramUniform1ui64vARB, hook_glProgramUniform1ui64vARB, zeros_glProgramUniform1ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui64vARB(program, location, count, value) };
 } }
-export! { 1181, glProgramUniform1ui64vNV, first_glProgramUniform1ui64vNV, hook_glProgramUniform1ui64vNV, zeros_glProgramUniform1ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1183, glProgramUniform1ui64vNV, first_glProgramUniform1ui64vNV, hook_glProgramUniform1ui64vNV, zeros_glProgramUniform1ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui64vNV(program, location, count, value) };
 } }
-export! { 1182, glProgramUniform2i64ARB, first_glProgramUniform2i64ARB, hook_glProgramUniform2i64ARB, zeros_glProgramUniform2i64ARB, (program: u32, location: i32, x: i64, y: i64) -> (), {
+export! { 1184, glProgramUniform2i64ARB, first_glProgramUniform2i64ARB, hook_glProgramUniform2i64ARB, zeros_glProgramUniform2i64ARB, (program: u32, location: i32, x: i64, y: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i64ARB(program, location, x, y) };
 } }
-export! { 1183, glProgramUniform2i64NV, first_glProgramUniform2i64NV, hook_glProgramUniform2i64NV, zeros_glProgramUniform2i64NV, (program: u32, location: i32, x: i64, y: i64) -> (), {
+export! { 1185, glProgramUniform2i64NV, first_glProgramUniform2i64NV, hook_glProgramUniform2i64NV, zeros_glProgramUniform2i64NV, (program: u32, location: i32, x: i64, y: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i64NV(program, location, x, y) };
 } }
-export! { 1184, glProgramUniform2i64vARB, first_glProgramUniform2i64vARB, hook_glProgramUniform2i64vARB, zeros_glProgramUniform2i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1186, glProgramUniform2i64vARB, first_glProgramUniform2i64vARB, hook_glProgramUniform2i64vARB, zeros_glProgramUniform2i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i64vARB(program, location, count, value) };
 } }
-export! { 1185, glProgramUniform2i64vNV, first_glProgramUniform2i64vNV, hook_glProgramUniform2i64vNV, zeros_glProgramUniform2i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1187, glProgramUniform2i64vNV, first_glProgramUniform2i64vNV, hook_glProgramUniform2i64vNV, zeros_glProgramUniform2i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i64vNV(program, location, count, value) };
 } }
-export! { 1186, glProgramUniform2ui64ARB, first_glProgramUniform2ui64ARB, hook_glProgramUniform2ui64ARB, zeros_glProgramUniform2ui64ARB, (program: u32, location: i32, x: u64, y: u64) -> (), {
+export! { 1188, glProgramUniform2ui64ARB, first_glProgramUniform2ui64ARB, hook_glProgramUniform2ui64ARB, zeros_glProgramUniform2ui64ARB, (program: u32, location: i32, x: u64, y: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui64ARB(program, location, x, y) };
 } }
-export! { 1187, glProgramUniform2ui64NV, first_glProgramUniform2ui64NV, hook_glProgramUniform2ui64NV, zeros_glProgramUniform2ui64NV, (program: u32, location: i32, x: u64, y: u64) -> (), {
+export! { 1189, glProgramUniform2ui64NV, first_glProgramUniform2ui64NV, hook_glProgramUniform2ui64NV, zeros_glProgramUniform2ui64NV, (program: u32, location: i32, x: u64, y: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui64NV(program, location, x, y) };
 } }
-export! { 1188, glProgramUniform2ui64vARB, first_glProgramUniform2ui64vARB, hook_glProgramUniform2ui64vARB, zeros_glProgramUniform2ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1190, glProgramUniform2ui64vARB, first_glProgramUniform2ui64vARB, hook_glProgramUniform2ui64vARB, zeros_glProgramUniform2ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui64vARB(program, location, count, value) };
 } }
-export! { 1189, glProgramUniform2ui64vNV, first_glProgramUniform2ui64vNV, hook_glProgramUniform2ui64vNV, zeros_glProgramUniform2ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1191, glProgramUniform2ui64vNV, first_glProgramUniform2ui64vNV, hook_glProgramUniform2ui64vNV, zeros_glProgramUniform2ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui64vNV(program, location, count, value) };
 } }
-export! { 1190, glProgramUniform3i64ARB, first_glProgramUniform3i64ARB, hook_glProgramUniform3i64ARB, zeros_glProgramUniform3i64ARB, (program: u32, location: i32, x: i64, y: i64, z: i64) -> (), {
+export! { 1192, glProgramUniform3i64ARB, first_glProgramUniform3i64ARB, hook_glProgramUniform3i64ARB, zeros_glProgramUniform3i64ARB, (program: u32, location: i32, x: i64, y: i64, z: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i64ARB(program, location, x, y, z) };
 } }
-export! { 1191, glProgramUniform3i64NV, first_glProgramUniform3i64NV, hook_glProgramUniform3i64NV, zeros_glProgramUniform3i64NV, (program: u32, location: i32, x: i64, y: i64, z: i64) -> (), {
+export! { 1193, glProgramUniform3i64NV, first_glProgramUniform3i64NV, hook_glProgramUniform3i64NV, zeros_glProgramUniform3i64NV, (program: u32, location: i32, x: i64, y: i64, z: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i64NV(program, location, x, y, z) };
 } }
-export! { 1192, glProgramUniform3i64vARB, first_glProgramUniform3i64vARB, hook_glProgramUniform3i64vARB, zeros_glProgramUniform3i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1194, glProgramUniform3i64vARB, first_glProgramUniform3i64vARB, hook_glProgramUniform3i64vARB, zeros_glProgramUniform3i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i64vARB(program, location, count, value) };
 } }
-export! { 1193, glProgramUniform3i64vNV, first_glProgramUniform3i64vNV, hook_glProgramUniform3i64vNV, zeros_glProgramUniform3i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1195, glProgramUniform3i64vNV, first_glProgramUniform3i64vNV, hook_glProgramUniform3i64vNV, zeros_glProgramUniform3i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i64vNV(program, location, count, value) };
 } }
-export! { 1194, glProgramUniform3ui64ARB, first_glProgramUniform3ui64ARB, hook_glProgramUniform3ui64ARB, zeros_glProgramUniform3ui64ARB, (program: u32, location: i32, x: u64, y: u64, z: u64) -> (), {
+export! { 1196, glProgramUniform3ui64ARB, first_glProgramUniform3ui64ARB, hook_glProgramUniform3ui64ARB, zeros_glProgramUniform3ui64ARB, (program: u32, location: i32, x: u64, y: u64, z: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui64ARB(program, location, x, y, z) };
 } }
-export! { 1195, glProgramUniform3ui64NV, first_glProgramUniform3ui64NV, hook_glProgramUniform3ui64NV, zeros_glProgramUniform3ui64NV, (program: u32, location: i32, x: u64, y: u64, z: u64) -> (), {
+export! { 1197, glProgramUniform3ui64NV, first_glProgramUniform3ui64NV, hook_glProgramUniform3ui64NV, zeros_glProgramUniform3ui64NV, (program: u32, location: i32, x: u64, y: u64, z: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui64NV(program, location, x, y, z) };
 } }
-export! { 1196, glProgramUniform3ui64vARB, first_glProgramUniform3ui64vARB, hook_glProgramUniform3ui64vARB, zeros_glProgramUniform3ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1198, glProgramUniform3ui64vARB, first_glProgramUniform3ui64vARB, hook_glProgramUniform3ui64vARB, zeros_glProgramUniform3ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui64vARB(program, location, count, value) };
 } }
-export! { 1197, glProgramUniform3ui64vNV, first_glProgramUniform3ui64vNV, hook_glProgramUniform3ui64vNV, zeros_glProgramUniform3ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1199, glProgramUniform3ui64vNV, first_glProgramUniform3ui64vNV, hook_glProgramUniform3ui64vNV, zeros_glProgramUniform3ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui64vNV(program, location, count, value) };
 } }
-export! { 1198, glProgramUniform4i64ARB, first_glProgramUniform4i64ARB, hook_glProgramUniform4i64ARB, zeros_glProgramUniform4i64ARB, (program: u32, location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
+export! { 1200, glProgramUniform4i64ARB, first_glProgramUniform4i64ARB, hook_glProgramUniform4i64ARB, zeros_glProgramUniform4i64ARB, (program: u32, location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i64ARB(program, location, x, y, z, w) };
 } }
-export! { 1199, glProgramUniform4i64NV, first_glProgramUniform4i64NV, hook_glProgramUniform4i64NV, zeros_glProgramUniform4i64NV, (program: u32, location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
+export! { 1201, glProgramUniform4i64NV, first_glProgramUniform4i64NV, hook_glProgramUniform4i64NV, zeros_glProgramUniform4i64NV, (program: u32, location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i64NV(program, location, x, y, z, w) };
 } }
-export! { 1200, glProgramUniform4i64vARB, first_glProgramUniform4i64vARB, hook_glProgramUniform4i64vARB, zeros_glProgramUniform4i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1202, glProgramUniform4i64vARB, first_glProgramUniform4i64vARB, hook_glProgramUniform4i64vARB, zeros_glProgramUniform4i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i64vARB(program, location, count, value) };
 } }
-export! { 1201, glProgramUniform4i64vNV, first_glProgramUniform4i64vNV, hook_glProgramUniform4i64vNV, zeros_glProgramUniform4i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1203, glProgramUniform4i64vNV, first_glProgramUniform4i64vNV, hook_glProgramUniform4i64vNV, zeros_glProgramUniform4i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i64vNV(program, location, count, value) };
 } }
-export! { 1202, glProgramUniform4ui64ARB, first_glProgramUniform4ui64ARB, hook_glProgramUniform4ui64ARB, zeros_glProgramUniform4ui64ARB, (program: u32, location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
+export! { 1204, glProgramUniform4ui64ARB, first_glProgramUniform4ui64ARB, hook_glProgramUniform4ui64ARB, zeros_glProgramUniform4ui64ARB, (program: u32, location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui64ARB(program, location, x, y, z, w) };
 } }
-export! { 1203, glProgramUniform4ui64NV, first_glProgramUniform4ui64NV, hook_glProgramUniform4ui64NV, zeros_glProgramUniform4ui64NV, (program: u32, location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
+export! { 1205, glProgramUniform4ui64NV, first_glProgramUniform4ui64NV, hook_glProgramUniform4ui64NV, zeros_glProgramUniform4ui64NV, (program: u32, location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui64NV(program, location, x, y, z, w) };
 } }
-export! { 1204, glProgramUniform4ui64vARB, first_glProgramUniform4ui64vARB, hook_glProgramUniform4ui64vARB, zeros_glProgramUniform4ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1206, glProgramUniform4ui64vARB, first_glProgramUniform4ui64vARB, hook_glProgramUniform4ui64vARB, zeros_glProgramUniform4ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui64vARB(program, location, count, value) };
 } }
-export! { 1205, glProgramUniform4ui64vNV, first_glProgramUniform4ui64vNV, hook_glProgramUniform4ui64vNV, zeros_glProgramUniform4ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1207, glProgramUniform4ui64vNV, first_glProgramUniform4ui64vNV, hook_glProgramUniform4ui64vNV, zeros_glProgramUniform4ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui64vNV(program, location, count, value) };
 } }
-export! { 1206, glUniform1i64ARB, first_glUniform1i64ARB, hook_glUniform1i64ARB, zeros_glUniform1i64ARB, (location: i32, x: i64) -> (), {
+export! { 1208, glUniform1i64ARB, first_glUniform1i64ARB, hook_glUniform1i64ARB, zeros_glUniform1i64ARB, (location: i32, x: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i64ARB(location, x) };
 } }
-export! { 1207, glUniform1i64NV, first_glUniform1i64NV, hook_glUniform1i64NV, zeros_glUniform1i64NV, (location: i32, x: i64) -> (), {
+export! { 1209, glUniform1i64NV, first_glUniform1i64NV, hook_glUniform1i64NV, zeros_glUniform1i64NV, (location: i32, x: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i64NV(location, x) };
 } }
-export! { 1208, glUniform1i64vARB, first_glUniform1i64vARB, hook_glUniform1i64vARB, zeros_glUniform1i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1210, glUniform1i64vARB, first_glUniform1i64vARB, hook_glUniform1i64vARB, zeros_glUniform1i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i64vARB(location, count, value) };
 } }
-export! { 1209, glUniform1i64vNV, first_glUniform1i64vNV, hook_glUniform1i64vNV, zeros_glUniform1i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1211, glUniform1i64vNV, first_glUniform1i64vNV, hook_glUniform1i64vNV, zeros_glUniform1i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i64vNV(location, count, value) };
 } }
-export! { 1210, glUniform1ui64ARB, first_glUniform1ui64ARB, hook_glUniform1ui64ARB, zeros_glUniform1ui64ARB, (location: i32, x: u64) -> (), {
+export! { 1212, glUniform1ui64ARB, first_glUniform1ui64ARB, hook_glUniform1ui64ARB, zeros_glUniform1ui64ARB, (location: i32, x: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui64ARB(location, x) };
 } }
-export! { 1211, glUniform1ui64NV, first_glUniform1ui64NV, hook_glUniform1ui64NV, zeros_glUniform1ui64NV, (location: i32, x: u64) -> (), {
+export! { 1213, glUniform1ui64NV, first_glUniform1ui64NV, hook_glUniform1ui64NV, zeros_glUniform1ui64NV, (location: i32, x: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui64NV(location, x) };
 } }
-export! { 1212, glUniform1ui64vARB, first_glUniform1ui64vARB, hook_glUniform1ui64vARB, zeros_glUniform1ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1214, glUniform1ui64vARB, first_glUniform1ui64vARB, hook_glUniform1ui64vARB, zeros_glUniform1ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui64vARB(location, count, value) };
 } }
-export! { 1213, glUniform1ui64vNV, first_glUniform1ui64vNV, hook_glUniform1ui64vNV, zeros_glUniform1ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1215, glUniform1ui64vNV, first_glUniform1ui64vNV, hook_glUniform1ui64vNV, zeros_glUniform1ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui64vNV(location, count, value) };
 } }
-export! { 1214, glUniform2i64ARB, first_glUniform2i64ARB, hook_glUniform2i64ARB, zeros_glUniform2i64ARB, (location: i32, x: i64, y: i64) -> (), {
+export! { 1216, glUniform2i64ARB, first_glUniform2i64ARB, hook_glUniform2i64ARB, zeros_glUniform2i64ARB, (location: i32, x: i64, y: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i64ARB(location, x, y) };
 } }
-export! { 1215, glUniform2i64NV, first_glUniform2i64NV, hook_glUniform2i64NV, zeros_glUniform2i64NV, (location: i32, x: i64, y: i64) -> (), {
+export! { 1217, glUniform2i64NV, first_glUniform2i64NV, hook_glUniform2i64NV, zeros_glUniform2i64NV, (location: i32, x: i64, y: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i64NV(location, x, y) };
 } }
-export! { 1216, glUniform2i64vARB, first_glUniform2i64vARB, hook_glUniform2i64vARB, zeros_glUniform2i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1218, glUniform2i64vARB, first_glUniform2i64vARB, hook_glUniform2i64vARB, zeros_glUniform2i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i64vARB(location, count, value) };
 } }
-export! { 1217, glUniform2i64vNV, first_glUniform2i64vNV, hook_glUniform2i64vNV, zeros_glUniform2i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1219, glUniform2i64vNV, first_glUniform2i64vNV, hook_glUniform2i64vNV, zeros_glUniform2i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i64vNV(location, count, value) };
 } }
-export! { 1218, glUniform2ui64ARB, first_glUniform2ui64ARB, hook_glUniform2ui64ARB, zeros_glUniform2ui64ARB, (location: i32, x: u64, y: u64) -> (), {
+export! { 1220, glUniform2ui64ARB, first_glUniform2ui64ARB, hook_glUniform2ui64ARB, zeros_glUniform2ui64ARB, (location: i32, x: u64, y: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui64ARB(location, x, y) };
 } }
-export! { 1219, glUniform2ui64NV, first_glUniform2ui64NV, hook_glUniform2ui64NV, zeros_glUniform2ui64NV, (location: i32, x: u64, y: u64) -> (), {
+export! { 1221, glUniform2ui64NV, first_glUniform2ui64NV, hook_glUniform2ui64NV, zeros_glUniform2ui64NV, (location: i32, x: u64, y: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui64NV(location, x, y) };
 } }
-export! { 1220, glUniform2ui64vARB, first_glUniform2ui64vARB, hook_glUniform2ui64vARB, zeros_glUniform2ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1222, glUniform2ui64vARB, first_glUniform2ui64vARB, hook_glUniform2ui64vARB, zeros_glUniform2ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui64vARB(location, count, value) };
 } }
-export! { 1221, glUniform2ui64vNV, first_glUniform2ui64vNV, hook_glUniform2ui64vNV, zeros_glUniform2ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1223, glUniform2ui64vNV, first_glUniform2ui64vNV, hook_glUniform2ui64vNV, zeros_glUniform2ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui64vNV(location, count, value) };
 } }
-export! { 1222, glUniform3i64ARB, first_glUniform3i64ARB, hook_glUniform3i64ARB, zeros_glUniform3i64ARB, (location: i32, x: i64, y: i64, z: i64) -> (), {
+export! { 1224, glUniform3i64ARB, first_glUniform3i64ARB, hook_glUniform3i64ARB, zeros_glUniform3i64ARB, (location: i32, x: i64, y: i64, z: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i64ARB(location, x, y, z) };
 } }
-export! { 1223, glUniform3i64NV, first_glUniform3i64NV, hook_glUniform3i64NV, zeros_glUniform3i64NV, (location: i32, x: i64, y: i64, z: i64) -> (), {
+export! { 1225, glUniform3i64NV, first_glUniform3i64NV, hook_glUniform3i64NV, zeros_glUniform3i64NV, (location: i32, x: i64, y: i64, z: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i64NV(location, x, y, z) };
 } }
-export! { 1224, glUniform3i64vARB, first_glUniform3i64vARB, hook_glUniform3i64vARB, zeros_glUniform3i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1226, glUniform3i64vARB, first_glUniform3i64vARB, hook_glUniform3i64vARB, zeros_glUniform3i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i64vARB(location, count, value) };
 } }
-export! { 1225, glUniform3i64vNV, first_glUniform3i64vNV, hook_glUniform3i64vNV, zeros_glUniform3i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1227, glUniform3i64vNV, first_glUniform3i64vNV, hook_glUniform3i64vNV, zeros_glUniform3i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i64vNV(location, count, value) };
 } }
-export! { 1226, glUniform3ui64ARB, first_glUniform3ui64ARB, hook_glUniform3ui64ARB, zeros_glUniform3ui64ARB, (location: i32, x: u64, y: u64, z: u64) -> (), {
+export! { 1228, glUniform3ui64ARB, first_glUniform3ui64ARB, hook_glUniform3ui64ARB, zeros_glUniform3ui64ARB, (location: i32, x: u64, y: u64, z: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui64ARB(location, x, y, z) };
 } }
-export! { 1227, glUniform3ui64NV, first_glUniform3ui64NV, hook_glUniform3ui64NV, zeros_glUniform3ui64NV, (location: i32, x: u64, y: u64, z: u64) -> (), {
+export! { 1229, glUniform3ui64NV, first_glUniform3ui64NV, hook_glUniform3ui64NV, zeros_glUniform3ui64NV, (location: i32, x: u64, y: u64, z: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui64NV(location, x, y, z) };
 } }
-export! { 1228, glUniform3ui64vARB, first_glUniform3ui64vARB, hook_glUniform3ui64vARB, zeros_glUniform3ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1230, glUniform3ui64vARB, first_glUniform3ui64vARB, hook_glUniform3ui64vARB, zeros_glUniform3ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui64vARB(location, count, value) };
 } }
-export! { 1229, glUniform3ui64vNV, first_glUniform3ui64vNV, hook_glUniform3ui64vNV, zeros_glUniform3ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1231, glUniform3ui64vNV, first_glUniform3ui64vNV, hook_glUniform3ui64vNV, zeros_glUniform3ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui64vNV(location, count, value) };
 } }
-export! { 1230, glUniform4i64ARB, first_glUniform4i64ARB, hook_glUniform4i64ARB, zeros_glUniform4i64ARB, (location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
+export! { 1232, glUniform4i64ARB, first_glUniform4i64ARB, hook_glUniform4i64ARB, zeros_glUniform4i64ARB, (location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i64ARB(location, x, y, z, w) };
 } }
-export! { 1231, glUniform4i64NV, first_glUniform4i64NV, hook_glUniform4i64NV, zeros_glUniform4i64NV, (location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
+export! { 1233, glUniform4i64NV, first_glUniform4i64NV, hook_glUniform4i64NV, zeros_glUniform4i64NV, (location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i64NV(location, x, y, z, w) };
 } }
-export! { 1232, glUniform4i64vARB, first_glUniform4i64vARB, hook_glUniform4i64vARB, zeros_glUniform4i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1234, glUniform4i64vARB, first_glUniform4i64vARB, hook_glUniform4i64vARB, zeros_glUniform4i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i64vARB(location, count, value) };
 } }
-export! { 1233, glUniform4i64vNV, first_glUniform4i64vNV, hook_glUniform4i64vNV, zeros_glUniform4i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1235, glUniform4i64vNV, first_glUniform4i64vNV, hook_glUniform4i64vNV, zeros_glUniform4i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i64vNV(location, count, value) };
 } }
-export! { 1234, glUniform4ui64ARB, first_glUniform4ui64ARB, hook_glUniform4ui64ARB, zeros_glUniform4ui64ARB, (location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
+export! { 1236, glUniform4ui64ARB, first_glUniform4ui64ARB, hook_glUniform4ui64ARB, zeros_glUniform4ui64ARB, (location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui64ARB(location, x, y, z, w) };
 } }
-export! { 1235, glUniform4ui64NV, first_glUniform4ui64NV, hook_glUniform4ui64NV, zeros_glUniform4ui64NV, (location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
+export! { 1237, glUniform4ui64NV, first_glUniform4ui64NV, hook_glUniform4ui64NV, zeros_glUniform4ui64NV, (location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui64NV(location, x, y, z, w) };
 } }
-export! { 1236, glUniform4ui64vARB, first_glUniform4ui64vARB, hook_glUniform4ui64vARB, zeros_glUniform4ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1238, glUniform4ui64vARB, first_glUniform4ui64vARB, hook_glUniform4ui64vARB, zeros_glUniform4ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui64vARB(location, count, value) };
 } }
-export! { 1237, glUniform4ui64vNV, first_glUniform4ui64vNV, hook_glUniform4ui64vNV, zeros_glUniform4ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1239, glUniform4ui64vNV, first_glUniform4ui64vNV, hook_glUniform4ui64vNV, zeros_glUniform4ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui64vNV(location, count, value) };
 } }
-export! { 1238, glProgramUniformHandleui64ARB, first_glProgramUniformHandleui64ARB, hook_glProgramUniformHandleui64ARB, zeros_glProgramUniformHandleui64ARB, (program: u32, location: i32, value: u64) -> (), {
+export! { 1240, glProgramUniformHandleui64ARB, first_glProgramUniformHandleui64ARB, hook_glProgramUniformHandleui64ARB, zeros_glProgramUniformHandleui64ARB, (program: u32, location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64ARB(program, location, value) };
 } }
-export! { 1239, glProgramUniformHandleui64IMG, first_glProgramUniformHandleui64IMG, hook_glProgramUniformHandleui64IMG, zeros_glProgramUniformHandleui64IMG, (program: u32, location: i32, value: u64) -> (), {
+export! { 1241, glProgramUniformHandleui64IMG, first_glProgramUniformHandleui64IMG, hook_glProgramUniformHandleui64IMG, zeros_glProgramUniformHandleui64IMG, (program: u32, location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64IMG(program, location, value) };
 } }
-export! { 1240, glProgramUniformHandleui64NV, first_glProgramUniformHandleui64NV, hook_glProgramUniformHandleui64NV, zeros_glProgramUniformHandleui64NV, (program: u32, location: i32, value: u64) -> (), {
+export! { 1242, glProgramUniformHandleui64NV, first_glProgramUniformHandleui64NV, hook_glProgramUniformHandleui64NV, zeros_glProgramUniformHandleui64NV, (program: u32, location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64NV(program, location, value) };
 } }
-export! { 1241, glProgramUniformHandleui64vARB, first_glProgramUniformHandleui64vARB, hook_glProgramUniformHandleui64vARB, zeros_glProgramUniformHandleui64vARB, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
+export! { 1243, glProgramUniformHandleui64vARB, first_glProgramUniformHandleui64vARB, hook_glProgramUniformHandleui64vARB, zeros_glProgramUniformHandleui64vARB, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64vARB(program, location, count, values) };
 } }
-export! { 1242, glProgramUniformHandleui64vIMG, first_glProgramUniformHandleui64vIMG, hook_glProgramUniformHandleui64vIMG, zeros_glProgramUniformHandleui64vIMG, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
+export! { 1244, glProgramUniformHandleui64vIMG, first_glProgramUniformHandleui64vIMG, hook_glProgramUniformHandleui64vIMG, zeros_glProgramUniformHandleui64vIMG, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64vIMG(program, location, count, values) };
 } }
-export! { 1243, glProgramUniformHandleui64vNV, first_glProgramUniformHandleui64vNV, hook_glProgramUniformHandleui64vNV, zeros_glProgramUniformHandleui64vNV, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
+export! { 1245, glProgramUniformHandleui64vNV, first_glProgramUniformHandleui64vNV, hook_glProgramUniformHandleui64vNV, zeros_glProgramUniformHandleui64vNV, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64vNV(program, location, count, values) };
 } }
-export! { 1244, glUniformHandleui64ARB, first_glUniformHandleui64ARB, hook_glUniformHandleui64ARB, zeros_glUniformHandleui64ARB, (location: i32, value: u64) -> (), {
+export! { 1246, glUniformHandleui64ARB, first_glUniformHandleui64ARB, hook_glUniformHandleui64ARB, zeros_glUniformHandleui64ARB, (location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64ARB(location, value) };
 } }
-export! { 1245, glUniformHandleui64IMG, first_glUniformHandleui64IMG, hook_glUniformHandleui64IMG, zeros_glUniformHandleui64IMG, (location: i32, value: u64) -> (), {
+export! { 1247, glUniformHandleui64IMG, first_glUniformHandleui64IMG, hook_glUniformHandleui64IMG, zeros_glUniformHandleui64IMG, (location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64IMG(location, value) };
 } }
-export! { 1246, glUniformHandleui64NV, first_glUniformHandleui64NV, hook_glUniformHandleui64NV, zeros_glUniformHandleui64NV, (location: i32, value: u64) -> (), {
+export! { 1248, glUniformHandleui64NV, first_glUniformHandleui64NV, hook_glUniformHandleui64NV, zeros_glUniformHandleui64NV, (location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64NV(location, value) };
 } }
-export! { 1247, glUniformHandleui64vARB, first_glUniformHandleui64vARB, hook_glUniformHandleui64vARB, zeros_glUniformHandleui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1249, glUniformHandleui64vARB, first_glUniformHandleui64vARB, hook_glUniformHandleui64vARB, zeros_glUniformHandleui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64vARB(location, count, value) };
 } }
-export! { 1248, glUniformHandleui64vIMG, first_glUniformHandleui64vIMG, hook_glUniformHandleui64vIMG, zeros_glUniformHandleui64vIMG, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1250, glUniformHandleui64vIMG, first_glUniformHandleui64vIMG, hook_glUniformHandleui64vIMG, zeros_glUniformHandleui64vIMG, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64vIMG(location, count, value) };
 } }
-export! { 1249, glUniformHandleui64vNV, first_glUniformHandleui64vNV, hook_glUniformHandleui64vNV, zeros_glUniformHandleui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1251, glUniformHandleui64vNV, first_glUniformHandleui64vNV, hook_glUniformHandleui64vNV, zeros_glUniformHandleui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64vNV(location, count, value) };
 } }
-export! { 1250, glProgramUniformui64NV, first_glProgramUniformui64NV, hook_glProgramUniformui64NV, zeros_glProgramUniformui64NV, (program: u32, location: i32, value: u64) -> (), {
+export! { 1252, glProgramUniformui64NV, first_glProgramUniformui64NV, hook_glProgramUniformui64NV, zeros_glProgramUniformui64NV, (program: u32, location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformui64NV(program, location, value) };
 } }
-export! { 1251, glProgramUniformui64vNV, first_glProgramUniformui64vNV, hook_glProgramUniformui64vNV, zeros_glProgramUniformui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1253, glProgramUniformui64vNV, first_glProgramUniformui64vNV, hook_glProgramUniformui64vNV, zeros_glProgramUniformui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformui64vNV(program, location, count, value) };
 } }
-export! { 1252, glUniformui64NV, first_glUniformui64NV, hook_glUniformui64NV, zeros_glUniformui64NV, (location: i32, value: u64) -> (), {
+export! { 1254, glUniformui64NV, first_glUniformui64NV, hook_glUniformui64NV, zeros_glUniformui64NV, (location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformui64NV(location, value) };
 } }
-export! { 1253, glUniformui64vNV, first_glUniformui64vNV, hook_glUniformui64vNV, zeros_glUniformui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1255, glUniformui64vNV, first_glUniformui64vNV, hook_glUniformui64vNV, zeros_glUniformui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformui64vNV(location, count, value) };
 } }
-export! { 1254, glUniformBufferEXT, first_glUniformBufferEXT, hook_glUniformBufferEXT, zeros_glUniformBufferEXT, (program: u32, location: i32, buffer: u32) -> (), {
+export! { 1256, glUniformBufferEXT, first_glUniformBufferEXT, hook_glUniformBufferEXT, zeros_glUniformBufferEXT, (program: u32, location: i32, buffer: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformBufferEXT(program, location, buffer) };
 } }
-export! { 1255, glProgramUniform1dEXT, first_glProgramUniform1dEXT, hook_glProgramUniform1dEXT, zeros_glProgramUniform1dEXT, (program: u32, location: i32, x: f64) -> (), {
+export! { 1257, glProgramUniform1dEXT, first_glProgramUniform1dEXT, hook_glProgramUniform1dEXT, zeros_glProgramUniform1dEXT, (program: u32, location: i32, x: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dEXT(program, location, x) };
 } }
-export! { 1256, glProgramUniform1dvEXT, first_glProgramUniform1dvEXT, hook_glProgramUniform1dvEXT, zeros_glProgramUniform1dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1258, glProgramUniform1dvEXT, first_glProgramUniform1dvEXT, hook_glProgramUniform1dvEXT, zeros_glProgramUniform1dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dvEXT(program, location, count, value) };
 } }
-export! { 1257, glProgramUniform2dEXT, first_glProgramUniform2dEXT, hook_glProgramUniform2dEXT, zeros_glProgramUniform2dEXT, (program: u32, location: i32, x: f64, y: f64) -> (), {
+export! { 1259, glProgramUniform2dEXT, first_glProgramUniform2dEXT, hook_glProgramUniform2dEXT, zeros_glProgramUniform2dEXT, (program: u32, location: i32, x: f64, y: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dEXT(program, location, x, y) };
 } }
-export! { 1258, glProgramUniform2dvEXT, first_glProgramUniform2dvEXT, hook_glProgramUniform2dvEXT, zeros_glProgramUniform2dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1260, glProgramUniform2dvEXT, first_glProgramUniform2dvEXT, hook_glProgramUniform2dvEXT, zeros_glProgramUniform2dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dvEXT(program, location, count, value) };
 } }
-export! { 1259, glProgramUniform3dEXT, first_glProgramUniform3dEXT, hook_glProgramUniform3dEXT, zeros_glProgramUniform3dEXT, (program: u32, location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 1261, glProgramUniform3dEXT, first_glProgramUniform3dEXT, hook_glProgramUniform3dEXT, zeros_glProgramUniform3dEXT, (program: u32, location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dEXT(program, location, x, y, z) };
 } }
-export! { 1260, glProgramUniform3dvEXT, first_glProgramUniform3dvEXT, hook_glProgramUniform3dvEXT, zeros_glProgramUniform3dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1262, glProgramUniform3dvEXT, first_glProgramUniform3dvEXT, hook_glProgramUniform3dvEXT, zeros_glProgramUniform3dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dvEXT(program, location, count, value) };
 } }
-export! { 1261, glProgramUniform4dEXT, first_glProgramUniform4dEXT, hook_glProgramUniform4dEXT, zeros_glProgramUniform4dEXT, (program: u32, location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 1263, glProgramUniform4dEXT, first_glProgramUniform4dEXT, hook_glProgramUniform4dEXT, zeros_glProgramUniform4dEXT, (program: u32, location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dEXT(program, location, x, y, z, w) };
 } }
-export! { 1262, glProgramUniform4dvEXT, first_glProgramUniform4dvEXT, hook_glProgramUniform4dvEXT, zeros_glProgramUniform4dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1264, glProgramUniform4dvEXT, first_glProgramUniform4dvEXT, hook_glProgramUniform4dvEXT, zeros_glProgramUniform4dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dvEXT(program, location, count, value) };
 } }
-export! { 1263, glProgramUniformMatrix2dvEXT, first_glProgramUniformMatrix2dvEXT, hook_glProgramUniformMatrix2dvEXT, zeros_glProgramUniformMatrix2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1265, glProgramUniformMatrix2dvEXT, first_glProgramUniformMatrix2dvEXT, hook_glProgramUniformMatrix2dvEXT, zeros_glProgramUniformMatrix2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1264, glProgramUniformMatrix2x3dvEXT, first_glProgramUniformMatrix2x3dvEXT, hook_glProgramUniformMatrix2x3dvEXT, zeros_glProgramUniformMatrix2x3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1266, glProgramUniformMatrix2x3dvEXT, first_glProgramUniformMatrix2x3dvEXT, hook_glProgramUniformMatrix2x3dvEXT, zeros_glProgramUniformMatrix2x3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1265, glProgramUniformMatrix2x4dvEXT, first_glProgramUniformMatrix2x4dvEXT, hook_glProgramUniformMatrix2x4dvEXT, zeros_glProgramUniformMatrix2x4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1267, glProgramUniformMatrix2x4dvEXT, first_glProgramUniformMatrix2x4dvEXT, hook_glProgramUniformMatrix2x4dvEXT, zeros_glProgramUniformMatrix2x4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1266, glProgramUniformMatrix3dvEXT, first_glProgramUniformMatrix3dvEXT, hook_glProgramUniformMatrix3dvEXT, zeros_glProgramUniformMatrix3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1268, glProgramUniformMatrix3dvEXT, first_glProgramUniformMatrix3dvEXT, hook_glProgramUniformMatrix3dvEXT, zeros_glProgramUniformMatrix3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1267, glProgramUniformMatrix3x2dvEXT, first_glProgramUniformMatrix3x2dvEXT, hook_glProgramUniformMatrix3x2dvEXT, zeros_glProgramUniformMatrix3x2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1269, glProgramUniformMatrix3x2dvEXT, first_glProgramUniformMatrix3x2dvEXT, hook_glProgramUniformMatrix3x2dvEXT, zeros_glProgramUniformMatrix3x2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1268, glProgramUniformMatrix3x4dvEXT, first_glProgramUniformMatrix3x4dvEXT, hook_glProgramUniformMatrix3x4dvEXT, zeros_glProgramUniformMatrix3x4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1270, glProgramUniformMatrix3x4dvEXT, first_glProgramUniformMatrix3x4dvEXT, hook_glProgramUniformMatrix3x4dvEXT, zeros_glProgramUniformMatrix3x4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1269, glProgramUniformMatrix4dvEXT, first_glProgramUniformMatrix4dvEXT, hook_glProgramUniformMatrix4dvEXT, zeros_glProgramUniformMatrix4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1271, glProgramUniformMatrix4dvEXT, first_glProgramUniformMatrix4dvEXT, hook_glProgramUniformMatrix4dvEXT, zeros_glProgramUniformMatrix4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1270, glProgramUniformMatrix4x2dvEXT, first_glProgramUniformMatrix4x2dvEXT, hook_glProgramUniformMatrix4x2dvEXT, zeros_glProgramUniformMatrix4x2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1272, glProgramUniformMatrix4x2dvEXT, first_glProgramUniformMatrix4x2dvEXT, hook_glProgramUniformMatrix4x2dvEXT, zeros_glProgramUniformMatrix4x2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1271, glProgramUniformMatrix4x3dvEXT, first_glProgramUniformMatrix4x3dvEXT, hook_glProgramUniformMatrix4x3dvEXT, zeros_glProgramUniformMatrix4x3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1273, glProgramUniformMatrix4x3dvEXT, first_glProgramUniformMatrix4x3dvEXT, hook_glProgramUniformMatrix4x3dvEXT, zeros_glProgramUniformMatrix4x3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1272, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, zeros_glLinkProgram, (program: u32) -> (), {
+export! { 1274, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, zeros_glLinkProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(program) }
 } }
-export! { 1273, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, zeros_glLinkProgramARB, (programObj: u32) -> (), {
+export! { 1275, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, zeros_glLinkProgramARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(programObj) }
 } }
-export! { 1274, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, zeros_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1276, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, zeros_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 1275, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, zeros_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1277, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, zeros_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 1276, glUseProgram, first_glUseProgram, hook_glUseProgram, zeros_glUseProgram, (program: u32) -> (), {
+export! { 1278, glUseProgram, first_glUseProgram, hook_glUseProgram, zeros_glUseProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(program) }
 } }
-export! { 1277, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, zeros_glUseProgramObjectARB, (programObj: u32) -> (), {
+export! { 1279, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, zeros_glUseProgramObjectARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(programObj) }
 } }
-export! { 1278, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, zeros_glDeleteProgram, (program: u32) -> (), {
+export! { 1280, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, zeros_glDeleteProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteProgram(program) }
 } }
-export! { 1279, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, zeros_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
+export! { 1281, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, zeros_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetProgramiv(program, pname, params) }
 } }
-export! { 1280, glClear, first_glClear, hook_glClear, zeros_glClear, (mask: u32) -> (), {
+export! { 1282, glClear, first_glClear, hook_glClear, zeros_glClear, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClear(mask) }
 } }
-export! { 1281, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, zeros_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1283, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, zeros_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
-export! { 1282, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, zeros_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1284, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, zeros_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferfv(buffer, drawbuffer, value) }
 } }
-export! { 1283, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, zeros_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1285, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, zeros_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferiv(buffer, drawbuffer, value) }
 } }
-export! { 1284, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, zeros_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1286, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, zeros_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferuiv(buffer, drawbuffer, value) }
 } }
-export! { 1285, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, zeros_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1287, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, zeros_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 1286, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, zeros_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1288, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, zeros_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 1287, glDrawElements, first_glDrawElements, hook_glDrawElements, zeros_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1289, glDrawElements, first_glDrawElements, hook_glDrawElements, zeros_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawElements(mode, count, type_, indices) }
 } }
-export! { 1288, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, zeros_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1290, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, zeros_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 1289, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, zeros_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1291, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, zeros_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 1290, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, zeros_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
+export! { 1292, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, zeros_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArrays(mode, first, count, drawcount) })
 } }
-export! { 1291, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, zeros_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1293, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, zeros_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysEXT(mode, first, count, primcount) })
 } }
-export! { 1292, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, zeros_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
+export! { 1294, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, zeros_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElements(mode, count, type_, indices, drawcount) })
 } }
-export! { 1293, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, zeros_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1295, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, zeros_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1294, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, zeros_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1296, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, zeros_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertex(mode, count, type_, indices, basevertex) })
 } }
-export! { 1295, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, zeros_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1297, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, zeros_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexEXT(mode, count, type_, indices, basevertex) })
 } }
-export! { 1296, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, zeros_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1298, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, zeros_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexOES(mode, count, type_, indices, basevertex) })
 } }
-export! { 1297, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, zeros_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1299, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, zeros_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertex(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1298, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, zeros_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1300, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, zeros_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexEXT(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1299, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, zeros_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1301, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, zeros_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexOES(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1300, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, zeros_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1302, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, zeros_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertex(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1301, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, zeros_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1303, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, zeros_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertexEXT(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1302, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, zeros_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
+export! { 1304, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, zeros_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstanced(mode, first, count, instancecount) })
 } }
-export! { 1303, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, zeros_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1305, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, zeros_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedANGLE(mode, first, count, primcount) })
 } }
-export! { 1304, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, zeros_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1306, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, zeros_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedARB(mode, first, count, primcount) })
 } }
-export! { 1305, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, zeros_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
+export! { 1307, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, zeros_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedEXT(mode, start, count, primcount) })
 } }
-export! { 1306, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, zeros_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1308, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, zeros_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedNV(mode, first, count, primcount) })
 } }
-export! { 1307, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, zeros_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
+export! { 1309, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, zeros_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstanced(mode, count, type_, indices, instancecount) })
 } }
-export! { 1308, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, zeros_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1310, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, zeros_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedANGLE(mode, count, type_, indices, primcount) })
 } }
-export! { 1309, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, zeros_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1311, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, zeros_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedARB(mode, count, type_, indices, primcount) })
 } }
-export! { 1310, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, zeros_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1312, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, zeros_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1311, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, zeros_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1313, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, zeros_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedNV(mode, count, type_, indices, primcount) })
 } }
-export! { 1312, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, zeros_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1314, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, zeros_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertex(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1313, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, zeros_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1315, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, zeros_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexEXT(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1314, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, zeros_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1316, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, zeros_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexOES(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1315, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, zeros_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1317, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, zeros_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstance(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1316, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, zeros_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1318, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, zeros_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstanceEXT(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1317, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, zeros_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1319, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, zeros_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstance(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1318, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, zeros_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1320, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, zeros_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstanceEXT(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1319, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, zeros_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1321, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, zeros_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstance(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1320, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, zeros_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1322, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, zeros_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstanceEXT(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1321, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, zeros_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
+export! { 1323, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, zeros_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysIndirect(mode, indirect) })
 } }
-export! { 1322, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, zeros_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
+export! { 1324, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, zeros_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsIndirect(mode, type_, indirect) })
 } }
-export! { 1323, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, zeros_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1325, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, zeros_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirect(mode, indirect, drawcount, stride) })
 } }
-export! { 1324, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, zeros_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1326, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, zeros_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectAMD(mode, indirect, primcount, stride) })
 } }
-export! { 1325, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, zeros_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1327, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, zeros_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectEXT(mode, indirect, drawcount, stride) })
 } }
-export! { 1326, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, zeros_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1328, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, zeros_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirect(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1327, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, zeros_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1329, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, zeros_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectAMD(mode, type_, indirect, primcount, stride) })
 } }
-export! { 1328, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, zeros_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1330, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, zeros_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectEXT(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1329, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, zeros_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
+export! { 1331, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, zeros_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedback(mode, id) })
 } }
-export! { 1330, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, zeros_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
+export! { 1332, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, zeros_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackEXT(mode, id) })
 } }
-export! { 1331, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, zeros_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
+export! { 1333, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, zeros_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackNV(mode, id) })
 } }
-export! { 1332, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, zeros_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1334, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, zeros_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstanced(mode, id, instancecount) })
 } }
-export! { 1333, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, zeros_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1335, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, zeros_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstancedEXT(mode, id, instancecount) })
 } }
-export! { 1334, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, zeros_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
+export! { 1336, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, zeros_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStream(mode, id, stream) })
 } }
-export! { 1335, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, zeros_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
+export! { 1337, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, zeros_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStreamInstanced(mode, id, stream, instancecount) })
 } }
-export! { 1336, glRectd, first_glRectd, hook_glRectd, zeros_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
+export! { 1338, glRectd, first_glRectd, hook_glRectd, zeros_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectd(x1, y1, x2, y2) })
 } }
-export! { 1337, glRectdv, first_glRectdv, hook_glRectdv, zeros_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1339, glRectdv, first_glRectdv, hook_glRectdv, zeros_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectdv(v1, v2) })
 } }
-export! { 1338, glRectf, first_glRectf, hook_glRectf, zeros_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
+export! { 1340, glRectf, first_glRectf, hook_glRectf, zeros_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectf(x1, y1, x2, y2) })
 } }
-export! { 1339, glRectfv, first_glRectfv, hook_glRectfv, zeros_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1341, glRectfv, first_glRectfv, hook_glRectfv, zeros_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectfv(v1, v2) })
 } }
-export! { 1340, glRecti, first_glRecti, hook_glRecti, zeros_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 1342, glRecti, first_glRecti, hook_glRecti, zeros_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRecti(x1, y1, x2, y2) })
 } }
-export! { 1341, glRectiv, first_glRectiv, hook_glRectiv, zeros_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1343, glRectiv, first_glRectiv, hook_glRectiv, zeros_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectiv(v1, v2) })
 } }
-export! { 1342, glRects, first_glRects, hook_glRects, zeros_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
+export! { 1344, glRects, first_glRects, hook_glRects, zeros_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRects(x1, y1, x2, y2) })
 } }
-export! { 1343, glRectsv, first_glRectsv, hook_glRectsv, zeros_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1345, glRectsv, first_glRectsv, hook_glRectsv, zeros_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectsv(v1, v2) })
 } }
-export! { 1344, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, zeros_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
+export! { 1346, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, zeros_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh1(mode, i1, i2) })
 } }
-export! { 1345, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, zeros_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
+export! { 1347, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, zeros_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
-export! { 1346, glMultiDrawArraysIndirectCount, first_glMultiDrawArraysIndirectCount, hook_glMultiDrawArraysIndirectCount, zeros_glMultiDrawArraysIndirectCount, (mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1348, glMultiDrawArraysIndirectCount, first_glMultiDrawArraysIndirectCount, hook_glMultiDrawArraysIndirectCount, zeros_glMultiDrawArraysIndirectCount, (mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectCount(mode, indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1347, glMultiDrawArraysIndirectCountARB, first_glMultiDrawArraysIndirectCountARB, hook_glMultiDrawArraysIndirectCountARB, zeros_glMultiDrawArraysIndirectCountARB, (mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1349, glMultiDrawArraysIndirectCountARB, first_glMultiDrawArraysIndirectCountARB, hook_glMultiDrawArraysIndirectCountARB, zeros_glMultiDrawArraysIndirectCountARB, (mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectCountARB(mode, indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1348, glMultiDrawElementsIndirectCount, first_glMultiDrawElementsIndirectCount, hook_glMultiDrawElementsIndirectCount, zeros_glMultiDrawElementsIndirectCount, (mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1350, glMultiDrawElementsIndirectCount, first_glMultiDrawElementsIndirectCount, hook_glMultiDrawElementsIndirectCount, zeros_glMultiDrawElementsIndirectCount, (mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectCount(mode, type_, indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1349, glMultiDrawElementsIndirectCountARB, first_glMultiDrawElementsIndirectCountARB, hook_glMultiDrawElementsIndirectCountARB, zeros_glMultiDrawElementsIndirectCountARB, (mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1351, glMultiDrawElementsIndirectCountARB, first_glMultiDrawElementsIndirectCountARB, hook_glMultiDrawElementsIndirectCountARB, zeros_glMultiDrawElementsIndirectCountARB, (mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectCountARB(mode, type_, indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1350, glMultiModeDrawArraysIBM, first_glMultiModeDrawArraysIBM, hook_glMultiModeDrawArraysIBM, zeros_glMultiModeDrawArraysIBM, (mode: Ptr, first: Ptr, count: Ptr, primcount: i32, modestride: i32) -> (), {
+export! { 1352, glMultiModeDrawArraysIBM, first_glMultiModeDrawArraysIBM, hook_glMultiModeDrawArraysIBM, zeros_glMultiModeDrawArraysIBM, (mode: Ptr, first: Ptr, count: Ptr, primcount: i32, modestride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiModeDrawArraysIBM(mode, first, count, primcount, modestride) })
 } }
-export! { 1351, glMultiModeDrawElementsIBM, first_glMultiModeDrawElementsIBM, hook_glMultiModeDrawElementsIBM, zeros_glMultiModeDrawElementsIBM, (mode: Ptr, count: Ptr, type_: u32, indices: Ptr, primcount: i32, modestride: i32) -> (), {
+export! { 1353, glMultiModeDrawElementsIBM, first_glMultiModeDrawElementsIBM, hook_glMultiModeDrawElementsIBM, zeros_glMultiModeDrawElementsIBM, (mode: Ptr, count: Ptr, type_: u32, indices: Ptr, primcount: i32, modestride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiModeDrawElementsIBM(mode, count, type_, indices, primcount, modestride) })
 } }
-export! { 1352, glMultiDrawArraysIndirectBindlessCountNV, first_glMultiDrawArraysIndirectBindlessCountNV, hook_glMultiDrawArraysIndirectBindlessCountNV, zeros_glMultiDrawArraysIndirectBindlessCountNV, (mode: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
+export! { 1354, glMultiDrawArraysIndirectBindlessCountNV, first_glMultiDrawArraysIndirectBindlessCountNV, hook_glMultiDrawArraysIndirectBindlessCountNV, zeros_glMultiDrawArraysIndirectBindlessCountNV, (mode: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectBindlessCountNV(mode, indirect, drawCount, maxDrawCount, stride, vertexBufferCount) })
 } }
-export! { 1353, glMultiDrawArraysIndirectBindlessNV, first_glMultiDrawArraysIndirectBindlessNV, hook_glMultiDrawArraysIndirectBindlessNV, zeros_glMultiDrawArraysIndirectBindlessNV, (mode: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
+export! { 1355, glMultiDrawArraysIndirectBindlessNV, first_glMultiDrawArraysIndirectBindlessNV, hook_glMultiDrawArraysIndirectBindlessNV, zeros_glMultiDrawArraysIndirectBindlessNV, (mode: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectBindlessNV(mode, indirect, drawCount, stride, vertexBufferCount) })
 } }
-export! { 1354, glMultiDrawElementsIndirectBindlessCountNV, first_glMultiDrawElementsIndirectBindlessCountNV, hook_glMultiDrawElementsIndirectBindlessCountNV, zeros_glMultiDrawElementsIndirectBindlessCountNV, (mode: u32, type_: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
+export! { 1356, glMultiDrawElementsIndirectBindlessCountNV, first_glMultiDrawElementsIndirectBindlessCountNV, hook_glMultiDrawElementsIndirectBindlessCountNV, zeros_glMultiDrawElementsIndirectBindlessCountNV, (mode: u32, type_: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectBindlessCountNV(mode, type_, indirect, drawCount, maxDrawCount, stride, vertexBufferCount) })
 } }
-export! { 1355, glMultiDrawElementsIndirectBindlessNV, first_glMultiDrawElementsIndirectBindlessNV, hook_glMultiDrawElementsIndirectBindlessNV, zeros_glMultiDrawElementsIndirectBindlessNV, (mode: u32, type_: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
+export! { 1357, glMultiDrawElementsIndirectBindlessNV, first_glMultiDrawElementsIndirectBindlessNV, hook_glMultiDrawElementsIndirectBindlessNV, zeros_glMultiDrawElementsIndirectBindlessNV, (mode: u32, type_: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectBindlessNV(mode, type_, indirect, drawCount, stride, vertexBufferCount) })
 } }
-export! { 1356, glDrawMeshTasksIndirectNV, first_glDrawMeshTasksIndirectNV, hook_glDrawMeshTasksIndirectNV, zeros_glDrawMeshTasksIndirectNV, (indirect: isize) -> (), {
+export! { 1358, glDrawMeshTasksIndirectNV, first_glDrawMeshTasksIndirectNV, hook_glDrawMeshTasksIndirectNV, zeros_glDrawMeshTasksIndirectNV, (indirect: isize) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawMeshTasksIndirectNV(indirect) })
 } }
-export! { 1357, glDrawMeshTasksNV, first_glDrawMeshTasksNV, hook_glDrawMeshTasksNV, zeros_glDrawMeshTasksNV, (first: u32, count: u32) -> (), {
+export! { 1359, glDrawMeshTasksNV, first_glDrawMeshTasksNV, hook_glDrawMeshTasksNV, zeros_glDrawMeshTasksNV, (first: u32, count: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawMeshTasksNV(first, count) })
 } }
-export! { 1358, glMultiDrawMeshTasksIndirectCountNV, first_glMultiDrawMeshTasksIndirectCountNV, hook_glMultiDrawMeshTasksIndirectCountNV, zeros_glMultiDrawMeshTasksIndirectCountNV, (indirect: isize, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1360, glMultiDrawMeshTasksIndirectCountNV, first_glMultiDrawMeshTasksIndirectCountNV, hook_glMultiDrawMeshTasksIndirectCountNV, zeros_glMultiDrawMeshTasksIndirectCountNV, (indirect: isize, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawMeshTasksIndirectCountNV(indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1359, glMultiDrawMeshTasksIndirectNV, first_glMultiDrawMeshTasksIndirectNV, hook_glMultiDrawMeshTasksIndirectNV, zeros_glMultiDrawMeshTasksIndirectNV, (indirect: isize, drawcount: i32, stride: i32) -> (), {
+export! { 1361, glMultiDrawMeshTasksIndirectNV, first_glMultiDrawMeshTasksIndirectNV, hook_glMultiDrawMeshTasksIndirectNV, zeros_glMultiDrawMeshTasksIndirectNV, (indirect: isize, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawMeshTasksIndirectNV(indirect, drawcount, stride) })
 } }
-export! { 1360, glDrawElementArrayAPPLE, first_glDrawElementArrayAPPLE, hook_glDrawElementArrayAPPLE, zeros_glDrawElementArrayAPPLE, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1362, glDrawElementArrayAPPLE, first_glDrawElementArrayAPPLE, hook_glDrawElementArrayAPPLE, zeros_glDrawElementArrayAPPLE, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementArrayAPPLE(mode, first, count) })
 } }
-export! { 1361, glDrawRangeElementArrayAPPLE, first_glDrawRangeElementArrayAPPLE, hook_glDrawRangeElementArrayAPPLE, zeros_glDrawRangeElementArrayAPPLE, (mode: u32, start: u32, end: u32, first: i32, count: i32) -> (), {
+export! { 1363, glDrawRangeElementArrayAPPLE, first_glDrawRangeElementArrayAPPLE, hook_glDrawRangeElementArrayAPPLE, zeros_glDrawRangeElementArrayAPPLE, (mode: u32, start: u32, end: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementArrayAPPLE(mode, start, end, first, count) })
 } }
-export! { 1362, glMultiDrawElementArrayAPPLE, first_glMultiDrawElementArrayAPPLE, hook_glMultiDrawElementArrayAPPLE, zeros_glMultiDrawElementArrayAPPLE, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1364, glMultiDrawElementArrayAPPLE, first_glMultiDrawElementArrayAPPLE, hook_glMultiDrawElementArrayAPPLE, zeros_glMultiDrawElementArrayAPPLE, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementArrayAPPLE(mode, first, count, primcount) })
 } }
-export! { 1363, glMultiDrawRangeElementArrayAPPLE, first_glMultiDrawRangeElementArrayAPPLE, hook_glMultiDrawRangeElementArrayAPPLE, zeros_glMultiDrawRangeElementArrayAPPLE, (mode: u32, start: u32, end: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1365, glMultiDrawRangeElementArrayAPPLE, first_glMultiDrawRangeElementArrayAPPLE, hook_glMultiDrawRangeElementArrayAPPLE, zeros_glMultiDrawRangeElementArrayAPPLE, (mode: u32, start: u32, end: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawRangeElementArrayAPPLE(mode, start, end, first, count, primcount) })
 } }
-export! { 1364, glDrawElementArrayATI, first_glDrawElementArrayATI, hook_glDrawElementArrayATI, zeros_glDrawElementArrayATI, (mode: u32, count: i32) -> (), {
+export! { 1366, glDrawElementArrayATI, first_glDrawElementArrayATI, hook_glDrawElementArrayATI, zeros_glDrawElementArrayATI, (mode: u32, count: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementArrayATI(mode, count) })
 } }
-export! { 1365, glDrawRangeElementArrayATI, first_glDrawRangeElementArrayATI, hook_glDrawRangeElementArrayATI, zeros_glDrawRangeElementArrayATI, (mode: u32, start: u32, end: u32, count: i32) -> (), {
+export! { 1367, glDrawRangeElementArrayATI, first_glDrawRangeElementArrayATI, hook_glDrawRangeElementArrayATI, zeros_glDrawRangeElementArrayATI, (mode: u32, start: u32, end: u32, count: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementArrayATI(mode, start, end, count) })
 } }
-export! { 1366, glDrawMeshArraysSUN, first_glDrawMeshArraysSUN, hook_glDrawMeshArraysSUN, zeros_glDrawMeshArraysSUN, (mode: u32, first: i32, count: i32, width: i32) -> (), {
+export! { 1368, glDrawMeshArraysSUN, first_glDrawMeshArraysSUN, hook_glDrawMeshArraysSUN, zeros_glDrawMeshArraysSUN, (mode: u32, first: i32, count: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawMeshArraysSUN(mode, first, count, width) })
 } }
-export! { 1367, glDrawTextureNV, first_glDrawTextureNV, hook_glDrawTextureNV, zeros_glDrawTextureNV, (texture: u32, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32) -> (), {
+export! { 1369, glDrawTextureNV, first_glDrawTextureNV, hook_glDrawTextureNV, zeros_glDrawTextureNV, (texture: u32, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTextureNV(texture, sampler, x0, y0, x1, y1, z, s0, t0, s1, t1) })
 } }
-export! { 1368, glDrawVkImageNV, first_glDrawVkImageNV, hook_glDrawVkImageNV, zeros_glDrawVkImageNV, (vkImage: u64, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32) -> (), {
+export! { 1370, glDrawVkImageNV, first_glDrawVkImageNV, hook_glDrawVkImageNV, zeros_glDrawVkImageNV, (vkImage: u64, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawVkImageNV(vkImage, sampler, x0, y0, x1, y1, z, s0, t0, s1, t1) })
 } }
-export! { 1369, glEvalMapsNV, first_glEvalMapsNV, hook_glEvalMapsNV, zeros_glEvalMapsNV, (target: u32, mode: u32) -> (), {
+export! { 1371, glEvalMapsNV, first_glEvalMapsNV, hook_glEvalMapsNV, zeros_glEvalMapsNV, (target: u32, mode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMapsNV(target, mode) })
 } }
-export! { 1370, glCoverFillPathInstancedNV, first_glCoverFillPathInstancedNV, hook_glCoverFillPathInstancedNV, zeros_glCoverFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1372, glCoverFillPathInstancedNV, first_glCoverFillPathInstancedNV, hook_glCoverFillPathInstancedNV, zeros_glCoverFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glCoverFillPathInstancedNV(numPaths, pathNameType, paths, pathBase, coverMode, transformType, transformValues) })
 } }
-export! { 1371, glCoverFillPathNV, first_glCoverFillPathNV, hook_glCoverFillPathNV, zeros_glCoverFillPathNV, (path: u32, coverMode: u32) -> (), {
+export! { 1373, glCoverFillPathNV, first_glCoverFillPathNV, hook_glCoverFillPathNV, zeros_glCoverFillPathNV, (path: u32, coverMode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glCoverFillPathNV(path, coverMode) })
 } }
-export! { 1372, glCoverStrokePathInstancedNV, first_glCoverStrokePathInstancedNV, hook_glCoverStrokePathInstancedNV, zeros_glCoverStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1374, glCoverStrokePathInstancedNV, first_glCoverStrokePathInstancedNV, hook_glCoverStrokePathInstancedNV, zeros_glCoverStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glCoverStrokePathInstancedNV(numPaths, pathNameType, paths, pathBase, coverMode, transformType, transformValues) })
 } }
-export! { 1373, glCoverStrokePathNV, first_glCoverStrokePathNV, hook_glCoverStrokePathNV, zeros_glCoverStrokePathNV, (path: u32, coverMode: u32) -> (), {
+export! { 1375, glCoverStrokePathNV, first_glCoverStrokePathNV, hook_glCoverStrokePathNV, zeros_glCoverStrokePathNV, (path: u32, coverMode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glCoverStrokePathNV(path, coverMode) })
 } }
-export! { 1374, glStencilFillPathInstancedNV, first_glStencilFillPathInstancedNV, hook_glStencilFillPathInstancedNV, zeros_glStencilFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1376, glStencilFillPathInstancedNV, first_glStencilFillPathInstancedNV, hook_glStencilFillPathInstancedNV, zeros_glStencilFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilFillPathInstancedNV(numPaths, pathNameType, paths, pathBase, fillMode, mask, transformType, transformValues) })
 } }
-export! { 1375, glStencilFillPathNV, first_glStencilFillPathNV, hook_glStencilFillPathNV, zeros_glStencilFillPathNV, (path: u32, fillMode: u32, mask: u32) -> (), {
+export! { 1377, glStencilFillPathNV, first_glStencilFillPathNV, hook_glStencilFillPathNV, zeros_glStencilFillPathNV, (path: u32, fillMode: u32, mask: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilFillPathNV(path, fillMode, mask) })
 } }
-export! { 1376, glStencilStrokePathInstancedNV, first_glStencilStrokePathInstancedNV, hook_glStencilStrokePathInstancedNV, zeros_glStencilStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1378, glStencilStrokePathInstancedNV, first_glStencilStrokePathInstancedNV, hook_glStencilStrokePathInstancedNV, zeros_glStencilStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilStrokePathInstancedNV(numPaths, pathNameType, paths, pathBase, reference, mask, transformType, transformValues) })
 } }
-export! { 1377, glStencilStrokePathNV, first_glStencilStrokePathNV, hook_glStencilStrokePathNV, zeros_glStencilStrokePathNV, (path: u32, reference: i32, mask: u32) -> (), {
+export! { 1379, glStencilStrokePathNV, first_glStencilStrokePathNV, hook_glStencilStrokePathNV, zeros_glStencilStrokePathNV, (path: u32, reference: i32, mask: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilStrokePathNV(path, reference, mask) })
 } }
-export! { 1378, glStencilThenCoverFillPathInstancedNV, first_glStencilThenCoverFillPathInstancedNV, hook_glStencilThenCoverFillPathInstancedNV, zeros_glStencilThenCoverFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1380, glStencilThenCoverFillPathInstancedNV, first_glStencilThenCoverFillPathInstancedNV, hook_glStencilThenCoverFillPathInstancedNV, zeros_glStencilThenCoverFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilThenCoverFillPathInstancedNV(numPaths, pathNameType, paths, pathBase, fillMode, mask, coverMode, transformType, transformValues) })
 } }
-export! { 1379, glStencilThenCoverFillPathNV, first_glStencilThenCoverFillPathNV, hook_glStencilThenCoverFillPathNV, zeros_glStencilThenCoverFillPathNV, (path: u32, fillMode: u32, mask: u32, coverMode: u32) -> (), {
+export! { 1381, glStencilThenCoverFillPathNV, first_glStencilThenCoverFillPathNV, hook_glStencilThenCoverFillPathNV, zeros_glStencilThenCoverFillPathNV, (path: u32, fillMode: u32, mask: u32, coverMode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilThenCoverFillPathNV(path, fillMode, mask, coverMode) })
 } }
-export! { 1380, glStencilThenCoverStrokePathInstancedNV, first_glStencilThenCoverStrokePathInstancedNV, hook_glStencilThenCoverStrokePathInstancedNV, zeros_glStencilThenCoverStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1382, glStencilThenCoverStrokePathInstancedNV, first_glStencilThenCoverStrokePathInstancedNV, hook_glStencilThenCoverStrokePathInstancedNV, zeros_glStencilThenCoverStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilThenCoverStrokePathInstancedNV(numPaths, pathNameType, paths, pathBase, reference, mask, coverMode, transformType, transformValues) })
 } }
-export! { 1381, glStencilThenCoverStrokePathNV, first_glStencilThenCoverStrokePathNV, hook_glStencilThenCoverStrokePathNV, zeros_glStencilThenCoverStrokePathNV, (path: u32, reference: i32, mask: u32, coverMode: u32) -> (), {
+export! { 1383, glStencilThenCoverStrokePathNV, first_glStencilThenCoverStrokePathNV, hook_glStencilThenCoverStrokePathNV, zeros_glStencilThenCoverStrokePathNV, (path: u32, reference: i32, mask: u32, coverMode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilThenCoverStrokePathNV(path, reference, mask, coverMode) })
 } }
-export! { 1382, glDrawTexfOES, first_glDrawTexfOES, hook_glDrawTexfOES, zeros_glDrawTexfOES, (x: f32, y: f32, z: f32, width: f32, height: f32) -> (), {
+export! { 1384, glDrawTexfOES, first_glDrawTexfOES, hook_glDrawTexfOES, zeros_glDrawTexfOES, (x: f32, y: f32, z: f32, width: f32, height: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexfOES(x, y, z, width, height) })
 } }
-export! { 1383, glDrawTexfvOES, first_glDrawTexfvOES, hook_glDrawTexfvOES, zeros_glDrawTexfvOES, (coords: Ptr) -> (), {
+export! { 1385, glDrawTexfvOES, first_glDrawTexfvOES, hook_glDrawTexfvOES, zeros_glDrawTexfvOES, (coords: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexfvOES(coords) })
 } }
-export! { 1384, glDrawTexiOES, first_glDrawTexiOES, hook_glDrawTexiOES, zeros_glDrawTexiOES, (x: i32, y: i32, z: i32, width: i32, height: i32) -> (), {
+export! { 1386, glDrawTexiOES, first_glDrawTexiOES, hook_glDrawTexiOES, zeros_glDrawTexiOES, (x: i32, y: i32, z: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexiOES(x, y, z, width, height) })
 } }
-export! { 1385, glDrawTexivOES, first_glDrawTexivOES, hook_glDrawTexivOES, zeros_glDrawTexivOES, (coords: Ptr) -> (), {
+export! { 1387, glDrawTexivOES, first_glDrawTexivOES, hook_glDrawTexivOES, zeros_glDrawTexivOES, (coords: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexivOES(coords) })
 } }
-export! { 1386, glDrawTexsOES, first_glDrawTexsOES, hook_glDrawTexsOES, zeros_glDrawTexsOES, (x: i16, y: i16, z: i16, width: i16, height: i16) -> (), {
+export! { 1388, glDrawTexsOES, first_glDrawTexsOES, hook_glDrawTexsOES, zeros_glDrawTexsOES, (x: i16, y: i16, z: i16, width: i16, height: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexsOES(x, y, z, width, height) })
 } }
-export! { 1387, glDrawTexsvOES, first_glDrawTexsvOES, hook_glDrawTexsvOES, zeros_glDrawTexsvOES, (coords: Ptr) -> (), {
+export! { 1389, glDrawTexsvOES, first_glDrawTexsvOES, hook_glDrawTexsvOES, zeros_glDrawTexsvOES, (coords: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexsvOES(coords) })
 } }
-export! { 1388, glDrawTexxOES, first_glDrawTexxOES, hook_glDrawTexxOES, zeros_glDrawTexxOES, (x: i32, y: i32, z: i32, width: i32, height: i32) -> (), {
+export! { 1390, glDrawTexxOES, first_glDrawTexxOES, hook_glDrawTexxOES, zeros_glDrawTexxOES, (x: i32, y: i32, z: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexxOES(x, y, z, width, height) })
 } }
-export! { 1389, glDrawTexxvOES, first_glDrawTexxvOES, hook_glDrawTexxvOES, zeros_glDrawTexxvOES, (coords: Ptr) -> (), {
+export! { 1391, glDrawTexxvOES, first_glDrawTexxvOES, hook_glDrawTexxvOES, zeros_glDrawTexxvOES, (coords: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexxvOES(coords) })
 } }
-export! { 1390, glRectxOES, first_glRectxOES, hook_glRectxOES, zeros_glRectxOES, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 1392, glRectxOES, first_glRectxOES, hook_glRectxOES, zeros_glRectxOES, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectxOES(x1, y1, x2, y2) })
 } }
-export! { 1391, glRectxvOES, first_glRectxvOES, hook_glRectxvOES, zeros_glRectxvOES, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1393, glRectxvOES, first_glRectxvOES, hook_glRectxvOES, zeros_glRectxvOES, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectxvOES(v1, v2) })
 } }
-export! { 1392, glAccum, first_glAccum, hook_glAccum, zeros_glAccum, (op: u32, value: f32) -> (), {
+export! { 1394, glAccum, first_glAccum, hook_glAccum, zeros_glAccum, (op: u32, value: f32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glAccum(op, value) }
 } }
-export! { 1393, glBitmap, first_glBitmap, hook_glBitmap, zeros_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
+export! { 1395, glBitmap, first_glBitmap, hook_glBitmap, zeros_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBitmap(width, height, xorig, yorig, xmove, ymove, bitmap) }
 } }
-export! { 1394, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, zeros_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1396, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, zeros_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawPixels(width, height, format, type_, pixels) }
 } }
-export! { 1395, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, zeros_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
+export! { 1397, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, zeros_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyPixels(x, y, width, height, type_) }
 } }
-export! { 1396, glNewList, first_glNewList, hook_glNewList, zeros_glNewList, (list: u32, mode: u32) -> (), {
+export! { 1398, glNewList, first_glNewList, hook_glNewList, zeros_glNewList, (list: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNewList(list, mode) }
 } }
-export! { 1397, glEndList, first_glEndList, hook_glEndList, zeros_glEndList, () -> (), {
+export! { 1399, glEndList, first_glEndList, hook_glEndList, zeros_glEndList, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndList() }
 } }
-export! { 1398, glCallList, first_glCallList, hook_glCallList, zeros_glCallList, (list: u32) -> (), {
+export! { 1400, glCallList, first_glCallList, hook_glCallList, zeros_glCallList, (list: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallList(list) }
 } }
-export! { 1399, glCallLists, first_glCallLists, hook_glCallLists, zeros_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
+export! { 1401, glCallLists, first_glCallLists, hook_glCallLists, zeros_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallLists(n, type_, lists) }
 } }
-export! { 1400, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, zeros_glDeleteLists, (list: u32, range: i32) -> (), {
+export! { 1402, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, zeros_glDeleteLists, (list: u32, range: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteLists(list, range) }
 } }
-export! { 1401, glGenLists, first_glGenLists, hook_glGenLists, zeros_glGenLists, (range: i32) -> u32, {
+export! { 1403, glGenLists, first_glGenLists, hook_glGenLists, zeros_glGenLists, (range: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenLists(range) }
 } }
-export! { 1402, glIsList, first_glIsList, hook_glIsList, zeros_glIsList, (list: u32) -> u8, {
+export! { 1404, glIsList, first_glIsList, hook_glIsList, zeros_glIsList, (list: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsList(list) }
 } }
-export! { 1403, glBindTexture, first_glBindTexture, hook_glBindTexture, zeros_glBindTexture, (target: u32, texture: u32) -> (), {
+export! { 1405, glBindTexture, first_glBindTexture, hook_glBindTexture, zeros_glBindTexture, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1404, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, zeros_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+export! { 1406, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, zeros_glBindTextureEXT, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1405, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, zeros_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1407, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, zeros_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
-export! { 1406, glIsTexture, first_glIsTexture, hook_glIsTexture, zeros_glIsTexture, (texture: u32) -> u8, {
+export! { 1408, glIsTexture, first_glIsTexture, hook_glIsTexture, zeros_glIsTexture, (texture: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsTexture(texture) }
 } }
-export! { 1407, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, zeros_glIsFramebuffer, (framebuffer: u32) -> u8, {
+export! { 1409, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, zeros_glIsFramebuffer, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1408, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, zeros_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
+export! { 1410, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, zeros_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1409, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, zeros_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+export! { 1411, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, zeros_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
-export! { 1410, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, zeros_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+export! { 1412, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, zeros_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
-export! { 1411, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, zeros_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1413, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, zeros_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1412, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, zeros_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1414, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, zeros_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1413, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, zeros_glDrawBuffer, (buf: u32) -> (), {
+export! { 1415, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, zeros_glDrawBuffer, (buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
-export! { 1414, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, zeros_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+export! { 1416, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, zeros_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1415, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, zeros_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+export! { 1417, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, zeros_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1416, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, zeros_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+export! { 1418, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, zeros_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1417, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, zeros_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+export! { 1419, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, zeros_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1418, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, zeros_glReadBuffer, (src: u32) -> (), {
+export! { 1420, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, zeros_glReadBuffer, (src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
-export! { 1419, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, zeros_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+export! { 1421, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, zeros_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
-export! { 1420, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, zeros_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1422, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, zeros_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
-export! { 1421, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, zeros_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+export! { 1423, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, zeros_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 1422, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, zeros_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1424, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, zeros_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 1423, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, zeros_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1425, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, zeros_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 1424, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, zeros_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1426, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, zeros_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 1425, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, zeros_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1427, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, zeros_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1426, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, zeros_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1428, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, zeros_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1427, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, zeros_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1429, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, zeros_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1428, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, zeros_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1430, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, zeros_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1429, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, zeros_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1431, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, zeros_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1430, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, zeros_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1432, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, zeros_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1431, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, zeros_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1433, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, zeros_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1432, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, zeros_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1434, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, zeros_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 1433, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, zeros_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 1435, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, zeros_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 1434, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, zeros_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 1436, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, zeros_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 1435, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, zeros_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 1437, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, zeros_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 1436, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, zeros_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 1438, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, zeros_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 1437, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, zeros_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 1439, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, zeros_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1438, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, zeros_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1440, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, zeros_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 1439, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, zeros_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1441, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, zeros_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1440, glFramebufferTexture3DOES, first_glFramebufferTexture3DOES, hook_glFramebufferTexture3DOES, zeros_glFramebufferTexture3DOES, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1442, glFramebufferTexture3DOES, first_glFramebufferTexture3DOES, hook_glFramebufferTexture3DOES, zeros_glFramebufferTexture3DOES, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DOES(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1441, glFramebufferTexture2DMultisampleEXT, first_glFramebufferTexture2DMultisampleEXT, hook_glFramebufferTexture2DMultisampleEXT, zeros_glFramebufferTexture2DMultisampleEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
+export! { 1443, glFramebufferTexture2DMultisampleEXT, first_glFramebufferTexture2DMultisampleEXT, hook_glFramebufferTexture2DMultisampleEXT, zeros_glFramebufferTexture2DMultisampleEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DMultisampleEXT(target, attachment, textarget, texture, level, samples) })
 } }
-export! { 1442, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, zeros_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1444, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, zeros_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1443, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, zeros_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1445, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, zeros_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1444, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, zeros_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1446, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, zeros_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1445, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, zeros_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1447, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, zeros_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1446, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, zeros_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1448, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, zeros_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1447, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, zeros_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1449, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, zeros_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1448, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, zeros_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1450, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, zeros_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1449, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, zeros_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1451, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, zeros_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1450, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, zeros_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1452, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, zeros_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1451, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, zeros_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1453, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, zeros_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1452, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, zeros_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1454, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, zeros_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1453, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, zeros_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1455, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, zeros_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1454, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, zeros_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1456, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, zeros_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1455, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, zeros_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1457, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, zeros_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1456, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, zeros_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1458, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, zeros_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1457, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, zeros_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1459, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, zeros_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture(framebuffer, attachment, texture, level) };
 } }
-export! { 1458, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, zeros_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1460, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, zeros_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayer(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1459, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, zeros_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1461, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, zeros_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbuffer(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1460, glNamedFramebufferTexture1DEXT, first_glNamedFramebufferTexture1DEXT, hook_glNamedFramebufferTexture1DEXT, zeros_glNamedFramebufferTexture1DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1462, glNamedFramebufferTexture1DEXT, first_glNamedFramebufferTexture1DEXT, hook_glNamedFramebufferTexture1DEXT, zeros_glNamedFramebufferTexture1DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture1DEXT(framebuffer, attachment, textarget, texture, level) };
 } }
-export! { 1461, glNamedFramebufferTexture2DEXT, first_glNamedFramebufferTexture2DEXT, hook_glNamedFramebufferTexture2DEXT, zeros_glNamedFramebufferTexture2DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1463, glNamedFramebufferTexture2DEXT, first_glNamedFramebufferTexture2DEXT, hook_glNamedFramebufferTexture2DEXT, zeros_glNamedFramebufferTexture2DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture2DEXT(framebuffer, attachment, textarget, texture, level) };
 } }
-export! { 1462, glNamedFramebufferTexture3DEXT, first_glNamedFramebufferTexture3DEXT, hook_glNamedFramebufferTexture3DEXT, zeros_glNamedFramebufferTexture3DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1464, glNamedFramebufferTexture3DEXT, first_glNamedFramebufferTexture3DEXT, hook_glNamedFramebufferTexture3DEXT, zeros_glNamedFramebufferTexture3DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture3DEXT(framebuffer, attachment, textarget, texture, level, zoffset) };
 } }
-export! { 1463, glNamedFramebufferTextureEXT, first_glNamedFramebufferTextureEXT, hook_glNamedFramebufferTextureEXT, zeros_glNamedFramebufferTextureEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1465, glNamedFramebufferTextureEXT, first_glNamedFramebufferTextureEXT, hook_glNamedFramebufferTextureEXT, zeros_glNamedFramebufferTextureEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureEXT(framebuffer, attachment, texture, level) };
 } }
-export! { 1464, glNamedFramebufferTextureFaceEXT, first_glNamedFramebufferTextureFaceEXT, hook_glNamedFramebufferTextureFaceEXT, zeros_glNamedFramebufferTextureFaceEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1466, glNamedFramebufferTextureFaceEXT, first_glNamedFramebufferTextureFaceEXT, hook_glNamedFramebufferTextureFaceEXT, zeros_glNamedFramebufferTextureFaceEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureFaceEXT(framebuffer, attachment, texture, level, face) };
 } }
-export! { 1465, glNamedFramebufferTextureLayerEXT, first_glNamedFramebufferTextureLayerEXT, hook_glNamedFramebufferTextureLayerEXT, zeros_glNamedFramebufferTextureLayerEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1467, glNamedFramebufferTextureLayerEXT, first_glNamedFramebufferTextureLayerEXT, hook_glNamedFramebufferTextureLayerEXT, zeros_glNamedFramebufferTextureLayerEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayerEXT(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1466, glNamedFramebufferRenderbufferEXT, first_glNamedFramebufferRenderbufferEXT, hook_glNamedFramebufferRenderbufferEXT, zeros_glNamedFramebufferRenderbufferEXT, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1468, glNamedFramebufferRenderbufferEXT, first_glNamedFramebufferRenderbufferEXT, hook_glNamedFramebufferRenderbufferEXT, zeros_glNamedFramebufferRenderbufferEXT, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbufferEXT(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1467, glNamedFramebufferParameteri, first_glNamedFramebufferParameteri, hook_glNamedFramebufferParameteri, zeros_glNamedFramebufferParameteri, (framebuffer: u32, pname: u32, param: i32) -> (), {
+export! { 1469, glNamedFramebufferParameteri, first_glNamedFramebufferParameteri, hook_glNamedFramebufferParameteri, zeros_glNamedFramebufferParameteri, (framebuffer: u32, pname: u32, param: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferParameteri(framebuffer, pname, param) };
 } }
-export! { 1468, glNamedFramebufferParameteriEXT, first_glNamedFramebufferParameteriEXT, hook_glNamedFramebufferParameteriEXT, zeros_glNamedFramebufferParameteriEXT, (framebuffer: u32, pname: u32, param: i32) -> (), {
+export! { 1470, glNamedFramebufferParameteriEXT, first_glNamedFramebufferParameteriEXT, hook_glNamedFramebufferParameteriEXT, zeros_glNamedFramebufferParameteriEXT, (framebuffer: u32, pname: u32, param: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferParameteriEXT(framebuffer, pname, param) };
 } }
-export! { 1469, glNamedFramebufferSampleLocationsfvARB, first_glNamedFramebufferSampleLocationsfvARB, hook_glNamedFramebufferSampleLocationsfvARB, zeros_glNamedFramebufferSampleLocationsfvARB, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1471, glNamedFramebufferSampleLocationsfvARB, first_glNamedFramebufferSampleLocationsfvARB, hook_glNamedFramebufferSampleLocationsfvARB, zeros_glNamedFramebufferSampleLocationsfvARB, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSampleLocationsfvARB(framebuffer, start, count, v) };
 } }
-export! { 1470, glNamedFramebufferSampleLocationsfvNV, first_glNamedFramebufferSampleLocationsfvNV, hook_glNamedFramebufferSampleLocationsfvNV, zeros_glNamedFramebufferSampleLocationsfvNV, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1472, glNamedFramebufferSampleLocationsfvNV, first_glNamedFramebufferSampleLocationsfvNV, hook_glNamedFramebufferSampleLocationsfvNV, zeros_glNamedFramebufferSampleLocationsfvNV, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSampleLocationsfvNV(framebuffer, start, count, v) };
 } }
-export! { 1471, glNamedFramebufferSamplePositionsfvAMD, first_glNamedFramebufferSamplePositionsfvAMD, hook_glNamedFramebufferSamplePositionsfvAMD, zeros_glNamedFramebufferSamplePositionsfvAMD, (framebuffer: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
+export! { 1473, glNamedFramebufferSamplePositionsfvAMD, first_glNamedFramebufferSamplePositionsfvAMD, hook_glNamedFramebufferSamplePositionsfvAMD, zeros_glNamedFramebufferSamplePositionsfvAMD, (framebuffer: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSamplePositionsfvAMD(framebuffer, numsamples, pixelindex, values) };
 } }
-export! { 1472, glFramebufferTextureFaceARB, first_glFramebufferTextureFaceARB, hook_glFramebufferTextureFaceARB, zeros_glFramebufferTextureFaceARB, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1474, glFramebufferTextureFaceARB, first_glFramebufferTextureFaceARB, hook_glFramebufferTextureFaceARB, zeros_glFramebufferTextureFaceARB, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureFaceARB(target, attachment, texture, level, face) })
 } }
-export! { 1473, glFramebufferTextureFaceEXT, first_glFramebufferTextureFaceEXT, hook_glFramebufferTextureFaceEXT, zeros_glFramebufferTextureFaceEXT, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1475, glFramebufferTextureFaceEXT, first_glFramebufferTextureFaceEXT, hook_glFramebufferTextureFaceEXT, zeros_glFramebufferTextureFaceEXT, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureFaceEXT(target, attachment, texture, level, face) })
 } }
-export! { 1474, glFramebufferTextureMultisampleMultiviewOVR, first_glFramebufferTextureMultisampleMultiviewOVR, hook_glFramebufferTextureMultisampleMultiviewOVR, zeros_glFramebufferTextureMultisampleMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, samples: i32, baseViewIndex: i32, numViews: i32) -> (), {
+export! { 1476, glFramebufferTextureMultisampleMultiviewOVR, first_glFramebufferTextureMultisampleMultiviewOVR, hook_glFramebufferTextureMultisampleMultiviewOVR, zeros_glFramebufferTextureMultisampleMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, samples: i32, baseViewIndex: i32, numViews: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureMultisampleMultiviewOVR(target, attachment, texture, level, samples, baseViewIndex, numViews) })
 } }
-export! { 1475, glFramebufferTextureMultiviewOVR, first_glFramebufferTextureMultiviewOVR, hook_glFramebufferTextureMultiviewOVR, zeros_glFramebufferTextureMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, baseViewIndex: i32, numViews: i32) -> (), {
+export! { 1477, glFramebufferTextureMultiviewOVR, first_glFramebufferTextureMultiviewOVR, hook_glFramebufferTextureMultiviewOVR, zeros_glFramebufferTextureMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, baseViewIndex: i32, numViews: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureMultiviewOVR(target, attachment, texture, level, baseViewIndex, numViews) })
 } }
-export! { 1476, glFramebufferTexture2DDownsampleIMG, first_glFramebufferTexture2DDownsampleIMG, hook_glFramebufferTexture2DDownsampleIMG, zeros_glFramebufferTexture2DDownsampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, xscale: i32, yscale: i32) -> (), {
+export! { 1478, glFramebufferTexture2DDownsampleIMG, first_glFramebufferTexture2DDownsampleIMG, hook_glFramebufferTexture2DDownsampleIMG, zeros_glFramebufferTexture2DDownsampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, xscale: i32, yscale: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DDownsampleIMG(target, attachment, textarget, texture, level, xscale, yscale) })
 } }
-export! { 1477, glFramebufferTexture2DMultisampleIMG, first_glFramebufferTexture2DMultisampleIMG, hook_glFramebufferTexture2DMultisampleIMG, zeros_glFramebufferTexture2DMultisampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
+export! { 1479, glFramebufferTexture2DMultisampleIMG, first_glFramebufferTexture2DMultisampleIMG, hook_glFramebufferTexture2DMultisampleIMG, zeros_glFramebufferTexture2DMultisampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DMultisampleIMG(target, attachment, textarget, texture, level, samples) })
 } }
-export! { 1478, glFramebufferTextureLayerDownsampleIMG, first_glFramebufferTextureLayerDownsampleIMG, hook_glFramebufferTextureLayerDownsampleIMG, zeros_glFramebufferTextureLayerDownsampleIMG, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32, xscale: i32, yscale: i32) -> (), {
+export! { 1480, glFramebufferTextureLayerDownsampleIMG, first_glFramebufferTextureLayerDownsampleIMG, hook_glFramebufferTextureLayerDownsampleIMG, zeros_glFramebufferTextureLayerDownsampleIMG, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32, xscale: i32, yscale: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerDownsampleIMG(target, attachment, texture, level, layer, xscale, yscale) })
 } }
-export! { 1479, glFramebufferSampleLocationsfvARB, first_glFramebufferSampleLocationsfvARB, hook_glFramebufferSampleLocationsfvARB, zeros_glFramebufferSampleLocationsfvARB, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1481, glFramebufferSampleLocationsfvARB, first_glFramebufferSampleLocationsfvARB, hook_glFramebufferSampleLocationsfvARB, zeros_glFramebufferSampleLocationsfvARB, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSampleLocationsfvARB(target, start, count, v) })
 } }
-export! { 1480, glFramebufferSampleLocationsfvNV, first_glFramebufferSampleLocationsfvNV, hook_glFramebufferSampleLocationsfvNV, zeros_glFramebufferSampleLocationsfvNV, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1482, glFramebufferSampleLocationsfvNV, first_glFramebufferSampleLocationsfvNV, hook_glFramebufferSampleLocationsfvNV, zeros_glFramebufferSampleLocationsfvNV, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSampleLocationsfvNV(target, start, count, v) })
 } }
-export! { 1481, glFramebufferSamplePositionsfvAMD, first_glFramebufferSamplePositionsfvAMD, hook_glFramebufferSamplePositionsfvAMD, zeros_glFramebufferSamplePositionsfvAMD, (target: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
+export! { 1483, glFramebufferSamplePositionsfvAMD, first_glFramebufferSamplePositionsfvAMD, hook_glFramebufferSamplePositionsfvAMD, zeros_glFramebufferSamplePositionsfvAMD, (target: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSamplePositionsfvAMD(target, numsamples, pixelindex, values) })
 } }
-export! { 1482, glFramebufferParameteriMESA, first_glFramebufferParameteriMESA, hook_glFramebufferParameteriMESA, zeros_glFramebufferParameteriMESA, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1484, glFramebufferParameteriMESA, first_glFramebufferParameteriMESA, hook_glFramebufferParameteriMESA, zeros_glFramebufferParameteriMESA, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferParameteriMESA(target, pname, param) })
 } }
-export! { 1483, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, zeros_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1485, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, zeros_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1484, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, zeros_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1486, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, zeros_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1485, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, zeros_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1487, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, zeros_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1486, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, zeros_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1488, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, zeros_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1487, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, zeros_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1489, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, zeros_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1488, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, zeros_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1490, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, zeros_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1489, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, zeros_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1491, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, zeros_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1490, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, zeros_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1492, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, zeros_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1491, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, zeros_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1493, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, zeros_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1492, glGetFramebufferParameterivMESA, first_glGetFramebufferParameterivMESA, hook_glGetFramebufferParameterivMESA, zeros_glGetFramebufferParameterivMESA, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1494, glGetFramebufferParameterivMESA, first_glGetFramebufferParameterivMESA, hook_glGetFramebufferParameterivMESA, zeros_glGetFramebufferParameterivMESA, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameterivMESA(target, pname, params) })
 } }
-export! { 1493, glGetFramebufferParameterfvAMD, first_glGetFramebufferParameterfvAMD, hook_glGetFramebufferParameterfvAMD, zeros_glGetFramebufferParameterfvAMD, (target: u32, pname: u32, numsamples: u32, pixelindex: u32, size: i32, values: Ptr) -> (), {
+export! { 1495, glGetFramebufferParameterfvAMD, first_glGetFramebufferParameterfvAMD, hook_glGetFramebufferParameterfvAMD, zeros_glGetFramebufferParameterfvAMD, (target: u32, pname: u32, numsamples: u32, pixelindex: u32, size: i32, values: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameterfvAMD(target, pname, numsamples, pixelindex, size, values) })
 } }
-export! { 1494, glFramebufferPixelLocalStorageSizeEXT, first_glFramebufferPixelLocalStorageSizeEXT, hook_glFramebufferPixelLocalStorageSizeEXT, zeros_glFramebufferPixelLocalStorageSizeEXT, (target: u32, size: i32) -> (), {
+export! { 1496, glFramebufferPixelLocalStorageSizeEXT, first_glFramebufferPixelLocalStorageSizeEXT, hook_glFramebufferPixelLocalStorageSizeEXT, zeros_glFramebufferPixelLocalStorageSizeEXT, (target: u32, size: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferPixelLocalStorageSizeEXT(target, size) })
 } }
-export! { 1495, glGetFramebufferPixelLocalStorageSizeEXT, first_glGetFramebufferPixelLocalStorageSizeEXT, hook_glGetFramebufferPixelLocalStorageSizeEXT, zeros_glGetFramebufferPixelLocalStorageSizeEXT, (target: u32) -> i32, {
+export! { 1497, glGetFramebufferPixelLocalStorageSizeEXT, first_glGetFramebufferPixelLocalStorageSizeEXT, hook_glGetFramebufferPixelLocalStorageSizeEXT, zeros_glGetFramebufferPixelLocalStorageSizeEXT, (target: u32) -> i32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferPixelLocalStorageSizeEXT(target) })
 } }
-export! { 1496, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, zeros_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1498, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, zeros_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1497, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, zeros_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1499, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, zeros_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1498, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, zeros_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1500, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, zeros_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1499, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, zeros_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1501, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, zeros_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1500, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, zeros_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1502, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, zeros_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1501, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, zeros_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1503, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, zeros_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1502, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, zeros_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1504, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, zeros_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1503, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, zeros_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1505, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, zeros_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1504, glReadPixels, first_glReadPixels, hook_glReadPixels, zeros_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1506, glReadPixels, first_glReadPixels, hook_glReadPixels, zeros_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1505, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, zeros_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1507, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, zeros_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1506, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, zeros_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1508, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, zeros_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1507, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, zeros_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1509, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, zeros_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1508, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, zeros_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1510, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, zeros_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1509, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, zeros_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1511, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, zeros_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1510, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, zeros_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1512, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, zeros_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1511, glCopyTexSubImage3DOES, first_glCopyTexSubImage3DOES, hook_glCopyTexSubImage3DOES, zeros_glCopyTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1513, glCopyTexSubImage3DOES, first_glCopyTexSubImage3DOES, hook_glCopyTexSubImage3DOES, zeros_glCopyTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DOES(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1512, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, zeros_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1514, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, zeros_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1513, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, zeros_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1515, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, zeros_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1514, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, zeros_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1516, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, zeros_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1515, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, zeros_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1517, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, zeros_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1516, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, zeros_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1518, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, zeros_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1517, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, zeros_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1519, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, zeros_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1518, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, zeros_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1520, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, zeros_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1519, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, zeros_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1521, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, zeros_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1520, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, zeros_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1522, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, zeros_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1521, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, zeros_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1523, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, zeros_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1522, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, zeros_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1524, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, zeros_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1523, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, zeros_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1525, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, zeros_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1524, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, zeros_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1526, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, zeros_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1525, glCopyTextureSubImage1DEXT, first_glCopyTextureSubImage1DEXT, hook_glCopyTextureSubImage1DEXT, zeros_glCopyTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1527, glCopyTextureSubImage1DEXT, first_glCopyTextureSubImage1DEXT, hook_glCopyTextureSubImage1DEXT, zeros_glCopyTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage1DEXT(texture, target, level, xoffset, x, y, width) })
 } }
-export! { 1526, glCopyTextureSubImage2DEXT, first_glCopyTextureSubImage2DEXT, hook_glCopyTextureSubImage2DEXT, zeros_glCopyTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1528, glCopyTextureSubImage2DEXT, first_glCopyTextureSubImage2DEXT, hook_glCopyTextureSubImage2DEXT, zeros_glCopyTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage2DEXT(texture, target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1527, glCopyTextureSubImage3DEXT, first_glCopyTextureSubImage3DEXT, hook_glCopyTextureSubImage3DEXT, zeros_glCopyTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1529, glCopyTextureSubImage3DEXT, first_glCopyTextureSubImage3DEXT, hook_glCopyTextureSubImage3DEXT, zeros_glCopyTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3DEXT(texture, target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1528, glCopyMultiTexSubImage1DEXT, first_glCopyMultiTexSubImage1DEXT, hook_glCopyMultiTexSubImage1DEXT, zeros_glCopyMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1530, glCopyMultiTexSubImage1DEXT, first_glCopyMultiTexSubImage1DEXT, hook_glCopyMultiTexSubImage1DEXT, zeros_glCopyMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexSubImage1DEXT(texunit, target, level, xoffset, x, y, width) })
 } }
-export! { 1529, glCopyMultiTexSubImage2DEXT, first_glCopyMultiTexSubImage2DEXT, hook_glCopyMultiTexSubImage2DEXT, zeros_glCopyMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1531, glCopyMultiTexSubImage2DEXT, first_glCopyMultiTexSubImage2DEXT, hook_glCopyMultiTexSubImage2DEXT, zeros_glCopyMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexSubImage2DEXT(texunit, target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1530, glCopyMultiTexSubImage3DEXT, first_glCopyMultiTexSubImage3DEXT, hook_glCopyMultiTexSubImage3DEXT, zeros_glCopyMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1532, glCopyMultiTexSubImage3DEXT, first_glCopyMultiTexSubImage3DEXT, hook_glCopyMultiTexSubImage3DEXT, zeros_glCopyMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexSubImage3DEXT(texunit, target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1531, glCopyColorSubTable, first_glCopyColorSubTable, hook_glCopyColorSubTable, zeros_glCopyColorSubTable, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1533, glCopyColorSubTable, first_glCopyColorSubTable, hook_glCopyColorSubTable, zeros_glCopyColorSubTable, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorSubTable(target, start, x, y, width) })
 } }
-export! { 1532, glCopyColorSubTableEXT, first_glCopyColorSubTableEXT, hook_glCopyColorSubTableEXT, zeros_glCopyColorSubTableEXT, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1534, glCopyColorSubTableEXT, first_glCopyColorSubTableEXT, hook_glCopyColorSubTableEXT, zeros_glCopyColorSubTableEXT, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorSubTableEXT(target, start, x, y, width) })
 } }
-export! { 1533, glReadBufferNV, first_glReadBufferNV, hook_glReadBufferNV, zeros_glReadBufferNV, (mode: u32) -> (), {
+export! { 1535, glReadBufferNV, first_glReadBufferNV, hook_glReadBufferNV, zeros_glReadBufferNV, (mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBufferNV(mode) }
 } }
-export! { 1534, glBlitFramebufferANGLE, first_glBlitFramebufferANGLE, hook_glBlitFramebufferANGLE, zeros_glBlitFramebufferANGLE, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1536, glBlitFramebufferANGLE, first_glBlitFramebufferANGLE, hook_glBlitFramebufferANGLE, zeros_glBlitFramebufferANGLE, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebufferANGLE(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1535, glBeginQueryEXT, first_glBeginQueryEXT, hook_glBeginQueryEXT, zeros_glBeginQueryEXT, (target: u32, id: u32) -> (), {
+export! { 1537, glBeginQueryEXT, first_glBeginQueryEXT, hook_glBeginQueryEXT, zeros_glBeginQueryEXT, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQueryEXT(target, id) }
 } }
-export! { 1536, glEndQueryEXT, first_glEndQueryEXT, hook_glEndQueryEXT, zeros_glEndQueryEXT, (target: u32) -> (), {
+export! { 1538, glEndQueryEXT, first_glEndQueryEXT, hook_glEndQueryEXT, zeros_glEndQueryEXT, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQueryEXT(target) }
 } }
-export! { 1537, glGetQueryivEXT, first_glGetQueryivEXT, hook_glGetQueryivEXT, zeros_glGetQueryivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1539, glGetQueryivEXT, first_glGetQueryivEXT, hook_glGetQueryivEXT, zeros_glGetQueryivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryivEXT(target, pname, params) }
 } }
-export! { 1538, glGetQueryObjectuivEXT, first_glGetQueryObjectuivEXT, hook_glGetQueryObjectuivEXT, zeros_glGetQueryObjectuivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1540, glGetQueryObjectuivEXT, first_glGetQueryObjectuivEXT, hook_glGetQueryObjectuivEXT, zeros_glGetQueryObjectuivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuivEXT(id, pname, params) }
 } }
-export! { 1539, glFinish, first_glFinish, hook_glFinish, zeros_glFinish, () -> (), {
+export! { 1541, glFinish, first_glFinish, hook_glFinish, zeros_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1540, glFlush, first_glFlush, hook_glFlush, zeros_glFlush, () -> (), {
+export! { 1542, glFlush, first_glFlush, hook_glFlush, zeros_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1541, glGetError, first_glGetError, hook_glGetError, zeros_glGetError, () -> u32, {
+export! { 1543, glGetError, first_glGetError, hook_glGetError, zeros_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1542, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, zeros_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
+export! { 1544, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, zeros_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1543, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, zeros_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
+export! { 1545, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, zeros_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1544, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, zeros_glEndConditionalRender, () -> (), {
+export! { 1546, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, zeros_glEndConditionalRender, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1545, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, zeros_glEndConditionalRenderNV, () -> (), {
+export! { 1547, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, zeros_glEndConditionalRenderNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1546, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, zeros_glEndConditionalRenderNVX, () -> (), {
+export! { 1548, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, zeros_glEndConditionalRenderNVX, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1547, glBeginQueryIndexed, first_glBeginQueryIndexed, hook_glBeginQueryIndexed, zeros_glBeginQueryIndexed, (target: u32, index: u32, id: u32) -> (), {
+export! { 1549, glBeginQueryIndexed, first_glBeginQueryIndexed, hook_glBeginQueryIndexed, zeros_glBeginQueryIndexed, (target: u32, index: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQueryIndexed(target, index, id) }
 } }
-export! { 1548, glEndQueryIndexed, first_glEndQueryIndexed, hook_glEndQueryIndexed, zeros_glEndQueryIndexed, (target: u32, index: u32) -> (), {
+export! { 1550, glEndQueryIndexed, first_glEndQueryIndexed, hook_glEndQueryIndexed, zeros_glEndQueryIndexed, (target: u32, index: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQueryIndexed(target, index) }
 } }
-export! { 1549, glGetQueryIndexediv, first_glGetQueryIndexediv, hook_glGetQueryIndexediv, zeros_glGetQueryIndexediv, (target: u32, index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1551, glGetQueryIndexediv, first_glGetQueryIndexediv, hook_glGetQueryIndexediv, zeros_glGetQueryIndexediv, (target: u32, index: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryIndexediv(target, index, pname, params) }
 } }
-export! { 1550, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, zeros_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1552, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, zeros_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1551, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, zeros_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1553, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, zeros_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1552, glEndQuery, first_glEndQuery, hook_glEndQuery, zeros_glEndQuery, (target: u32) -> (), {
+export! { 1554, glEndQuery, first_glEndQuery, hook_glEndQuery, zeros_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1553, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, zeros_glEndQueryARB, (target: u32) -> (), {
+export! { 1555, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, zeros_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1554, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, zeros_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1556, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, zeros_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1555, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, zeros_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1557, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, zeros_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1556, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, zeros_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1558, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, zeros_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1557, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, zeros_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1559, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, zeros_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1558, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, zeros_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1560, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, zeros_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1559, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, zeros_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1561, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, zeros_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1560, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, zeros_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1562, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, zeros_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1561, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, zeros_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1563, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, zeros_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1562, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, zeros_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1564, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, zeros_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1563, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, zeros_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1565, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, zeros_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1564, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, zeros_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1566, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, zeros_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1565, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, zeros_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1567, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, zeros_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1566, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, zeros_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1568, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, zeros_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1567, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, zeros_glIsEnabled, (cap: u32) -> u8, {
+export! { 1569, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, zeros_glIsEnabled, (cap: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
-export! { 1568, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, zeros_glIsEnabledi, (target: u32, index: u32) -> u8, {
+export! { 1570, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, zeros_glIsEnabledi, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
-export! { 1569, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, zeros_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+export! { 1571, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, zeros_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
-export! { 1570, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, zeros_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+export! { 1572, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, zeros_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
-export! { 1571, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, zeros_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+export! { 1573, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, zeros_glIsEnablediNV, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
-export! { 1572, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, zeros_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+export! { 1574, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, zeros_glIsEnablediOES, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
-export! { 1573, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, zeros_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1575, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, zeros_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
-export! { 1574, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, zeros_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1576, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, zeros_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
-export! { 1575, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, zeros_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1577, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, zeros_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
-export! { 1576, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, zeros_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1578, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, zeros_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
-export! { 1577, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, zeros_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1579, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, zeros_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
-export! { 1578, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, zeros_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1580, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, zeros_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
-export! { 1579, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, zeros_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1581, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, zeros_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
-export! { 1580, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, zeros_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1582, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, zeros_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
-export! { 1581, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, zeros_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1583, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, zeros_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
-export! { 1582, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, zeros_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1584, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, zeros_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
-export! { 1583, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, zeros_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1585, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, zeros_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
-export! { 1584, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, zeros_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1586, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, zeros_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
-export! { 1585, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, zeros_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1587, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, zeros_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
-export! { 1586, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, zeros_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 1588, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, zeros_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
-export! { 1587, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, zeros_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1589, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, zeros_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
-export! { 1588, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, zeros_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1590, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, zeros_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
-export! { 1589, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, zeros_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1591, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, zeros_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
-export! { 1590, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, zeros_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+export! { 1592, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, zeros_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
-export! { 1591, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, zeros_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+export! { 1593, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, zeros_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
-export! { 1592, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, zeros_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+export! { 1594, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, zeros_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
-export! { 1593, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, zeros_glGetPolygonStipple, (mask: Ptr) -> (), {
+export! { 1595, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, zeros_glGetPolygonStipple, (mask: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
-export! { 1594, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, zeros_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1596, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, zeros_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
-export! { 1595, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, zeros_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1597, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, zeros_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
-export! { 1596, glDebugMessageCallback, first_glDebugMessageCallback, hook_glDebugMessageCallback, zeros_glDebugMessageCallback, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1598, glDebugMessageCallback, first_glDebugMessageCallback, hook_glDebugMessageCallback, zeros_glDebugMessageCallback, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1597, glDebugMessageCallbackARB, first_glDebugMessageCallbackARB, hook_glDebugMessageCallbackARB, zeros_glDebugMessageCallbackARB, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1599, glDebugMessageCallbackARB, first_glDebugMessageCallbackARB, hook_glDebugMessageCallbackARB, zeros_glDebugMessageCallbackARB, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1598, glDebugMessageCallbackKHR, first_glDebugMessageCallbackKHR, hook_glDebugMessageCallbackKHR, zeros_glDebugMessageCallbackKHR, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1600, glDebugMessageCallbackKHR, first_glDebugMessageCallbackKHR, hook_glDebugMessageCallbackKHR, zeros_glDebugMessageCallbackKHR, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1599, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, zeros_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+export! { 1601, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, zeros_glGetPointerv, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1600, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, zeros_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+export! { 1602, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, zeros_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1601, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, zeros_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+export! { 1603, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, zeros_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1602, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, zeros_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1604, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, zeros_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
 } }
-export! { 1603, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, zeros_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1605, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, zeros_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
 } }
-export! { 1604, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, zeros_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1606, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, zeros_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImage(target, level, img) };
 } }
-export! { 1605, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, zeros_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1607, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, zeros_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImageARB(target, level, img) };
 } }
-export! { 1606, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, zeros_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1608, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, zeros_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnCompressedTexImage(target, lod, bufSize, pixels) };
 } }
-export! { 1607, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, zeros_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1609, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, zeros_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
-export! { 1608, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, zeros_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1610, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, zeros_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
-export! { 1609, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, zeros_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1611, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, zeros_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
-export! { 1610, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, zeros_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1612, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, zeros_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
-export! { 1611, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, zeros_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1613, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, zeros_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
-export! { 1612, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, zeros_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1614, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, zeros_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
-export! { 1613, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, zeros_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1615, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, zeros_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
-export! { 1614, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, zeros_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1616, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, zeros_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
-export! { 1615, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, zeros_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1617, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, zeros_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
-export! { 1616, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, zeros_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1618, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, zeros_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
-export! { 1617, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, zeros_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1619, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, zeros_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
-export! { 1618, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, zeros_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1620, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, zeros_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
-export! { 1619, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, zeros_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1621, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, zeros_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
-export! { 1620, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, zeros_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1622, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, zeros_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
-export! { 1621, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, zeros_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1623, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, zeros_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
-export! { 1622, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, zeros_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1624, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, zeros_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
-export! { 1623, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, zeros_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+export! { 1625, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, zeros_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
-export! { 1624, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, zeros_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+export! { 1626, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, zeros_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
-export! { 1625, glGenTextures, first_glGenTextures, hook_glGenTextures, zeros_glGenTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1627, glGenTextures, first_glGenTextures, hook_glGenTextures, zeros_glGenTextures, (n: i32, textures: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
-export! { 1626, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, zeros_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1628, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, zeros_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
-export! { 1627, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, zeros_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1629, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, zeros_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
-export! { 1628, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, zeros_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1630, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, zeros_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
-export! { 1629, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, zeros_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1631, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, zeros_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1630, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, zeros_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+export! { 1632, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, zeros_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
 } }
-export! { 1631, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, zeros_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1633, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, zeros_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
 } }
-export! { 1632, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, zeros_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1634, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, zeros_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
 } }
-export! { 1633, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, zeros_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1635, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, zeros_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
 } }
-export! { 1634, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, zeros_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1636, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, zeros_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
 } }
-export! { 1635, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, zeros_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1637, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, zeros_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
 } }
-export! { 1636, glEGLImageTargetRenderbufferStorageOES, first_glEGLImageTargetRenderbufferStorageOES, hook_glEGLImageTargetRenderbufferStorageOES, zeros_glEGLImageTargetRenderbufferStorageOES, (target: u32, image: Ptr) -> (), {
+export! { 1638, glEGLImageTargetRenderbufferStorageOES, first_glEGLImageTargetRenderbufferStorageOES, hook_glEGLImageTargetRenderbufferStorageOES, zeros_glEGLImageTargetRenderbufferStorageOES, (target: u32, image: Ptr) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEGLImageTargetRenderbufferStorageOES(target, image) };
 } }
-export! { 1637, glRenderbufferStorageMultisampleANGLE, first_glRenderbufferStorageMultisampleANGLE, hook_glRenderbufferStorageMultisampleANGLE, zeros_glRenderbufferStorageMultisampleANGLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1639, glRenderbufferStorageMultisampleANGLE, first_glRenderbufferStorageMultisampleANGLE, hook_glRenderbufferStorageMultisampleANGLE, zeros_glRenderbufferStorageMultisampleANGLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleANGLE(target, samples, internalformat, width, height) };
 } }
-export! { 1638, glRenderbufferStorageMultisampleAPPLE, first_glRenderbufferStorageMultisampleAPPLE, hook_glRenderbufferStorageMultisampleAPPLE, zeros_glRenderbufferStorageMultisampleAPPLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1640, glRenderbufferStorageMultisampleAPPLE, first_glRenderbufferStorageMultisampleAPPLE, hook_glRenderbufferStorageMultisampleAPPLE, zeros_glRenderbufferStorageMultisampleAPPLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleAPPLE(target, samples, internalformat, width, height) };
 } }
-export! { 1639, glRenderbufferStorageMultisampleAdvancedAMD, first_glRenderbufferStorageMultisampleAdvancedAMD, hook_glRenderbufferStorageMultisampleAdvancedAMD, zeros_glRenderbufferStorageMultisampleAdvancedAMD, (target: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1641, glRenderbufferStorageMultisampleAdvancedAMD, first_glRenderbufferStorageMultisampleAdvancedAMD, hook_glRenderbufferStorageMultisampleAdvancedAMD, zeros_glRenderbufferStorageMultisampleAdvancedAMD, (target: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleAdvancedAMD(target, samples, storageSamples, internalformat, width, height) };
 } }
-export! { 1640, glRenderbufferStorageMultisampleCoverageNV, first_glRenderbufferStorageMultisampleCoverageNV, hook_glRenderbufferStorageMultisampleCoverageNV, zeros_glRenderbufferStorageMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1642, glRenderbufferStorageMultisampleCoverageNV, first_glRenderbufferStorageMultisampleCoverageNV, hook_glRenderbufferStorageMultisampleCoverageNV, zeros_glRenderbufferStorageMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleCoverageNV(target, coverageSamples, colorSamples, internalformat, width, height) };
 } }
-export! { 1641, glRenderbufferStorageMultisampleIMG, first_glRenderbufferStorageMultisampleIMG, hook_glRenderbufferStorageMultisampleIMG, zeros_glRenderbufferStorageMultisampleIMG, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1643, glRenderbufferStorageMultisampleIMG, first_glRenderbufferStorageMultisampleIMG, hook_glRenderbufferStorageMultisampleIMG, zeros_glRenderbufferStorageMultisampleIMG, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleIMG(target, samples, internalformat, width, height) };
 } }
-export! { 1642, glBindRenderbufferEXT, first_glBindRenderbufferEXT, hook_glBindRenderbufferEXT, zeros_glBindRenderbufferEXT, (target: u32, renderbuffer: u32) -> (), {
+export! { 1644, glBindRenderbufferEXT, first_glBindRenderbufferEXT, hook_glBindRenderbufferEXT, zeros_glBindRenderbufferEXT, (target: u32, renderbuffer: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbufferEXT(target, renderbuffer) };
 } }
-export! { 1643, glEvaluateDepthValuesARB, first_glEvaluateDepthValuesARB, hook_glEvaluateDepthValuesARB, zeros_glEvaluateDepthValuesARB, () -> (), {
+export! { 1645, glEvaluateDepthValuesARB, first_glEvaluateDepthValuesARB, hook_glEvaluateDepthValuesARB, zeros_glEvaluateDepthValuesARB, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEvaluateDepthValuesARB() };
 } }
-export! { 1644, glResolveDepthValuesNV, first_glResolveDepthValuesNV, hook_glResolveDepthValuesNV, zeros_glResolveDepthValuesNV, () -> (), {
+export! { 1646, glResolveDepthValuesNV, first_glResolveDepthValuesNV, hook_glResolveDepthValuesNV, zeros_glResolveDepthValuesNV, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glResolveDepthValuesNV() };
 } }
-export! { 1645, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, zeros_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1647, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, zeros_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1646, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, zeros_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1648, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, zeros_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1647, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, zeros_glBindBuffer, (target: u32, buffer: u32) -> (), {
+export! { 1649, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, zeros_glBindBuffer, (target: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffer(target, buffer) }
 } }
-export! { 1648, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, zeros_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+export! { 1650, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, zeros_glBindBufferARB, (target: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffer(target, buffer) }
 } }
-export! { 1649, glBindBufferBase, first_glBindBufferBase, hook_glBindBufferBase, zeros_glBindBufferBase, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1651, glBindBufferBase, first_glBindBufferBase, hook_glBindBufferBase, zeros_glBindBufferBase, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1650, glBindBufferBaseEXT, first_glBindBufferBaseEXT, hook_glBindBufferBaseEXT, zeros_glBindBufferBaseEXT, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1652, glBindBufferBaseEXT, first_glBindBufferBaseEXT, hook_glBindBufferBaseEXT, zeros_glBindBufferBaseEXT, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1651, glBindBufferBaseNV, first_glBindBufferBaseNV, hook_glBindBufferBaseNV, zeros_glBindBufferBaseNV, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1653, glBindBufferBaseNV, first_glBindBufferBaseNV, hook_glBindBufferBaseNV, zeros_glBindBufferBaseNV, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1652, glBindBufferRange, first_glBindBufferRange, hook_glBindBufferRange, zeros_glBindBufferRange, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1654, glBindBufferRange, first_glBindBufferRange, hook_glBindBufferRange, zeros_glBindBufferRange, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1653, glBindBufferRangeEXT, first_glBindBufferRangeEXT, hook_glBindBufferRangeEXT, zeros_glBindBufferRangeEXT, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1655, glBindBufferRangeEXT, first_glBindBufferRangeEXT, hook_glBindBufferRangeEXT, zeros_glBindBufferRangeEXT, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1654, glBindBufferRangeNV, first_glBindBufferRangeNV, hook_glBindBufferRangeNV, zeros_glBindBufferRangeNV, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1656, glBindBufferRangeNV, first_glBindBufferRangeNV, hook_glBindBufferRangeNV, zeros_glBindBufferRangeNV, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1655, glBindBuffersBase, first_glBindBuffersBase, hook_glBindBuffersBase, zeros_glBindBuffersBase, (target: u32, first: u32, count: i32, buffers: Ptr) -> (), {
+export! { 1657, glBindBuffersBase, first_glBindBuffersBase, hook_glBindBuffersBase, zeros_glBindBuffersBase, (target: u32, first: u32, count: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffersBase(target, first, count, buffers) }
 } }
-export! { 1656, glBindBuffersRange, first_glBindBuffersRange, hook_glBindBuffersRange, zeros_glBindBuffersRange, (target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr, sizes: Ptr) -> (), {
+export! { 1658, glBindBuffersRange, first_glBindBuffersRange, hook_glBindBuffersRange, zeros_glBindBuffersRange, (target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr, sizes: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffersRange(target, first, count, buffers, offsets, sizes) }
 } }
-export! { 1657, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, zeros_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+export! { 1659, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, zeros_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteBuffers(n, buffers) }
 } }
-export! { 1658, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, zeros_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+export! { 1660, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, zeros_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteBuffers(n, buffers) }
 } }
-export! { 1659, glBufferData, first_glBufferData, hook_glBufferData, zeros_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1661, glBufferData, first_glBufferData, hook_glBufferData, zeros_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferData(target, size, data, usage) }
 } }
-export! { 1660, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, zeros_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1662, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, zeros_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferData(target, size, data, usage) }
 } }
-export! { 1661, glNamedBufferData, first_glNamedBufferData, hook_glNamedBufferData, zeros_glNamedBufferData, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1663, glNamedBufferData, first_glNamedBufferData, hook_glNamedBufferData, zeros_glNamedBufferData, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferData(buffer, size, data, usage) }
 } }
-export! { 1662, glBufferStorage, first_glBufferStorage, hook_glBufferStorage, zeros_glBufferStorage, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1664, glBufferStorage, first_glBufferStorage, hook_glBufferStorage, zeros_glBufferStorage, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferStorage(target, size, data, flags) }
 } }
-export! { 1663, glBufferStorageEXT, first_glBufferStorageEXT, hook_glBufferStorageEXT, zeros_glBufferStorageEXT, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1665, glBufferStorageEXT, first_glBufferStorageEXT, hook_glBufferStorageEXT, zeros_glBufferStorageEXT, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferStorage(target, size, data, flags) }
 } }
-export! { 1664, glNamedBufferStorage, first_glNamedBufferStorage, hook_glNamedBufferStorage, zeros_glNamedBufferStorage, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1666, glNamedBufferStorage, first_glNamedBufferStorage, hook_glNamedBufferStorage, zeros_glNamedBufferStorage, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferStorage(buffer, size, data, flags) }
 } }
-export! { 1665, glNamedBufferStorageEXT, first_glNamedBufferStorageEXT, hook_glNamedBufferStorageEXT, zeros_glNamedBufferStorageEXT, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1667, glNamedBufferStorageEXT, first_glNamedBufferStorageEXT, hook_glNamedBufferStorageEXT, zeros_glNamedBufferStorageEXT, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferStorage(buffer, size, data, flags) }
 } }
-export! { 1666, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, zeros_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1668, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, zeros_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferSubData(target, offset, size, data) }
 } }
-export! { 1667, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, zeros_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1669, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, zeros_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferSubData(target, offset, size, data) }
 } }
-export! { 1668, glNamedBufferSubData, first_glNamedBufferSubData, hook_glNamedBufferSubData, zeros_glNamedBufferSubData, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1670, glNamedBufferSubData, first_glNamedBufferSubData, hook_glNamedBufferSubData, zeros_glNamedBufferSubData, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferSubData(buffer, offset, size, data) }
 } }
-export! { 1669, glNamedBufferSubDataEXT, first_glNamedBufferSubDataEXT, hook_glNamedBufferSubDataEXT, zeros_glNamedBufferSubDataEXT, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1671, glNamedBufferSubDataEXT, first_glNamedBufferSubDataEXT, hook_glNamedBufferSubDataEXT, zeros_glNamedBufferSubDataEXT, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferSubData(buffer, offset, size, data) }
 } }
-export! { 1670, glNamedBufferDataEXT, first_glNamedBufferDataEXT, hook_glNamedBufferDataEXT, zeros_glNamedBufferDataEXT, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1672, glNamedBufferDataEXT, first_glNamedBufferDataEXT, hook_glNamedBufferDataEXT, zeros_glNamedBufferDataEXT, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferDataEXT(buffer, size, data, usage) }
 } }
-export! { 1671, glMapNamedBufferEXT, first_glMapNamedBufferEXT, hook_glMapNamedBufferEXT, zeros_glMapNamedBufferEXT, (buffer: u32, access: u32) -> Ptr, {
+export! { 1673, glMapNamedBufferEXT, first_glMapNamedBufferEXT, hook_glMapNamedBufferEXT, zeros_glMapNamedBufferEXT, (buffer: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferEXT(buffer, access) }
 } }
-export! { 1672, glMapNamedBufferRangeEXT, first_glMapNamedBufferRangeEXT, hook_glMapNamedBufferRangeEXT, zeros_glMapNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1674, glMapNamedBufferRangeEXT, first_glMapNamedBufferRangeEXT, hook_glMapNamedBufferRangeEXT, zeros_glMapNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferRangeEXT(buffer, offset, length, access) }
 } }
-export! { 1673, glUnmapNamedBufferEXT, first_glUnmapNamedBufferEXT, hook_glUnmapNamedBufferEXT, zeros_glUnmapNamedBufferEXT, (buffer: u32) -> u8, {
+export! { 1675, glUnmapNamedBufferEXT, first_glUnmapNamedBufferEXT, hook_glUnmapNamedBufferEXT, zeros_glUnmapNamedBufferEXT, (buffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapNamedBufferEXT(buffer) }
 } }
-export! { 1674, glFlushMappedNamedBufferRangeEXT, first_glFlushMappedNamedBufferRangeEXT, hook_glFlushMappedNamedBufferRangeEXT, zeros_glFlushMappedNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1676, glFlushMappedNamedBufferRangeEXT, first_glFlushMappedNamedBufferRangeEXT, hook_glFlushMappedNamedBufferRangeEXT, zeros_glFlushMappedNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedNamedBufferRangeEXT(buffer, offset, length) }
 } }
-export! { 1675, glNamedCopyBufferSubDataEXT, first_glNamedCopyBufferSubDataEXT, hook_glNamedCopyBufferSubDataEXT, zeros_glNamedCopyBufferSubDataEXT, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1677, glNamedCopyBufferSubDataEXT, first_glNamedCopyBufferSubDataEXT, hook_glNamedCopyBufferSubDataEXT, zeros_glNamedCopyBufferSubDataEXT, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedCopyBufferSubDataEXT(readBuffer, writeBuffer, readOffset, writeOffset, size) }
 } }
-export! { 1676, glClearNamedBufferDataEXT, first_glClearNamedBufferDataEXT, hook_glClearNamedBufferDataEXT, zeros_glClearNamedBufferDataEXT, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1678, glClearNamedBufferDataEXT, first_glClearNamedBufferDataEXT, hook_glClearNamedBufferDataEXT, zeros_glClearNamedBufferDataEXT, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferDataEXT(buffer, internalformat, format, type_, data) }
 } }
-export! { 1677, glClearNamedBufferSubDataEXT, first_glClearNamedBufferSubDataEXT, hook_glClearNamedBufferSubDataEXT, zeros_glClearNamedBufferSubDataEXT, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1679, glClearNamedBufferSubDataEXT, first_glClearNamedBufferSubDataEXT, hook_glClearNamedBufferSubDataEXT, zeros_glClearNamedBufferSubDataEXT, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferSubDataEXT(buffer, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1678, glCopyBufferSubData, first_glCopyBufferSubData, hook_glCopyBufferSubData, zeros_glCopyBufferSubData, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1680, glCopyBufferSubData, first_glCopyBufferSubData, hook_glCopyBufferSubData, zeros_glCopyBufferSubData, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyBufferSubData(readTarget, writeTarget, readOffset, writeOffset, size) }
 } }
-export! { 1679, glCopyBufferSubDataNV, first_glCopyBufferSubDataNV, hook_glCopyBufferSubDataNV, zeros_glCopyBufferSubDataNV, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1681, glCopyBufferSubDataNV, first_glCopyBufferSubDataNV, hook_glCopyBufferSubDataNV, zeros_glCopyBufferSubDataNV, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyBufferSubData(readTarget, writeTarget, readOffset, writeOffset, size) }
 } }
-export! { 1680, glCopyNamedBufferSubData, first_glCopyNamedBufferSubData, hook_glCopyNamedBufferSubData, zeros_glCopyNamedBufferSubData, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1682, glCopyNamedBufferSubData, first_glCopyNamedBufferSubData, hook_glCopyNamedBufferSubData, zeros_glCopyNamedBufferSubData, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyNamedBufferSubData(readBuffer, writeBuffer, readOffset, writeOffset, size) }
 } }
-export! { 1681, glInvalidateBufferData, first_glInvalidateBufferData, hook_glInvalidateBufferData, zeros_glInvalidateBufferData, (buffer: u32) -> (), {
+export! { 1683, glInvalidateBufferData, first_glInvalidateBufferData, hook_glInvalidateBufferData, zeros_glInvalidateBufferData, (buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glInvalidateBufferData(buffer) }
 } }
-export! { 1682, glInvalidateBufferSubData, first_glInvalidateBufferSubData, hook_glInvalidateBufferSubData, zeros_glInvalidateBufferSubData, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1684, glInvalidateBufferSubData, first_glInvalidateBufferSubData, hook_glInvalidateBufferSubData, zeros_glInvalidateBufferSubData, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glInvalidateBufferSubData(buffer, offset, length) }
 } }
-export! { 1683, glClearBufferData, first_glClearBufferData, hook_glClearBufferData, zeros_glClearBufferData, (target: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1685, glClearBufferData, first_glClearBufferData, hook_glClearBufferData, zeros_glClearBufferData, (target: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferData(target, internalformat, format, type_, data) }
 } }
-export! { 1684, glClearBufferSubData, first_glClearBufferSubData, hook_glClearBufferSubData, zeros_glClearBufferSubData, (target: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1686, glClearBufferSubData, first_glClearBufferSubData, hook_glClearBufferSubData, zeros_glClearBufferSubData, (target: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferSubData(target, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1685, glClearNamedBufferData, first_glClearNamedBufferData, hook_glClearNamedBufferData, zeros_glClearNamedBufferData, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1687, glClearNamedBufferData, first_glClearNamedBufferData, hook_glClearNamedBufferData, zeros_glClearNamedBufferData, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferData(buffer, internalformat, format, type_, data) }
 } }
-export! { 1686, glClearNamedBufferSubData, first_glClearNamedBufferSubData, hook_glClearNamedBufferSubData, zeros_glClearNamedBufferSubData, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1688, glClearNamedBufferSubData, first_glClearNamedBufferSubData, hook_glClearNamedBufferSubData, zeros_glClearNamedBufferSubData, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferSubData(buffer, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1687, glMapBuffer, first_glMapBuffer, hook_glMapBuffer, zeros_glMapBuffer, (target: u32, access: u32) -> Ptr, {
+export! { 1689, glMapBuffer, first_glMapBuffer, hook_glMapBuffer, zeros_glMapBuffer, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1688, glMapBufferARB, first_glMapBufferARB, hook_glMapBufferARB, zeros_glMapBufferARB, (target: u32, access: u32) -> Ptr, {
+export! { 1690, glMapBufferARB, first_glMapBufferARB, hook_glMapBufferARB, zeros_glMapBufferARB, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1689, glMapBufferOES, first_glMapBufferOES, hook_glMapBufferOES, zeros_glMapBufferOES, (target: u32, access: u32) -> Ptr, {
+export! { 1691, glMapBufferOES, first_glMapBufferOES, hook_glMapBufferOES, zeros_glMapBufferOES, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1690, glMapNamedBuffer, first_glMapNamedBuffer, hook_glMapNamedBuffer, zeros_glMapNamedBuffer, (buffer: u32, access: u32) -> Ptr, {
+export! { 1692, glMapNamedBuffer, first_glMapNamedBuffer, hook_glMapNamedBuffer, zeros_glMapNamedBuffer, (buffer: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBuffer(buffer, access) }
 } }
-export! { 1691, glMapBufferRange, first_glMapBufferRange, hook_glMapBufferRange, zeros_glMapBufferRange, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1693, glMapBufferRange, first_glMapBufferRange, hook_glMapBufferRange, zeros_glMapBufferRange, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBufferRange(target, offset, length, access) }
 } }
-export! { 1692, glMapBufferRangeEXT, first_glMapBufferRangeEXT, hook_glMapBufferRangeEXT, zeros_glMapBufferRangeEXT, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1694, glMapBufferRangeEXT, first_glMapBufferRangeEXT, hook_glMapBufferRangeEXT, zeros_glMapBufferRangeEXT, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBufferRange(target, offset, length, access) }
 } }
-export! { 1693, glMapNamedBufferRange, first_glMapNamedBufferRange, hook_glMapNamedBufferRange, zeros_glMapNamedBufferRange, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1695, glMapNamedBufferRange, first_glMapNamedBufferRange, hook_glMapNamedBufferRange, zeros_glMapNamedBufferRange, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferRange(buffer, offset, length, access) }
 } }
-export! { 1694, glUnmapBuffer, first_glUnmapBuffer, hook_glUnmapBuffer, zeros_glUnmapBuffer, (target: u32) -> u8, {
+export! { 1696, glUnmapBuffer, first_glUnmapBuffer, hook_glUnmapBuffer, zeros_glUnmapBuffer, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1695, glUnmapBufferARB, first_glUnmapBufferARB, hook_glUnmapBufferARB, zeros_glUnmapBufferARB, (target: u32) -> u8, {
+export! { 1697, glUnmapBufferARB, first_glUnmapBufferARB, hook_glUnmapBufferARB, zeros_glUnmapBufferARB, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1696, glUnmapBufferOES, first_glUnmapBufferOES, hook_glUnmapBufferOES, zeros_glUnmapBufferOES, (target: u32) -> u8, {
+export! { 1698, glUnmapBufferOES, first_glUnmapBufferOES, hook_glUnmapBufferOES, zeros_glUnmapBufferOES, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1697, glUnmapNamedBuffer, first_glUnmapNamedBuffer, hook_glUnmapNamedBuffer, zeros_glUnmapNamedBuffer, (buffer: u32) -> u8, {
+export! { 1699, glUnmapNamedBuffer, first_glUnmapNamedBuffer, hook_glUnmapNamedBuffer, zeros_glUnmapNamedBuffer, (buffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapNamedBuffer(buffer) }
 } }
-export! { 1698, glFlushMappedBufferRange, first_glFlushMappedBufferRange, hook_glFlushMappedBufferRange, zeros_glFlushMappedBufferRange, (target: u32, offset: isize, length: isize) -> (), {
+export! { 1700, glFlushMappedBufferRange, first_glFlushMappedBufferRange, hook_glFlushMappedBufferRange, zeros_glFlushMappedBufferRange, (target: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, length) }
 } }
-export! { 1699, glFlushMappedBufferRangeAPPLE, first_glFlushMappedBufferRangeAPPLE, hook_glFlushMappedBufferRangeAPPLE, zeros_glFlushMappedBufferRangeAPPLE, (target: u32, offset: isize, size: isize) -> (), {
+export! { 1701, glFlushMappedBufferRangeAPPLE, first_glFlushMappedBufferRangeAPPLE, hook_glFlushMappedBufferRangeAPPLE, zeros_glFlushMappedBufferRangeAPPLE, (target: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, size) }
 } }
-export! { 1700, glFlushMappedBufferRangeEXT, first_glFlushMappedBufferRangeEXT, hook_glFlushMappedBufferRangeEXT, zeros_glFlushMappedBufferRangeEXT, (target: u32, offset: isize, length: isize) -> (), {
+export! { 1702, glFlushMappedBufferRangeEXT, first_glFlushMappedBufferRangeEXT, hook_glFlushMappedBufferRangeEXT, zeros_glFlushMappedBufferRangeEXT, (target: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, length) }
 } }
-export! { 1701, glFlushMappedNamedBufferRange, first_glFlushMappedNamedBufferRange, hook_glFlushMappedNamedBufferRange, zeros_glFlushMappedNamedBufferRange, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1703, glFlushMappedNamedBufferRange, first_glFlushMappedNamedBufferRange, hook_glFlushMappedNamedBufferRange, zeros_glFlushMappedNamedBufferRange, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedNamedBufferRange(buffer, offset, length) }
 } }
-export! { 1702, glMemoryBarrier, first_glMemoryBarrier, hook_glMemoryBarrier, zeros_glMemoryBarrier, (barriers: u32) -> (), {
+export! { 1704, glMemoryBarrier, first_glMemoryBarrier, hook_glMemoryBarrier, zeros_glMemoryBarrier, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrier(barriers) }
 } }
-export! { 1703, glMemoryBarrierEXT, first_glMemoryBarrierEXT, hook_glMemoryBarrierEXT, zeros_glMemoryBarrierEXT, (barriers: u32) -> (), {
+export! { 1705, glMemoryBarrierEXT, first_glMemoryBarrierEXT, hook_glMemoryBarrierEXT, zeros_glMemoryBarrierEXT, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrier(barriers) }
 } }
-export! { 1704, glMemoryBarrierByRegion, first_glMemoryBarrierByRegion, hook_glMemoryBarrierByRegion, zeros_glMemoryBarrierByRegion, (barriers: u32) -> (), {
+export! { 1706, glMemoryBarrierByRegion, first_glMemoryBarrierByRegion, hook_glMemoryBarrierByRegion, zeros_glMemoryBarrierByRegion, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrierByRegion(barriers) }
 } }
-export! { 1705, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, zeros_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1707, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, zeros_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1706, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, zeros_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1708, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, zeros_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1707, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, zeros_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1709, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, zeros_glPushClientAttrib, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1708, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, zeros_glPopClientAttrib, () -> (), {
+export! { 1710, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, zeros_glPopClientAttrib, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1709, glClientAttribDefaultEXT, first_glClientAttribDefaultEXT, hook_glClientAttribDefaultEXT, zeros_glClientAttribDefaultEXT, (mask: u32) -> (), {
+export! { 1711, glClientAttribDefaultEXT, first_glClientAttribDefaultEXT, hook_glClientAttribDefaultEXT, zeros_glClientAttribDefaultEXT, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientAttribDefaultEXT(mask) };
 } }
-export! { 1710, glPushClientAttribDefaultEXT, first_glPushClientAttribDefaultEXT, hook_glPushClientAttribDefaultEXT, zeros_glPushClientAttribDefaultEXT, (mask: u32) -> (), {
+export! { 1712, glPushClientAttribDefaultEXT, first_glPushClientAttribDefaultEXT, hook_glPushClientAttribDefaultEXT, zeros_glPushClientAttribDefaultEXT, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttribDefaultEXT(mask) };
 } }
-export! { 1711, glBindVertexArray, first_glBindVertexArray, hook_glBindVertexArray, zeros_glBindVertexArray, (array: u32) -> (), {
+export! { 1713, glBindVertexArray, first_glBindVertexArray, hook_glBindVertexArray, zeros_glBindVertexArray, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindVertexArray(array) };
 } }
-export! { 1712, glBindVertexArrayOES, first_glBindVertexArrayOES, hook_glBindVertexArrayOES, zeros_glBindVertexArrayOES, (array: u32) -> (), {
+export! { 1714, glBindVertexArrayOES, first_glBindVertexArrayOES, hook_glBindVertexArrayOES, zeros_glBindVertexArrayOES, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindVertexArrayOES(array) };
 } }
-export! { 1713, glDeleteVertexArrays, first_glDeleteVertexArrays, hook_glDeleteVertexArrays, zeros_glDeleteVertexArrays, (n: i32, arrays: Ptr) -> (), {
+export! { 1715, glDeleteVertexArrays, first_glDeleteVertexArrays, hook_glDeleteVertexArrays, zeros_glDeleteVertexArrays, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArrays(n, arrays) };
 } }
-export! { 1714, glDeleteVertexArraysAPPLE, first_glDeleteVertexArraysAPPLE, hook_glDeleteVertexArraysAPPLE, zeros_glDeleteVertexArraysAPPLE, (n: i32, arrays: Ptr) -> (), {
+export! { 1716, glDeleteVertexArraysAPPLE, first_glDeleteVertexArraysAPPLE, hook_glDeleteVertexArraysAPPLE, zeros_glDeleteVertexArraysAPPLE, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArraysAPPLE(n, arrays) };
 } }
-export! { 1715, glDeleteVertexArraysOES, first_glDeleteVertexArraysOES, hook_glDeleteVertexArraysOES, zeros_glDeleteVertexArraysOES, (n: i32, arrays: Ptr) -> (), {
+export! { 1717, glDeleteVertexArraysOES, first_glDeleteVertexArraysOES, hook_glDeleteVertexArraysOES, zeros_glDeleteVertexArraysOES, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArraysOES(n, arrays) };
 } }
-export! { 1716, glBindSampler, first_glBindSampler, hook_glBindSampler, zeros_glBindSampler, (unit: u32, sampler: u32) -> (), {
+export! { 1718, glBindSampler, first_glBindSampler, hook_glBindSampler, zeros_glBindSampler, (unit: u32, sampler: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindSampler(unit, sampler) };
 } }
-export! { 1717, glBindSamplers, first_glBindSamplers, hook_glBindSamplers, zeros_glBindSamplers, (first: u32, count: i32, samplers: Ptr) -> (), {
+export! { 1719, glBindSamplers, first_glBindSamplers, hook_glBindSamplers, zeros_glBindSamplers, (first: u32, count: i32, samplers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindSamplers(first, count, samplers) };
 } }
-export! { 1718, glDeleteSamplers, first_glDeleteSamplers, hook_glDeleteSamplers, zeros_glDeleteSamplers, (count: i32, samplers: Ptr) -> (), {
+export! { 1720, glDeleteSamplers, first_glDeleteSamplers, hook_glDeleteSamplers, zeros_glDeleteSamplers, (count: i32, samplers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteSamplers(count, samplers) };
 } }
-export! { 1719, glDeleteProgramPipelines, first_glDeleteProgramPipelines, hook_glDeleteProgramPipelines, zeros_glDeleteProgramPipelines, (n: i32, pipelines: Ptr) -> (), {
+export! { 1721, glDeleteProgramPipelines, first_glDeleteProgramPipelines, hook_glDeleteProgramPipelines, zeros_glDeleteProgramPipelines, (n: i32, pipelines: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteProgramPipelines(n, pipelines) };
 } }
-export! { 1720, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, zeros_glEnableClientState, (array: u32) -> (), {
+export! { 1722, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, zeros_glEnableClientState, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1721, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, zeros_glDisableClientState, (array: u32) -> (), {
+export! { 1723, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, zeros_glDisableClientState, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1722, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, zeros_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1724, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, zeros_glClientActiveTexture, (texture: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1723, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, zeros_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1725, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, zeros_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1724, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, zeros_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1726, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, zeros_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1725, glColorPointer, first_glColorPointer, hook_glColorPointer, zeros_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1727, glColorPointer, first_glColorPointer, hook_glColorPointer, zeros_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1726, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, zeros_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1728, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, zeros_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1727, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, zeros_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1729, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, zeros_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1728, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, zeros_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1730, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, zeros_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1729, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, zeros_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1731, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, zeros_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1730, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, zeros_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1732, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, zeros_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1731, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, zeros_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1733, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, zeros_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1732, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, zeros_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1734, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, zeros_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1733, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, zeros_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1735, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, zeros_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1734, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, zeros_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1736, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, zeros_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1735, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, zeros_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1737, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, zeros_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1736, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, zeros_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1738, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, zeros_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1737, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, zeros_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1739, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, zeros_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1738, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, zeros_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1740, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, zeros_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1739, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, zeros_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1741, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, zeros_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1740, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, zeros_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1742, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, zeros_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1741, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, zeros_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
+export! { 1743, glVertexAttribBinding, first_glVertexAttribBinding, hook_glVertexAttribBinding, zeros_glVertexAttribBinding, (attribindex: u32, bindingindex: u32) -> (), {
+    hooks::before_uncompiled();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexAttribBinding(attribindex, bindingindex) };
+} }
+export! { 1744, glVertexArrayAttribBinding, first_glVertexArrayAttribBinding, hook_glVertexArrayAttribBinding, zeros_glVertexArrayAttribBinding, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
+    hooks::before_uncompiled();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexArrayAttribBinding(vaobj, attribindex, bindingindex) };
+} }
+export! { 1745, glDisableVertexArrayAttrib, first_glDisableVertexArrayAttrib, hook_glDisableVertexArrayAttrib, zeros_glDisableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
+    hooks::before_uncompiled();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDisableVertexArrayAttrib(vaobj, index) };
+} }
+export! { 1746, glDisableVertexArrayAttribEXT, first_glDisableVertexArrayAttribEXT, hook_glDisableVertexArrayAttribEXT, zeros_glDisableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
+    hooks::before_uncompiled();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDisableVertexArrayAttribEXT(vaobj, index) };
+} }
+export! { 1747, glEnableVertexArrayAttrib, first_glEnableVertexArrayAttrib, hook_glEnableVertexArrayAttrib, zeros_glEnableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
+    hooks::before_uncompiled();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glEnableVertexArrayAttrib(vaobj, index) };
+} }
+export! { 1748, glEnableVertexArrayAttribEXT, first_glEnableVertexArrayAttribEXT, hook_glEnableVertexArrayAttribEXT, zeros_glEnableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
+    hooks::before_uncompiled();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glEnableVertexArrayAttribEXT(vaobj, index) };
+} }
+export! { 1749, glVertexArrayVertexAttribBindingEXT, first_glVertexArrayVertexAttribBindingEXT, hook_glVertexArrayVertexAttribBindingEXT, zeros_glVertexArrayVertexAttribBindingEXT, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
+    hooks::before_uncompiled();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexArrayVertexAttribBindingEXT(vaobj, attribindex, bindingindex) };
+} }
+export! { 1750, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, zeros_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseVisual(dpy, screen, attribs) }
 } }
-export! { 1742, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, zeros_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1751, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, zeros_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1743, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1752, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1744, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1753, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1745, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1754, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1746, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1755, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopySubBufferMESA(dpy, drawable, x, y, width, height) }
 } }
-export! { 1747, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
+export! { 1756, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXWaitGL() }
 } }
-export! { 1748, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
+export! { 1757, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXUseXFont(font, first, count, base) }
 } }
-export! { 1749, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
+export! { 1758, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXBindTexImageEXT(dpy, drawable, buffer, attribs) }
 } }
-export! { 1750, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1759, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1751, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1760, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1752, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1761, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1753, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1762, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1754, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1763, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1755, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1764, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1756, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1765, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1757, glXCopyContext, first_glXCopyContext, hook_glXCopyContext, zeros_glXCopyContext, (dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) -> (), {
+export! { 1766, glXCopyContext, first_glXCopyContext, hook_glXCopyContext, zeros_glXCopyContext, (dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopyContext(dpy, src, dst, mask) }
 } }
-export! { 1758, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1767, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1759, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1768, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1760, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1769, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1761, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1770, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPbuffer(dpy, pbuf) }
 } }
-export! { 1762, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1771, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPbufferSGIX(dpy, pbuf) }
 } }
-export! { 1763, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1772, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPixmap(dpy, pixmap) }
 } }
-export! { 1764, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1773, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPixmap(dpy, pixmap) }
 } }
-export! { 1765, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1774, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1766, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1775, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1768, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1777, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1769, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1778, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1770, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1779, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1771, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
+export! { 1780, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglPostSubBufferNV(dpy, surface, x, y, width, height) }
 } }
-export! { 1772, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1781, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegionNOK(dpy, surface, numRects, rects) }
 } }
-export! { 1773, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1782, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegion2NOK(dpy, surface, numRects, rects) }
 } }
-export! { 1774, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
+export! { 1783, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCopyBuffers(dpy, surface, target) }
 } }
-export! { 1775, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
+export! { 1784, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitGL() }
 } }
-export! { 1776, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
+export! { 1785, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitClient() }
 } }
-export! { 1777, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
+export! { 1786, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglBindTexImage(dpy, surface, buffer) }
 } }
-export! { 1778, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1787, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1779, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1788, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1780, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1789, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1781, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
+export! { 1790, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1782, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1791, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1783, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1792, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1784, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1793, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1785, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1794, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1786, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1795, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1787, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1796, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1788, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1797, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1789, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
+export! { 1798, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglTerminate(dpy) }
 } }
-export! { 1790, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1799, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1795, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1804, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1796, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1805, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1797, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1806, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1798, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1807, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1799, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1808, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1800, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1809, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

@@ -6,7 +6,7 @@ use crate::messages::Receiver;
 use crate::provider::Provider;
 use crate::viewports::Viewports;
 use core::cell::{Cell, OnceCell, RefCell};
-use manyview_core::gl::shadow::{ShadowOf, Shared};
+use manyview_core::gl::shadow::{ContextShadow, Shared};
 use manyview_core::gl::{Gl, Ptr};
 use manyview_core::layer::{Frames, Layer};
 
@@ -19,7 +19,7 @@ pub(crate) struct Context {
     /// The driver's functions, from the first time that the context was current.
     pub(crate) gl: OnceCell<Gl>,
     /// The state that the driver has, as far as it is known.
-    pub(crate) shadow: ShadowOf,
+    pub(crate) shadow: ContextShadow,
     /// Those that it was last current with; none where it was current without any.
     pub(crate) drawables: Cell<Option<Pair>>,
     /// The program's debug callback, once it has set one.
@@ -47,7 +47,7 @@ impl Context {
     pub(crate) fn new(key: Key, drawables: Option<Pair>, shared: Shared) -> Context {
         Context {
             key,
-            shadow: ShadowOf::new(key.0.real(), shared),
+            shadow: ContextShadow::new(key.0.real(), shared),
             gl: OnceCell::new(),
             drawables: Cell::new(drawables),
             receiver: OnceCell::new(),

@@ -19,6 +19,8 @@ pub(super) struct Depths {
     taken: usize,
     /// Signalled once the last of them is in the buffer.
     fence: Option<Fence>,
+    /// The driver has refused the framebuffer or the buffer object.
+    refused: bool,
 }
 
 impl Depths {
@@ -44,7 +46,13 @@ impl Atlas {
             buffer,
             taken: 0,
             fence: None,
+            refused: false,
         });
+    }
+
+    /// The driver has refused something of what [`Atlas::make_depths`] makes: no depths are taken.
+    pub fn refuse_depths(&mut self) {
+        self.depths.iter_mut().for_each(|d| d.refused = true);
     }
 
     /// Whether [`Atlas::make_depths`] has nothing to do.
@@ -55,8 +63,8 @@ impl Atlas {
     /// Copies the current depths of the program's own view; false where there is no more room, or depths cannot be read. Changes the
     /// framebuffer bindings.
     pub fn take_depths(&mut self, gl: &Gl, neutral: &Neutral) -> bool {
-        let full = self.depths.as_ref().is_none_or(|d| d.taken == PICTURES);
-        if full || !gl.reads_depths() {
+        let takes = |d: &Depths| d.taken < PICTURES && !d.refused;
+        if !self.depths.as_ref().is_some_and(takes) || !gl.reads_depths() {
             return false;
         }
         self.resolve(gl, &self.tiles.own_alone(), c::DEPTH_BUFFER_BIT);

@@ -60,6 +60,7 @@ pub struct Programs {
     pub(super) cache: HashMap<Stages, Option<Program>>,
     /// Programs compiled so far.
     pub compiled: u64,
+    errors: Vec<u32>,
 }
 
 impl Programs {
@@ -72,7 +73,14 @@ impl Programs {
             resends,
             cache: HashMap::new(),
             compiled: 0,
+            errors: Vec::new(),
         }
+    }
+
+    /// Takes the program's errors that were found before programs were compiled, oldest first.
+    #[must_use]
+    pub fn take_errors(&mut self) -> Vec<u32> {
+        std::mem::take(&mut self.errors)
     }
 
     /// The names of all programs.
@@ -96,6 +104,7 @@ impl Programs {
             Some(key) => Some(generate_fragment(key, &self.limits).map_err(Reason::Fixed)?),
             None => None,
         };
+        self.errors.extend(gl.take_errors());
         let build = || -> Result<ProgramName, String> {
             let mut stages = vec![gl.compile(c::VERTEX_SHADER, &shaders.vertex)?];
             if let Some(g) = &shaders.geometry {
@@ -126,6 +135,8 @@ impl Programs {
         if let (Some(program), Some(key)) = (&program, &stages.1) {
             name_units(gl, program.name, key);
         }
+        // Those of a driver that compiles none.
+        gl.drop_errors();
         self.compiled += 1;
         let ok = program.is_some();
         self.cache.insert(*stages, program);

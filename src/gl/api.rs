@@ -144,10 +144,16 @@ impl Gl {
         gl
     }
 
-    /// Empties the queue of errors, and returns how many there were. A lost context answers errors for ever.
+    /// Empties the queue of errors, oldest first. At most 16: a lost context answers errors for ever.
+    #[must_use]
+    pub fn take_errors(&self) -> Vec<u32> {
+        let errors = (0..16).map(|_| self.get_error());
+        errors.take_while(|&e| e != c::NO_ERROR).collect()
+    }
+
+    /// Empties the queue of errors, and returns how many there were, as [`Gl::take_errors`] does.
     pub fn drop_errors(&self) -> usize {
-        let dropped = (0..16).take_while(|_| self.get_error() != c::NO_ERROR);
-        dropped.count()
+        self.take_errors().len()
     }
 
     /// The table behind, for hooks that pass on the program's own arguments.

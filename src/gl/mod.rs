@@ -7,6 +7,7 @@ pub mod fake;
 #[macro_use]
 mod real;
 pub mod api;
+mod bindings;
 mod buffers;
 pub mod consts;
 mod draws;
@@ -15,6 +16,7 @@ mod held;
 mod images;
 pub mod immediate;
 mod indices;
+mod list_names;
 mod object_names;
 mod pixel_store;
 mod pixels;
@@ -28,12 +30,14 @@ mod table;
 mod textures;
 
 pub use api::Gl;
+pub use bindings::{buffer_binding, texture_binding};
 pub use buffers::{Fence, Mapping};
 pub use framebuffers::{Attachment, Object, Storage};
 pub use held::{Count, Held};
 pub use images::ImageUnit;
 pub use immediate::{Ends, Recording};
 pub use indices::{Indices, Vertices};
+pub use list_names::list_names;
 pub use object_names::{
     BufferName, FramebufferName, ListName, ProgramName, QueryName, RenderbufferName, ShaderName,
     TextureName, VertexArrayName,

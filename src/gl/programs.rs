@@ -158,19 +158,26 @@ impl Gl {
     /// Whether an attribute that is enabled advances by instances.
     pub fn has_divisors(&self) -> bool {
         let all = self.get_integer(c::MAX_VERTEX_ATTRIBS).clamp(1, 32) as u32;
-        let ask = |at, name| {
-            let mut v = [0i32; 4];
-            // SAFETY: room for one value.
-            unsafe {
-                self.real
-                    .glGetVertexAttribiv(at, name, v.as_mut_ptr().cast())
-            };
-            v[0]
+        let array = self.get_integer(c::VERTEX_ARRAY_BINDING) as u32;
+        let bits = |name| {
+            shadow::attributes(name, array, || {
+                let on = (0..all).filter(|&at| self.vertex_attribute(at, name) != 0);
+                on.fold(0, |bits, at| bits | 1 << at)
+            })
         };
-        (0..all).any(|at| {
-            ask(at, c::VERTEX_ATTRIB_ARRAY_DIVISOR) != 0
-                && ask(at, c::VERTEX_ATTRIB_ARRAY_ENABLED) != 0
-        })
+        let divided = bits(c::VERTEX_ATTRIB_ARRAY_DIVISOR);
+        divided != 0 && divided & bits(c::VERTEX_ATTRIB_ARRAY_ENABLED) != 0
+    }
+
+    /// glGetVertexAttribiv of one value.
+    fn vertex_attribute(&self, at: u32, name: u32) -> i32 {
+        let mut v = [0i32; 4];
+        // SAFETY: room for one value.
+        unsafe {
+            self.real
+                .glGetVertexAttribiv(at, name, v.as_mut_ptr().cast())
+        };
+        v[0]
     }
 
     /// The active attributes of a program.

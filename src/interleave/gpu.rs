@@ -59,6 +59,7 @@ pub struct Interleaver {
     mask_texture: TextureName,
     uploaded: Option<Uploaded>,
     cpu: Option<String>,
+    /// The program's, from before the mask was uploaded.
     errors: Vec<u32>,
     refused: bool,
 }
@@ -182,17 +183,9 @@ impl Interleaver {
         std::mem::take(&mut self.errors)
     }
 
-    /// Whether the driver has refused the mask. The picture that was drawn is wrong then.
+    /// Whether the driver has refused the mask of the last picture, which is wrong then. The next one uploads it again.
     pub fn is_mask_refused(&self) -> bool {
         self.refused
-    }
-
-    /// The driver has refused the mask: the CPU computes the pictures from now on.
-    pub fn refuse_mask(&mut self, gl: &Gl) {
-        let programs = self.programs.drain(..);
-        programs.for_each(|(_, program)| gl.delete_program(program.name()));
-        (self.uploaded, self.refused) = (None, false);
-        self.cpu = Some("the driver takes no mask, perhaps for lack of memory".into());
     }
 
     /// The views that some subpixel of the last picture through a mask showed.
@@ -257,6 +250,7 @@ impl Interleaver {
             self.mask = Some((of, mask));
         }
         let size = [placement.width, placement.height];
+        self.refused = false;
         let pass = self.pass(gl, neutral.pixels(), of, &form, source, size);
         let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == pass) else {
             let depth = source.depth.map(|(_, depth)| depth);
@@ -398,9 +392,7 @@ impl Interleaver {
             places.map_or(view, |tiles| tile_address(&tiles, view)) as u16
         });
         let [columns, rows] = sheet.period.map(|n| n as i32);
-        let errors = (0..16).map(|_| gl.get_error());
-        self.errors
-            .extend(errors.take_while(|&error| error != c::NO_ERROR));
+        self.errors.extend(gl.take_errors());
         match &sheet.texels {
             sheet::Texels::Bytes(texels) => gl.tex_image_rgba8ui(pixels, columns, rows, texels),
             sheet::Texels::Words(texels) => gl.tex_image_rgba16ui(pixels, columns, rows, texels),
@@ -413,14 +405,15 @@ impl Interleaver {
             gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
         }
         self.refused = gl.drop_errors() > 0;
-        self.uploaded = Some(Uploaded {
+        let uploaded = Uploaded {
             of,
             places,
             period: sheet.period,
             whole: sheet.whole,
             black: u32::from(sheet.black),
-        });
-        self.uploaded
+        };
+        self.uploaded = (!self.refused).then_some(uploaded);
+        Some(uploaded)
     }
 
     /// The picture of an output, computed by the CPU. None where the depth of RGBD, or the mask, is missing.

@@ -121,13 +121,22 @@ impl Layer {
     }
 
     fn make_accumulation(&mut self, gl: &Gl, neutral: &Neutral) {
-        match Accumulation::new(
+        self.state.keep_errors(gl);
+        let made = Accumulation::new(
             gl,
             neutral,
             &mut self.targets.names,
             self.session.support.glsl,
             &self.targets.atlas,
-        ) {
+        );
+        let made = match (made, gl.drop_errors()) {
+            (Ok(made), 1..) => {
+                made.delete(gl);
+                Err("the driver makes no image for it, perhaps for lack of memory".into())
+            }
+            (made, _) => made,
+        };
+        match made {
             Ok(mut made) => {
                 let whole = self.rows();
                 let clear = Operation::Clear(self.targets.accumulated.cleared);

@@ -117,8 +117,14 @@ impl Layer {
             self.read_depths(gl);
         }
         if !self.targets.atlas.has_depths() {
+            self.state.keep_errors(gl);
             let (names, window) = (&mut self.targets.names, &self.state.window);
             keep_bindings(gl, || self.targets.atlas.make_depths(gl, names, window));
+            if gl.drop_errors() > 0 {
+                self.targets.atlas.refuse_depths();
+                let why = "disparities are not measured: the driver makes no picture of the depths";
+                self.diagnostics.report.note(why.into());
+            }
         }
         let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
         if self.targets.atlas.take_depths(gl, neutral) {

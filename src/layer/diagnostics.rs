@@ -40,6 +40,12 @@ impl Diagnostics {
         self.fallbacks.add(reason);
     }
 
+    /// Adds a sentence to the report, which the user is also to see at once.
+    pub(super) fn announce(&mut self, sentence: String) {
+        self.report.note(sentence.clone());
+        self.announced.push(sentence);
+    }
+
     /// At the end of a frame: gives its fallbacks to the report.
     pub(super) fn report_fallbacks(&mut self) {
         for (reason, count) in self.fallbacks.take() {

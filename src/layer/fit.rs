@@ -171,8 +171,7 @@ impl Layer {
 
     /// Adds a sentence to the report, which the user is also to see at once.
     pub(super) fn announce(&mut self, sentence: String) {
-        self.note(sentence.clone());
-        self.diagnostics.announced.push(sentence);
+        self.diagnostics.announce(sentence);
     }
 
     /// Takes the sentences that the user is to see at once.

@@ -225,19 +225,18 @@ impl Layer {
                 gl.draw_buffer(buffer);
             }
             let interleaver = &mut self.targets.interleaver;
-            let draw = |interleaver: &mut Interleaver| {
+            let draw = |interleaver: &mut Interleaver, output| {
                 let tile = &mut |view| tile(gl, neutral, &self.targets.atlas, view);
                 let config = self.session.config;
                 interleaver.draw(gl, neutral, config, &source, tile, output, &panel)
             };
-            let mut drawn = draw(interleaver);
+            let mut drawn = draw(interleaver, output);
             self.state.keep(interleaver.take_errors());
             if interleaver.is_mask_refused() {
-                interleaver.refuse_mask(gl);
-                drawn = draw(interleaver);
-                let said = interleaver.note().unwrap_or_default();
-                self.diagnostics.report.note(said.clone());
-                self.diagnostics.announced.push(said);
+                // That of the program, which needs no mask.
+                drawn = draw(interleaver, Output::View(source.tiles.own().0));
+                let why = "the driver takes no mask of the panel, perhaps for lack of memory: the program's own view is shown meanwhile";
+                self.diagnostics.announce(why.into());
             }
             if let Err(e) = drawn {
                 self.diagnostics.report.note(e);

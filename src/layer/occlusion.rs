@@ -120,6 +120,7 @@ impl Layer {
                 &mut |mode| send(Send::InMode(mode)),
             )
         });
+        self.state.keep(self.variants.programs.take_errors());
         let compiled = self.variants.programs.compiled;
         self.diagnostics.report.shaders(compiled);
         self.queries.resume(gl);
@@ -216,9 +217,10 @@ impl Layer {
             return;
         }
         if self.targets.atlas.reference().is_none() {
+            self.state.keep_errors(gl);
             let (names, window) = (&mut self.targets.names, &self.state.window);
-            self.synthesis.reference.refused =
-                !keep_bindings(gl, || self.targets.atlas.make_reference(gl, names, window));
+            let made = keep_bindings(gl, || self.targets.atlas.make_reference(gl, names, window));
+            self.synthesis.reference.refused = gl.drop_errors() > 0 || !made;
             if self.synthesis.reference.refused {
                 self.diagnostics.report.note(
                     "what is hidden stays unknown: the driver makes no reference image".into(),

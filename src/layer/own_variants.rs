@@ -289,6 +289,13 @@ impl OwnVariants {
         if (known.unprojections.0, known.unprojections.1) != (change, aspect) {
             let mut all = known.matrices.uniforms(gl, program);
             all.retain(|(_, m)| camera::unprojects(m, aspect));
+            let locations = |list: &[(i32, [f32; 16])]| -> Vec<i32> {
+                list.iter().map(|(location, _)| *location).collect()
+            };
+            if locations(&all) != locations(&known.unprojections.2) {
+                // Variants have values of the layer's own in matrices that are no longer of these.
+                known.followed = [(0, 0); 4];
+            }
             known.unprojections = (change, aspect, all);
         }
         known.unprojections.2.clone()

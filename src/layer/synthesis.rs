@@ -253,16 +253,19 @@ impl Layer {
         if self.synthesis.passes.is_none() || self.targets.atlas.pyramid(false).is_some() {
             return self.synthesis.passes.is_some();
         }
+        self.state.keep_errors(gl);
         let (names, window) = (&mut self.targets.names, &self.state.window);
         let layers = self.synthesis.most(self.session.config.views);
         let made = keep_bindings(gl, || {
             self.targets.atlas.make_pyramid(gl, names, window, layers)
         });
+        let made = made && gl.drop_errors() == 0;
         if !made {
             self.synthesis.passes = None;
-            self.diagnostics
-                .report
-                .note("all views are drawn: the driver draws to no textures of floats".into());
+            self.diagnostics.report.note(
+                "all views are drawn: the driver makes no textures of floats that it draws to"
+                    .into(),
+            );
         }
         made
     }

@@ -6,7 +6,9 @@
 
 use super::fill::fill;
 use crate::atlas::{Names, Tiles};
-use crate::gl::{Gl, Level, Object, RenderbufferName, TextureName, consts as c, is_multisampled};
+use crate::gl::{
+    Gl, Level, Object, RenderbufferName, TextureName, consts as c, is_multisampled, texture_binding,
+};
 use crate::view::ViewIndex;
 
 /// A split object: one image per view.
@@ -46,20 +48,17 @@ pub(super) struct ImageSupport {
     borders: bool,
 }
 
-/// Texture targets, each with the name of its binding.
-pub(super) const TARGETS: [(u32, u32); 9] = [
-    (c::TEXTURE_2D, c::TEXTURE_BINDING_2D),
-    (c::TEXTURE_RECTANGLE, c::TEXTURE_BINDING_RECTANGLE),
-    (c::TEXTURE_1D, c::TEXTURE_BINDING_1D),
-    (c::TEXTURE_2D_MULTISAMPLE, c::TEXTURE_BINDING_2D_MULTISAMPLE),
-    (c::TEXTURE_CUBE_MAP, c::TEXTURE_BINDING_CUBE_MAP),
-    (c::TEXTURE_2D_ARRAY, c::TEXTURE_BINDING_2D_ARRAY),
-    (c::TEXTURE_3D, c::TEXTURE_BINDING_3D),
-    (
-        c::TEXTURE_2D_MULTISAMPLE_ARRAY,
-        c::TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY,
-    ),
-    (c::TEXTURE_CUBE_MAP_ARRAY, c::TEXTURE_BINDING_CUBE_MAP_ARRAY),
+/// Texture targets.
+pub(super) const TARGETS: [u32; 9] = [
+    c::TEXTURE_2D,
+    c::TEXTURE_RECTANGLE,
+    c::TEXTURE_1D,
+    c::TEXTURE_2D_MULTISAMPLE,
+    c::TEXTURE_CUBE_MAP,
+    c::TEXTURE_2D_ARRAY,
+    c::TEXTURE_3D,
+    c::TEXTURE_2D_MULTISAMPLE_ARRAY,
+    c::TEXTURE_CUBE_MAP_ARRAY,
 ];
 
 /// The texture parameters that affect sampling and exist in every context.
@@ -86,14 +85,13 @@ const SWIZZLES: [u32; 4] = [
 /// Further parameters of contexts with fixed function.
 const OLD: [u32; 2] = [c::GENERATE_MIPMAP, c::DEPTH_TEXTURE_MODE];
 
-/// The name of the binding of a target.
+/// The name of the binding of one of [`TARGETS`].
 pub(super) fn binding(target: u32) -> Option<u32> {
     let target = match target {
         c::TEXTURE_CUBE_MAP_POSITIVE_X..=c::TEXTURE_CUBE_MAP_NEGATIVE_Z => c::TEXTURE_CUBE_MAP,
         other => other,
     };
-    let known = TARGETS.iter().find(|t| t.0 == target);
-    known.map(|t| t.1)
+    texture_binding(target).filter(|_| TARGETS.contains(&target))
 }
 
 /// Targets that OpenGL ES does not have.
@@ -102,8 +100,11 @@ const DESKTOP: [u32; 2] = [c::TEXTURE_RECTANGLE, c::TEXTURE_1D];
 /// The target of a texture that the program has bound in no context of ours, found by trying all targets. The caller preserves errors.
 fn tried_target(gl: &Gl, name: TextureName) -> Option<u32> {
     let targets = TARGETS.into_iter();
-    let mut targets = targets.filter(|(target, _)| !(gl.is_es() && DESKTOP.contains(target)));
-    let found = targets.find(|&(target, binding)| {
+    let mut targets = targets.filter(|target| !(gl.is_es() && DESKTOP.contains(target)));
+    targets.find(|&target| {
+        let Some(binding) = binding(target) else {
+            return false;
+        };
         let before = TextureName(gl.get_integer(binding) as u32);
         if before != name {
             gl.bind_texture(target, name);
@@ -114,8 +115,7 @@ fn tried_target(gl: &Gl, name: TextureName) -> Option<u32> {
             gl.bind_texture(target, before);
         }
         fits
-    });
-    found.map(|(target, _)| target)
+    })
 }
 
 /// Runs `work` with a texture bound at its target, where that is one of [`TARGETS`]; `target` is none where it is not known. The caller

@@ -298,7 +298,7 @@ impl Offscreen {
 
     /// All split textures that are bound at any unit, for draws whose units are not known.
     pub fn bound(&self, gl: &Gl) -> Vec<Bound> {
-        let targets = image::TARGETS.map(|(target, _)| target).into_iter();
+        let targets = image::TARGETS.into_iter();
         let targets: Vec<u32> = {
             let images = self.images();
             let used = |target: u32| images.iter().any(|(_, image)| image.target == target);

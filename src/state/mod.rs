@@ -263,15 +263,10 @@ impl State {
     /// that the program has not yet asked for, further ones are dropped: the driver, too, would keep only the first. Returns whether
     /// there were any.
     pub fn keep_errors(&mut self, gl: &Gl) -> bool {
-        let kept = !self.errors.is_empty();
-        for count in 0..16 {
-            match gl.get_error() {
-                c::NO_ERROR => return count > 0,
-                error if !kept => self.errors.push_back(error),
-                _ => {}
-            }
-        }
-        true
+        let errors = gl.take_errors();
+        let any = !errors.is_empty();
+        self.keep(errors);
+        any
     }
 
     /// Keeps errors of the program that were taken out of the driver's queue elsewhere, as [`State::keep_errors`] does.

@@ -63,7 +63,7 @@ pub fn table(commands: &[Command]) -> String {
             format!(" -> {} = {}", c.ret, zero(c))
         };
         let how = match c.shared {
-            true => "noted_by_all",
+            true => "noted_shared",
             false => "noted",
         };
         let note = match c.note.as_str() {

@@ -4,7 +4,7 @@ use crate::context::{current_key, peek, real};
 use crate::hooks::{before_uncompiled, uniform};
 use crate::shares;
 use core::slice::from_raw_parts;
-use manyview_core::gl::{BufferName, Mapping, Ptr, consts as c};
+use manyview_core::gl::{BufferName, Mapping, Ptr, buffer_binding, consts as c};
 use manyview_core::layer::BufferRef;
 use manyview_core::state::{UniformBuffers, binding_changes};
 
@@ -179,21 +179,8 @@ fn bound(target: u32) -> BufferRef {
 
 /// The buffer that the driver has bound at a target.
 fn asked(target: u32) -> BufferName {
-    let binding = match target {
-        c::ARRAY_BUFFER => c::ARRAY_BUFFER_BINDING,
-        c::ELEMENT_ARRAY_BUFFER => c::ELEMENT_ARRAY_BUFFER_BINDING,
-        c::UNIFORM_BUFFER => c::UNIFORM_BUFFER_BINDING,
-        c::SHADER_STORAGE_BUFFER => c::SHADER_STORAGE_BUFFER_BINDING,
-        c::ATOMIC_COUNTER_BUFFER => c::ATOMIC_COUNTER_BUFFER_BINDING,
-        c::TRANSFORM_FEEDBACK_BUFFER => c::TRANSFORM_FEEDBACK_BUFFER_BINDING,
-        c::DRAW_INDIRECT_BUFFER => c::DRAW_INDIRECT_BUFFER_BINDING,
-        c::DISPATCH_INDIRECT_BUFFER => c::DISPATCH_INDIRECT_BUFFER_BINDING,
-        c::PIXEL_PACK_BUFFER => c::PIXEL_PACK_BUFFER_BINDING,
-        c::PIXEL_UNPACK_BUFFER => c::PIXEL_UNPACK_BUFFER_BINDING,
-        c::QUERY_BUFFER => c::QUERY_BUFFER_BINDING,
-        // The binding has the target's number.
-        c::COPY_READ_BUFFER | c::COPY_WRITE_BUFFER | c::TEXTURE_BUFFER => target,
-        _ => return BufferName::ZERO,
+    let Some(binding) = buffer_binding(target) else {
+        return BufferName::ZERO;
     };
     let mut name = 0i32;
     // SAFETY: one integer.

@@ -4,10 +4,9 @@ use crate::context::{
     Inside, enter, inside, instead, peek, peek_inside, real, recording, set_inside,
 };
 use crate::hooks::{self, before_uncompiled, compile, draw, imm};
-use core::slice::from_raw_parts;
 use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Indices, Vertices};
-use manyview_core::gl::{ListName, Ptr, slot};
+use manyview_core::gl::{ListName, Ptr, list_names, slot};
 use manyview_core::layer::{Primitive, Primitives};
 use manyview_core::plan::Kind;
 use manyview_core::state::{Command, Effect, Run, Touch};
@@ -236,47 +235,6 @@ fn record_list(list: ListName) {
         return after_lists();
     }
     imm::record(slot::glCallList, Effect::UNKNOWN, |rec| rec.u32(list.0));
-}
-
-/// Names of lists as glCallLists reads them, without the list base.
-///
-/// # Safety
-/// `lists` points to `n` elements of the type.
-unsafe fn list_names(n: i32, kind: u32, lists: Ptr) -> Option<Vec<u32>> {
-    let n = usize::try_from(n).ok()?;
-    if lists.is_null() {
-        return None;
-    }
-    // SAFETY: n elements of the type (caller); bytes are read unaligned.
-    unsafe {
-        let bytes = |k: usize| from_raw_parts(lists as *const u8, n * k).chunks_exact(k);
-        Some(match kind {
-            0x1400 => bytes(1).map(|b| b[0] as i8 as u32).collect(), // GL_BYTE
-            0x1401 => bytes(1).map(|b| u32::from(b[0])).collect(),   // GL_UNSIGNED_BYTE
-            0x1402 => bytes(2)
-                .map(|b| i16::from_ne_bytes([b[0], b[1]]) as u32)
-                .collect(), // GL_SHORT
-            0x1403 => bytes(2)
-                .map(|b| u32::from(u16::from_ne_bytes([b[0], b[1]])))
-                .collect(), // GL_UNSIGNED_SHORT
-            0x1404 | 0x1405 => bytes(4)
-                .map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
-                .collect(), // GL_INT, GL_UNSIGNED_INT
-            0x1406 => bytes(4)
-                .map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]) as i32 as u32)
-                .collect(), // GL_FLOAT
-            0x1407 => bytes(2)
-                .map(|b| u32::from(b[0]) << 8 | u32::from(b[1]))
-                .collect(), // GL_2_BYTES
-            0x1408 => bytes(3)
-                .map(|b| u32::from_be_bytes([0, b[0], b[1], b[2]]))
-                .collect(), // GL_3_BYTES
-            0x1409 => bytes(4)
-                .map(|b| u32::from_be_bytes([b[0], b[1], b[2], b[3]]))
-                .collect(), // GL_4_BYTES
-            _ => return None,
-        })
-    }
 }
 
 pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {

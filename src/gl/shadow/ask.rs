@@ -152,12 +152,12 @@ pub(in crate::gl) fn is_enabled(cap: u32, ask: impl Fn() -> bool) -> bool {
 pub(in crate::gl) fn is_enabled_at(cap: u32, index: u32, ask: impl Fn() -> bool) -> bool {
     let kept = key::is_indexed(cap);
     // Only the driver knows of what was set before anything was kept.
-    let key = |s: &mut Shadow| match s.several {
+    let key = |s: &mut Shadow| match s.indexed {
         true => kept.then_some(Key::CapAt(cap, index)),
         false => s
             .values
-            .contains_key(&Key::Cap(cap))
-            .then_some(Key::Cap(cap))
+            .get(Key::Cap(cap))
+            .map(|_| Key::Cap(cap))
             .filter(|_| kept && index == 0),
     };
     by_key(key, || [ask().into(), 0, 0, 0])[0] != 0
@@ -193,6 +193,12 @@ pub(in crate::gl) fn material(
     by_key(|s| (!follows && s.compiling.is_none()).then_some(key), ask)
 }
 
+/// What glGetVertexAttrib answers to a name, a bit for each generic attribute of the vertex array object that is bound.
+pub(in crate::gl) fn attributes(name: u32, array: u32, ask: impl Fn() -> u32) -> u32 {
+    let key = Key::Attributes(name, array);
+    by_key(|s| (!s.binding_points).then_some(key), || [ask(), 0, 0, 0])[0]
+}
+
 /// glGetTexEnv of GL_TEXTURE_ENV, as integers.
 pub(in crate::gl) fn tex_env(name: u32, ask: impl Fn() -> [u32; 4]) -> [u32; 4] {
     let of_unit = |s: &mut Shadow| {
@@ -216,7 +222,7 @@ fn by_key(key: impl FnOnce(&mut Shadow) -> Option<Key>, ask: impl Fn() -> [u32; 
     let key = with(key).flatten();
     asked(
         &key,
-        |s| s.values.get(&key?)?.value,
+        |s| s.values.known(key?),
         ask,
         |s, value| {
             if let Some(key) = key {

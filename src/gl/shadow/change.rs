@@ -26,6 +26,9 @@ pub(super) enum Change {
     Bind(Key, u32),
     /// A texture is bound to the active unit: the name of the binding.
     BindTexture(u32, u32),
+    /// glBegin, with its mode.
+    Begin(u32),
+    End,
     Enable(u32, bool),
     EnableAt(u32, u32, bool),
     ActiveTexture(u32),
@@ -49,6 +52,9 @@ pub(super) enum Change {
 impl Compiling {
     /// Notes a change. One of a value that was changed just before takes the place of that: lists may give each vertex a material.
     fn note(&mut self, change: &Change) {
+        if matches!(change, Change::End) && self.leave_out_begin() {
+            return;
+        }
         if let Change::Put(key, _) = change {
             let before = self.changes.iter_mut().rev().take(LATELY);
             let puts = before.take_while(|before| matches!(before, Change::Put(..)));
@@ -65,6 +71,19 @@ impl Compiling {
             self.changes.clear();
             self.changes.push(Change::ForgetAll);
         }
+    }
+
+    /// Leaves out a primitive that changes nothing but the material, which may be set outside as well.
+    fn leave_out_begin(&mut self) -> bool {
+        let outside = |change: &Change| !matches!(change, Change::Put(Key::Material(..), _));
+        let last = self.changes.iter().rposition(outside);
+        let begin = last.filter(|&at| matches!(self.changes[at], Change::Begin(_)));
+        let Some(begin) = begin else {
+            return false;
+        };
+        let within: Vec<Change> = self.changes.drain(begin..).skip(1).collect();
+        within.iter().for_each(|change| self.note(change));
+        true
     }
 }
 
@@ -88,7 +107,7 @@ impl Shadow {
     }
 
     /// A call that drivers compile into display lists or not.
-    pub(super) fn change_somewhen(&mut self, change: Change) {
+    pub(super) fn change_now_or_later(&mut self, change: Change) {
         match self.compiling.is_some() {
             true => self.apply(&Change::ForgetAll, 0),
             false => self.apply(&change, 0),
@@ -129,12 +148,14 @@ impl Shadow {
                 Some(unit) => self.bind(Key::Unit(binding, unit), name),
                 None => self.forget_all(),
             },
+            Change::Begin(mode) => self.inside = mode <= c::PATCHES,
+            Change::End => {}
             Change::Enable(cap, on) => self.enable(cap, on),
             Change::EnableAt(cap, unit, on) if key::is_of_unit(cap) => {
                 self.put(Key::UnitCap(cap, unit), Some([on.into(), 0, 0, 0]));
             }
             Change::EnableAt(cap, index, on) => {
-                if !std::mem::replace(&mut self.several, true) {
+                if !std::mem::replace(&mut self.indexed, true) {
                     for cap in key::INDEXED {
                         (0..16).for_each(|index| self.put(Key::CapAt(cap, index), None));
                     }
@@ -175,15 +196,12 @@ impl Shadow {
             Change::PushAttrib(mask) => self.push_attrib(mask),
             Change::PopAttrib => self.pop_attrib(),
             Change::CallList(list) => self.call_list(list, depth),
-            Change::CallLists(ref names) => {
-                let base = self.values.get(&Key::Value(c::LIST_BASE));
-                match base.and_then(|base| base.value) {
-                    Some([base, ..]) => names
-                        .iter()
-                        .for_each(|name| self.call_list(name.wrapping_add(base), depth)),
-                    None => self.forget_all(),
-                }
-            }
+            Change::CallLists(ref names) => match self.values.known(Key::Value(c::LIST_BASE)) {
+                Some([base, ..]) => names
+                    .iter()
+                    .for_each(|name| self.call_list(name.wrapping_add(base), depth)),
+                None => self.forget_all(),
+            },
             Change::ForgetMatrices => self.matrices.forget_stacks(),
             Change::ForgetUniforms => self.uniforms.forget_all(),
             Change::ForgetAll => self.forget_all(),
@@ -197,6 +215,8 @@ impl Shadow {
             Change::Put(key, _) | Change::Bind(key, _) => self.put(key, None),
             Change::Enable(cap, _) if !key::is_of_unit(cap) => self.put(Key::Cap(cap), None),
             Change::CallList(list) => self.call_list(list, depth),
+            Change::Begin(_) => {}
+            Change::End => self.inside = false,
             _ => self.forget_all(),
         }
     }
@@ -215,7 +235,7 @@ impl Shadow {
             };
         }
         self.put(Key::Cap(cap), value);
-        if self.several && key::is_indexed(cap) {
+        if self.indexed && key::is_indexed(cap) {
             (0..16).for_each(|index| self.put(Key::CapAt(cap, index), value));
         }
         if cap == c::COLOR_MATERIAL {
@@ -226,8 +246,7 @@ impl Shadow {
 
     /// Forgets the parameters of the material that follow the colour while GL_COLOR_MATERIAL is on.
     pub(super) fn forget_followers(&mut self) {
-        let parameter = self.values.get(&Key::Value(c::COLOR_MATERIAL_PARAMETER));
-        let parameter = parameter.and_then(|entry| entry.value);
+        let parameter = self.values.known(Key::Value(c::COLOR_MATERIAL_PARAMETER));
         for face in [c::FRONT, c::BACK] {
             for name in COLOURS {
                 if parameter.is_none_or(|[parameter, ..]| key::drives(parameter, name)) {
@@ -324,7 +343,7 @@ impl Shadow {
         for (key, before) in pushed.before {
             let (sure, maybe) = key.saved_with();
             let lost = pushed.deleted && key.binding().is_some();
-            let now = self.values.get(&key).copied().unwrap_or_default();
+            let now = self.values.get(key).copied().unwrap_or_default();
             let value = match (pushed.mask & sure != 0, pushed.mask & maybe != 0) {
                 (true, _) if !lost => before.value,
                 (false, false) => now.value,
@@ -336,7 +355,7 @@ impl Shadow {
                 self.stack_of(key).save(key, &mut entry);
             }
             entry.value = value;
-            self.values.insert(key, entry);
+            *self.values.entry(key) = entry;
         }
         if lighting {
             // A driver may let the material follow the colour that it restores.
@@ -345,8 +364,7 @@ impl Shadow {
     }
 
     fn forget_followers_if_any(&mut self) {
-        let on = self.values.get(&Key::Cap(c::COLOR_MATERIAL));
-        if on.and_then(|entry| entry.value) != Some([0; 4]) {
+        if self.values.known(Key::Cap(c::COLOR_MATERIAL)) != Some([0; 4]) {
             self.forget_followers();
         }
     }

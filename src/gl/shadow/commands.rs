@@ -3,10 +3,12 @@
 
 use super::Shadow;
 use super::change::Change;
-use super::key::{Key, texture_binding};
+use super::key::Key;
 use super::matrices::Operation;
 use super::values::{floats, one, read};
+use crate::gl::bindings::texture_binding;
 use crate::gl::consts as c;
+use crate::gl::list_names::list_names;
 use crate::gl::real::Ptr;
 
 macro_rules! changes {
@@ -19,6 +21,8 @@ macro_rules! changes {
 
 impl Shadow {
     changes! {
+        glBegin(mode: u32) = Change::Begin(mode);
+        glEnd() = Change::End;
         glEnable(cap: u32) = Change::Enable(cap, true);
         glDisable(cap: u32) = Change::Enable(cap, false);
         glEnablei(cap: u32, index: u32) = Change::EnableAt(cap, index, true);
@@ -172,38 +176,14 @@ impl Shadow {
     }
 
     pub(in crate::gl) unsafe fn glCallLists(&mut self, n: i32, kind: u32, lists: Ptr) {
-        let count = usize::try_from(n).unwrap_or(0);
-        let names = |size: usize| {
-            let bytes = (!lists.is_null()).then(|| {
-                // SAFETY: so many names of this size (the program's array).
-                unsafe {
-                    std::slice::from_raw_parts(lists.cast::<u8>(), count.saturating_mul(size))
-                }
-            });
-            bytes.unwrap_or_default().chunks_exact(size.max(1))
+        // SAFETY: the program's array.
+        let Some(names) = (unsafe { list_names(n, kind, lists) }) else {
+            return self.change(Change::ForgetAll);
         };
-        let names: Box<[u32]> = match kind {
-            c::UNSIGNED_BYTE => names(1).map(|b| u32::from(b[0])).collect(),
-            c::BYTE => names(1).map(|b| b[0] as i8 as u32).collect(),
-            c::UNSIGNED_SHORT => names(2)
-                .map(|b| u32::from(u16::from_ne_bytes([b[0], b[1]])))
-                .collect(),
-            c::SHORT => names(2)
-                .map(|b| i16::from_ne_bytes([b[0], b[1]]) as u32)
-                .collect(),
-            c::UNSIGNED_INT | c::INT => names(4)
-                .map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
-                .collect(),
-            _ => return self.change(Change::ForgetAll),
-        };
-        if self
-            .values
-            .get(&Key::Value(c::LIST_BASE))
-            .is_none_or(|entry| entry.value.is_none())
-        {
+        if self.values.known(Key::Value(c::LIST_BASE)).is_none() {
             let base = self.integer(c::LIST_BASE);
             self.answered(Key::Value(c::LIST_BASE), [base, 0, 0, 0]);
         }
-        self.change(Change::CallLists(names));
+        self.change(Change::CallLists(names.into()));
     }
 }

@@ -1,6 +1,7 @@
 //! Which values are kept, and what saves and restores them.
 
-use super::super::consts as c;
+use crate::gl::bindings::is_texture_binding;
+use crate::gl::consts as c;
 
 /// One value of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,6 +26,8 @@ pub(super) enum Key {
     Light(u32, u32),
     /// glGetMaterial: face, name.
     Material(u32, u32),
+    /// A bit for each generic attribute: what glGetVertexAttrib answers to this name, while this vertex array object is bound.
+    Attributes(u32, u32),
 }
 
 /// What glGet answers.
@@ -128,54 +131,12 @@ pub(super) fn is_pixel_store(name: u32) -> bool {
         .contains(&name)
 }
 
-/// Bindings of buffers to a context that are asked for.
-pub(super) fn buffer_binding(target: u32) -> Option<u32> {
-    Some(match target {
-        c::PIXEL_PACK_BUFFER => c::PIXEL_PACK_BUFFER_BINDING,
-        c::PIXEL_UNPACK_BUFFER => c::PIXEL_UNPACK_BUFFER_BINDING,
-        c::QUERY_BUFFER => c::QUERY_BUFFER_BINDING,
-        _ => return None,
-    })
-}
-
+/// Whether a buffer is bound by this name, of those that are asked for.
 pub(super) fn is_buffer(name: u32) -> bool {
     [
         c::PIXEL_PACK_BUFFER_BINDING,
         c::PIXEL_UNPACK_BUFFER_BINDING,
         c::QUERY_BUFFER_BINDING,
-    ]
-    .contains(&name)
-}
-
-/// The name by which glGet tells the texture that is bound at a target.
-pub(super) fn texture_binding(target: u32) -> Option<u32> {
-    Some(match target {
-        c::TEXTURE_1D => c::TEXTURE_BINDING_1D,
-        c::TEXTURE_2D => c::TEXTURE_BINDING_2D,
-        c::TEXTURE_3D => c::TEXTURE_BINDING_3D,
-        c::TEXTURE_CUBE_MAP => c::TEXTURE_BINDING_CUBE_MAP,
-        c::TEXTURE_RECTANGLE => c::TEXTURE_BINDING_RECTANGLE,
-        c::TEXTURE_1D_ARRAY => c::TEXTURE_BINDING_1D_ARRAY,
-        c::TEXTURE_2D_ARRAY => c::TEXTURE_BINDING_2D_ARRAY,
-        c::TEXTURE_CUBE_MAP_ARRAY => c::TEXTURE_BINDING_CUBE_MAP_ARRAY,
-        c::TEXTURE_2D_MULTISAMPLE => c::TEXTURE_BINDING_2D_MULTISAMPLE,
-        c::TEXTURE_2D_MULTISAMPLE_ARRAY => c::TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY,
-        _ => return None,
-    })
-}
-
-pub(super) fn is_texture_binding(name: u32) -> bool {
-    [
-        c::TEXTURE_BINDING_1D,
-        c::TEXTURE_BINDING_2D,
-        c::TEXTURE_BINDING_3D,
-        c::TEXTURE_BINDING_CUBE_MAP,
-        c::TEXTURE_BINDING_RECTANGLE,
-        c::TEXTURE_BINDING_1D_ARRAY,
-        c::TEXTURE_BINDING_2D_ARRAY,
-        c::TEXTURE_BINDING_CUBE_MAP_ARRAY,
-        c::TEXTURE_BINDING_2D_MULTISAMPLE,
-        c::TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY,
     ]
     .contains(&name)
 }
@@ -226,6 +187,7 @@ impl Key {
             Key::Value(name) => {
                 name == c::VERTEX_ARRAY_BINDING || is_pixel_store(name) || is_buffer(name)
             }
+            Key::Attributes(..) => true,
             _ => false,
         }
     }
@@ -291,6 +253,7 @@ impl Key {
             Key::Unit(c::SAMPLER_BINDING, _) => (0, bits::TEXTURE),
             Key::Unit(..) | Key::TexEnv(..) | Key::TexGen(..) => (bits::TEXTURE, 0),
             Key::Light(..) | Key::Material(..) => (LIGHTING, 0),
+            Key::Attributes(..) => (0, bits::CLIENT_ARRAYS),
         }
     }
 }

@@ -5,6 +5,7 @@
 //! that cannot be told from the call, such as one that the driver may refuse, is unknown until the driver has been asked. So a wrong call of
 //! the program costs a question, and never a picture.
 
+mod arrays;
 mod ask;
 mod change;
 mod commands;
@@ -14,14 +15,16 @@ mod lists;
 mod matrices;
 mod objects;
 mod stack;
+mod store;
 mod uniforms;
 mod values;
 
 use super::consts as c;
 use super::real::Real;
 pub(super) use ask::{
-    block_bindings, has_extension, is_enabled, is_enabled_at, is_uniform_unchanged, keep_uniform,
-    light, material, matrix, tex_env, tex_gen, uniform, uniform_changes, value, value_at,
+    attributes, block_bindings, has_extension, is_enabled, is_enabled_at, is_uniform_unchanged,
+    keep_uniform, light, material, matrix, tex_env, tex_gen, uniform, uniform_changes, value,
+    value_at,
 };
 use change::Change;
 use core::cell::{Cell, RefCell};
@@ -32,6 +35,7 @@ use lists::CompiledLists;
 use matrices::Matrices;
 use rustc_hash::{FxHashMap, FxHashSet};
 use stack::Stack;
+use store::Store;
 use uniforms::UniformValues;
 
 /// Objects that were deleted by any context: their names may become those of others.
@@ -67,7 +71,7 @@ struct Compiling {
 #[derive(Debug)]
 pub(super) struct Shadow {
     real: &'static Real,
-    values: FxHashMap<Key, Entry>,
+    values: Store,
     constants: FxHashMap<u32, [u32; 4]>,
     extensions: FxHashMap<String, bool>,
     /// Names that the driver has bound, by the name of the binding.
@@ -83,30 +87,32 @@ pub(super) struct Shadow {
     /// Between glBegin and glEnd, where the driver refuses most calls.
     inside: bool,
     /// Some capability was set by its index. Until then, none is kept by its index.
-    several: bool,
+    indexed: bool,
+    /// Some attributes were given to binding points. From then on, only the driver knows which attributes advance by instances.
+    binding_points: bool,
     /// While transform feedback is on, the driver may refuse other programs.
     feedback: bool,
 }
 
 /// The shadow of a context. It belongs to the record of the context.
 #[derive(Debug)]
-pub struct ShadowOf {
+pub struct ContextShadow {
     shadow: RefCell<Shadow>,
     /// Something else than calls of this context has changed its state.
     changed: AtomicBool,
 }
 
 thread_local! {
-    static CURRENT: Cell<*const ShadowOf> = const { Cell::new(core::ptr::null()) };
+    static CURRENT: Cell<*const ContextShadow> = const { Cell::new(core::ptr::null()) };
 }
 
-impl ShadowOf {
+impl ContextShadow {
     /// For a context that shares objects with those of the same `shared`. Nothing is known of it yet.
     #[must_use]
     pub fn new(real: &'static Real, shared: Shared) -> Self {
         let shadow = Shadow {
             real,
-            values: FxHashMap::default(),
+            values: Store::default(),
             constants: FxHashMap::default(),
             extensions: FxHashMap::default(),
             confirmed: FxHashSet::default(),
@@ -118,10 +124,11 @@ impl ShadowOf {
             lists: shared.lists,
             uniforms: shared.uniforms,
             inside: false,
-            several: false,
+            indexed: false,
+            binding_points: false,
             feedback: false,
         };
-        ShadowOf {
+        ContextShadow {
             shadow: RefCell::new(shadow),
             changed: AtomicBool::new(false),
         }
@@ -183,7 +190,7 @@ pub(super) fn noted(note: impl FnOnce(&mut Shadow)) {
 
 /// The same for a call that may set state of objects, which other contexts share.
 #[inline]
-pub(super) fn noted_by_all(note: impl FnOnce(&mut Shadow)) {
+pub(super) fn noted_shared(note: impl FnOnce(&mut Shadow)) {
     if with(note).is_none() {
         uniforms::unseen();
     }
@@ -192,8 +199,8 @@ pub(super) fn noted_by_all(note: impl FnOnce(&mut Shadow)) {
 impl Shadow {
     /// The active texture unit, counted from 0, if it is known.
     fn unit(&self) -> Option<u32> {
-        let entry = self.values.get(&Key::Value(c::ACTIVE_TEXTURE))?;
-        entry.value.map(|[unit, ..]| unit.wrapping_sub(c::TEXTURE0))
+        let known = self.values.known(Key::Value(c::ACTIVE_TEXTURE));
+        known.map(|[unit, ..]| unit.wrapping_sub(c::TEXTURE0))
     }
 
     /// Asks for the active texture unit if it is not known.
@@ -224,7 +231,7 @@ impl Shadow {
 
     /// The driver has answered. That is no change, so nothing is saved of it.
     fn answered(&mut self, key: Key, value: [u32; 4]) {
-        self.values.entry(key).or_default().value = Some(value);
+        self.values.entry(key).value = Some(value);
         if let Some(binding) = key.binding()
             && value[0] != 0
         {
@@ -247,7 +254,7 @@ impl Shadow {
             true => &mut self.client,
             false => &mut self.attribs,
         };
-        let entry = self.values.entry(key).or_default();
+        let entry = self.values.entry(key);
         stack.save(key, entry);
         entry.value = value;
     }
@@ -284,7 +291,7 @@ impl Shadow {
                 let bound = entry.value.is_none_or(|[name, ..]| is(name));
                 bound && key.binding().is_some_and(&of)
             })
-            .map(|(key, _)| *key)
+            .map(|(key, _)| key)
             .collect();
         for key in bound {
             self.put(key, None);

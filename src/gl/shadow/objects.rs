@@ -4,8 +4,9 @@
 
 use super::Shadow;
 use super::change::Change;
-use super::key::{Key, bits, buffer_binding, is_buffer, is_pixel_store, is_texture_binding};
+use super::key::{Key, bits, is_buffer, is_pixel_store};
 use super::values::one;
+use crate::gl::bindings::{buffer_binding, is_texture_binding};
 use crate::gl::consts as c;
 use crate::gl::real::Ptr;
 
@@ -29,7 +30,7 @@ impl Shadow {
 
     /// The command changes state in a way that is not followed.
     pub(in crate::gl) unsafe fn anything(&mut self) {
-        self.change_somewhen(Change::ForgetAll);
+        self.change_now_or_later(Change::ForgetAll);
     }
 
     /// The command sets values that glPushClientAttrib saves to those of a new context.
@@ -44,21 +45,9 @@ impl Shadow {
     }
 
     fn forget_client(&mut self) {
-        let keys = self.values.keys().copied();
+        let keys = self.values.iter().map(|(key, _)| key);
         let of_client: Vec<Key> = keys.filter(|key| key.is_of_client()).collect();
         of_client.into_iter().for_each(|key| self.put(key, None));
-    }
-
-    pub(in crate::gl) unsafe fn glBegin(&mut self, mode: u32) {
-        if self.compiling.is_none() && mode <= c::PATCHES {
-            self.inside = true;
-        }
-    }
-
-    pub(in crate::gl) unsafe fn glEnd(&mut self) {
-        if self.compiling.is_none() {
-            self.inside = false;
-        }
     }
 
     pub(in crate::gl) unsafe fn glNewList(&mut self, list: u32, mode: u32) {
@@ -128,7 +117,7 @@ impl Shadow {
     }
 
     pub(in crate::gl) unsafe fn glBindBuffer(&mut self, target: u32, buffer: u32) {
-        if let Some(binding) = buffer_binding(target) {
+        if let Some(binding) = buffer_binding(target).filter(|&binding| is_buffer(binding)) {
             self.change_now(&Change::Bind(Key::Value(binding), buffer));
         }
     }
@@ -138,14 +127,14 @@ impl Shadow {
     }
 
     pub(in crate::gl) unsafe fn glBindProgramPipeline(&mut self, pipeline: u32) {
-        self.change_somewhen(Change::Bind(
+        self.change_now_or_later(Change::Bind(
             Key::Value(c::PROGRAM_PIPELINE_BINDING),
             pipeline,
         ));
     }
 
     pub(in crate::gl) unsafe fn glBindSampler(&mut self, unit: u32, sampler: u32) {
-        self.change_somewhen(Change::Bind(Key::Unit(c::SAMPLER_BINDING, unit), sampler));
+        self.change_now_or_later(Change::Bind(Key::Unit(c::SAMPLER_BINDING, unit), sampler));
     }
 
     pub(in crate::gl) unsafe fn glLinkProgram(&mut self, program: u32) {
@@ -198,6 +187,8 @@ impl Shadow {
     pub(in crate::gl) unsafe fn glDeleteVertexArrays(&mut self, n: i32, arrays: Ptr) {
         // SAFETY: forwarded.
         unsafe { self.delete(n, arrays, |binding| binding == c::VERTEX_ARRAY_BINDING) };
+        // Others may get their names.
+        self.forget_attributes();
     }
 
     pub(in crate::gl) unsafe fn glDeleteProgramPipelines(&mut self, n: i32, pipelines: Ptr) {

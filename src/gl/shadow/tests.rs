@@ -18,8 +18,8 @@ impl Random {
 }
 
 /// A shadow of a new context of a fake driver.
-fn shadow(fake: &Fake) -> ShadowOf {
-    let shadow = ShadowOf::new(fake.real(), Shared::default());
+fn shadow(fake: &Fake) -> ContextShadow {
+    let shadow = ContextShadow::new(fake.real(), Shared::default());
     let mut inner = shadow.shadow.borrow_mut();
     for (name, value) in [
         (c::MAX_ATTRIB_STACK_DEPTH, 16),
@@ -38,7 +38,7 @@ fn shadow(fake: &Fake) -> ShadowOf {
 }
 
 /// Runs `work` while the shadow is that of the current context.
-fn current<R>(shadow: &ShadowOf, work: impl FnOnce() -> R) -> R {
+fn current<R>(shadow: &ContextShadow, work: impl FnOnce() -> R) -> R {
     // SAFETY: it lives until the next line but one.
     unsafe { shadow.make_current() };
     let done = work();
@@ -46,8 +46,8 @@ fn current<R>(shadow: &ShadowOf, work: impl FnOnce() -> R) -> R {
     done
 }
 
-fn known(shadow: &ShadowOf, key: Key) -> Option<[u32; 4]> {
-    shadow.shadow.borrow().values.get(&key)?.value
+fn known(shadow: &ContextShadow, key: Key) -> Option<[u32; 4]> {
+    shadow.shadow.borrow().values.known(key)
 }
 
 /// How often the driver was asked.
@@ -150,6 +150,115 @@ fn a_list_changes_the_state_when_it_is_called() {
     });
 }
 
+/// Calls between the glBegin and the glEnd of a list are refused when the list is called, as others are; those that only set materials are not
+/// kept as a primitive.
+#[test]
+fn a_list_may_have_primitives() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    let list = crate::gl::ListName;
+    let known_on = |cap| known(&shadow, Key::Cap(cap)).map(|[on, ..]| on);
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.disable(c::BLEND);
+        gl.disable(c::DEPTH_TEST);
+        gl.new_list(list(5), c::COMPILE);
+        gl.begin(c::POINTS);
+        gl.enable(c::BLEND);
+        gl.end();
+        gl.enable(c::DEPTH_TEST);
+        gl.end_list();
+        assert_eq!([c::BLEND, c::DEPTH_TEST].map(known_on), [Some(0); 2]);
+        gl.call_list(list(5));
+        assert_eq!(
+            [c::BLEND, c::DEPTH_TEST].map(known_on),
+            [None, Some(1)],
+            "the driver has refused the first, or not"
+        );
+        // A list that leaves a primitive open, and one that ends it.
+        gl.new_list(list(6), c::COMPILE);
+        gl.begin(c::POINTS);
+        gl.end_list();
+        gl.new_list(list(7), c::COMPILE_AND_EXECUTE);
+        gl.end();
+        gl.end_list();
+        gl.call_list(list(6));
+        gl.disable(c::DEPTH_TEST);
+        assert_eq!(known_on(c::DEPTH_TEST), None);
+        gl.call_list(list(7));
+        gl.disable(c::DEPTH_TEST);
+        assert_eq!(known_on(c::DEPTH_TEST), Some(0));
+        // A material for each of many primitives.
+        gl.new_list(list(8), c::COMPILE);
+        for shade in 0..10_000 {
+            gl.begin(c::POINTS);
+            let value = [shade as f32, 0.0, 0.0, 1.0];
+            // SAFETY: four values.
+            unsafe {
+                gl.real()
+                    .glMaterialfv(c::FRONT, c::AMBIENT, value.as_ptr() as _)
+            };
+            gl.end();
+        }
+        gl.end_list();
+        gl.call_list(list(8));
+        assert_eq!(known_on(c::DEPTH_TEST), Some(0), "the list is kept");
+        let ambient = known(&shadow, Key::Material(c::FRONT, c::AMBIENT));
+        assert_eq!(ambient.map(|[red, ..]| f32::from_bits(red)), Some(9999.0));
+    });
+}
+
+#[test]
+fn attributes_belong_to_the_vertex_array_object() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    let divided = |fake: &Fake| {
+        let mut answer = false;
+        let questions = asked(fake, |gl| answer = gl.has_divisors());
+        (answer, questions > 0)
+    };
+    let bind = |array| {
+        fake.gl()
+            .bind_vertex_array(crate::gl::VertexArrayName(array));
+        let key = Key::Value(c::VERTEX_ARRAY_BINDING);
+        shadow.shadow.borrow_mut().answered(key, [array, 0, 0, 0]);
+    };
+    let real = fake.real();
+    current(&shadow, || {
+        shadow
+            .shadow
+            .borrow_mut()
+            .constants
+            .insert(c::MAX_VERTEX_ATTRIBS, [16, 0, 0, 0]);
+        bind(1);
+        assert_eq!(divided(&fake), (false, true));
+        assert_eq!(divided(&fake), (false, false));
+        // SAFETY: no pointers.
+        unsafe { real.glVertexAttribDivisor(2, 1) };
+        divided(&fake);
+        // SAFETY: no pointers.
+        unsafe { real.glEnableVertexAttribArray(3) };
+        assert_eq!(divided(&fake), (false, false), "another one is on");
+        // SAFETY: no pointers.
+        unsafe { real.glVertexAttribDivisor(3, 1) };
+        assert_eq!(divided(&fake), (true, false));
+        // SAFETY: no pointers.
+        unsafe { real.glVertexAttribDivisor(99, 1) };
+        assert_eq!(divided(&fake), (true, false), "the driver has refused");
+        bind(2);
+        assert!(divided(&fake).1, "nothing is known of another one");
+        bind(1);
+        assert_eq!(divided(&fake), (true, false));
+        // SAFETY: no pointers.
+        unsafe { real.glDisableVertexAttribArray(3) };
+        assert_eq!(divided(&fake), (false, false));
+        // SAFETY: no pointers.
+        unsafe { real.glVertexBindingDivisor(3, 1) };
+        divided(&fake);
+        assert!(divided(&fake).1, "only the driver knows from now on");
+    });
+}
+
 #[test]
 fn another_context_may_have_changed_it() {
     let fake = Fake::new().window(64, 32);
@@ -219,7 +328,7 @@ fn random_pushes_and_pops_are_those_of_a_model() {
                 }
             }
             for (at, (key, _, maybe)) in VALUES.iter().enumerate() {
-                let kept = s.values.get(key).and_then(|entry| entry.value);
+                let kept = s.values.known(*key);
                 let kept = kept.map(|[value, ..]| value);
                 // Of those, a value that was set again to what it was counts as changed.
                 let unsure = *maybe != 0 && kept.is_none();

@@ -209,8 +209,7 @@ impl Shadow {
     /// The program whose uniforms glUniform sets, as far as that is known.
     fn program_in_use(&mut self) -> Option<u32> {
         let key = Key::Value(c::CURRENT_PROGRAM);
-        let known = self.values.get(&key).and_then(|entry| entry.value);
-        let program = known.map_or_else(
+        let program = self.values.known(key).map_or_else(
             || {
                 let program = self.integer(c::CURRENT_PROGRAM);
                 self.answered(key, [program, 0, 0, 0]);

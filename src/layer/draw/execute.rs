@@ -299,6 +299,7 @@ impl Layer {
         let programs = &mut self.variants.programs;
         let how = Programs::allow(&self.state, atlas)
             .and_then(|()| programs.prepare(gl, plan.method, mode, fixed, material, atlas));
+        self.state.keep(programs.take_errors());
         self.diagnostics.report.shaders(programs.compiled);
         match how {
             Ok(how) => {
