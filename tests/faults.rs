@@ -46,6 +46,24 @@ fn drawn(
     (rgb(&picture), stderr)
 }
 
+/// Checks that the layer says nothing twice, and of no fault of its own.
+#[track_caller]
+fn said_once(stderr: &str, why: &str) {
+    let lines = stderr.lines();
+    let mut said: Vec<&str> = lines.filter(|l| l.starts_with("manyview: ")).collect();
+    assert!(!stderr.contains("internal fault"), "{why}: {stderr}");
+    let lines = said.len();
+    said.sort_unstable();
+    said.dedup();
+    assert_eq!(said.len(), lines, "{why}: said twice: {stderr}");
+}
+
+/// What the program itself says.
+fn without_ours(stderr: &str) -> String {
+    let lines = stderr.lines().filter(|l| !l.starts_with("manyview: "));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
 struct Faults {
     screen: Screen,
     folder: tempfile::TempDir,
@@ -89,18 +107,7 @@ impl Faults {
             over == 0 || smaller,
             "{why} ({failed}): {over} pixels of the frame differ; {stderr}"
         );
-        let mut said: Vec<&str> = stderr
-            .lines()
-            .filter(|l| l.starts_with("manyview: "))
-            .collect();
-        assert!(
-            !stderr.contains("internal fault"),
-            "{why} ({failed}): {stderr}"
-        );
-        let lines = said.len();
-        said.sort_unstable();
-        said.dedup();
-        assert_eq!(said.len(), lines, "{why} ({failed}): said twice: {stderr}");
+        said_once(&stderr, &format!("{why} ({failed})"));
         Some(failed)
     }
 
@@ -125,6 +132,71 @@ fn each_object_of_a_replay_fails_once() {
 #[test]
 fn nothing_is_to_be_had_from_some_object_on() {
     Faults::new().each("replay", "FAIL_FROM", 3);
+}
+
+/// The driver loses the context at the end of the second frame of six.
+#[test]
+fn the_context_is_lost() {
+    let faults = Faults::new();
+    let run = |mut command: Command, preload: &str| {
+        command
+            .env("LD_PRELOAD", preload)
+            .env("LOST_AT", "2")
+            .args(["-k", "2", "20"])
+            .arg(demo("gears"))
+            .args(["--frames", "6", "--size", "160x120", "--check"]);
+        let output = faults
+            .screen
+            .give(&mut command)
+            .output()
+            .expect("it starts");
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), stderr)
+    };
+    let behind = faults.behind.display();
+    let (code, expected) = run(bare("timeout"), &behind.to_string());
+    assert_eq!(code, Some(3), "the program sees it: {expected}");
+    for strategy in ["replay"].into_iter().chain(OTHERS) {
+        let options = [("VIEWS", "5"), ("OUTPUT", "panel"), ("STRATEGY", strategy)];
+        let both = format!("{}:{behind}", library().display());
+        let (code, stderr) = run(layered("timeout", &options), &both);
+        assert_eq!(
+            (code, without_ours(&stderr)),
+            (Some(3), expected.trim_end().to_owned()),
+            "{strategy}"
+        );
+        said_once(&stderr, strategy);
+    }
+}
+
+/// The X server ends while the program draws: Xlib ends the program.
+#[test]
+fn the_connection_to_the_x_server_is_lost() {
+    let run = |mut command: Command| {
+        let screen = own_screen();
+        command
+            .args(["-k", "2", "20"])
+            .arg(demo("gears"))
+            .args(["--frames", "1000000", "--size", "160x120"])
+            .stderr(std::process::Stdio::piped());
+        let child = screen.give(&mut command).spawn().expect("it starts");
+        std::thread::sleep(std::time::Duration::from_secs(2));
+        drop(screen);
+        let output = child.wait_with_output().expect("it ends");
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), stderr)
+    };
+    let (expected, said) = run(bare("timeout"));
+    assert!(
+        expected.is_some_and(|code| code != 124),
+        "{expected:?}: {said}"
+    );
+    for output in ["panel", "view"] {
+        let options = [("VIEWS", "5"), ("OUTPUT", output)];
+        let (code, stderr) = run(layered("timeout", &options));
+        assert_eq!(code, expected, "{output}: {stderr}");
+        said_once(&stderr, output);
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The functions that generated hooks call: one per class of command.
 
 use crate::context::{self, enter, instead};
-use manyview_core::gl::{Gl, Real};
+use manyview_core::gl::{Gl, Real, TextureName};
 use manyview_core::layer::Layer;
 
 pub(crate) use manyview_core::gl::Object;
@@ -70,6 +70,13 @@ pub(crate) fn texture(target: u32) {
     if_split(|gl, l| l.texture_written(gl, target));
 }
 
+/// Before a command that writes to the texture bound at `target` of a unit.
+#[inline]
+pub(crate) fn unit_texture(unit: u32, target: u32) {
+    list_only();
+    if_split(|gl, l| l.with_unit(gl, unit, |l| l.texture_written(gl, target)));
+}
+
 /// Before a command that writes to a texture or renderbuffer, which it names.
 #[inline]
 pub(crate) fn named(object: Object) {
@@ -82,6 +89,13 @@ pub(crate) fn named(object: Object) {
 pub(crate) fn write_back() {
     before_uncompiled();
     if_split(|gl, l| l.write_back_textures(gl));
+}
+
+/// Before a command that binds textures to image units.
+#[inline]
+pub(crate) fn images() {
+    write_back();
+    context::peek(|l| l.images_change());
 }
 
 /// Before a command that makes an attribute advance per instance.
@@ -128,6 +142,34 @@ pub(crate) fn compute(call: &mut dyn FnMut(&'static Real)) {
 pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
     instead(&mut || call(real()), |gl, l, call| {
         l.copy_texture(gl, target, x, width, call);
+    });
+}
+
+/// A copy from the read framebuffer to the texture bound at `target` of a unit; `x` and `width` are its columns in pixels.
+pub(crate) fn copy_unit(
+    unit: u32,
+    target: u32,
+    x: i32,
+    width: i32,
+    call: &mut dyn FnMut(&'static Real),
+) {
+    instead(&mut || call(real()), |gl, l, call| {
+        l.with_unit(gl, unit, |l| l.copy_texture(gl, target, x, width, call));
+    });
+}
+
+/// A copy from the read framebuffer to a texture, which the call gets by its name.
+pub(crate) fn copy_named(
+    texture: TextureName,
+    x: i32,
+    width: i32,
+    call: &mut dyn FnMut(&'static Real, TextureName),
+) {
+    let call = core::cell::RefCell::new(call);
+    let own = &mut || (call.borrow_mut())(real(), texture);
+    instead(own, |gl, l, _| {
+        let each = &mut |name| (call.borrow_mut())(gl.real(), name);
+        l.copy_named_texture(gl, texture, x, width, each);
     });
 }
 

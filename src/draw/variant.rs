@@ -86,6 +86,8 @@ pub struct Variant {
     uniforms: Vec<(u32, i32, i32)>,
     /// By index of a uniform block in the program: its index in the variant.
     blocks: Vec<Option<u32>>,
+    /// The same of storage blocks.
+    storage: Vec<Option<u32>>,
 }
 
 /// Finds how the draws of a program get their views, and links its variant where it needs one. `sources` are the sources that the program was
@@ -173,13 +175,18 @@ struct Rewritten<'a> {
 
 impl<'a> Rewritten<'a> {
     fn of(sources: &'a [ShaderSource], last: Stage, options: &Options) -> Result<Self, NoVariant> {
-        let distorts = options.target == Target::DistortedRays;
+        // Each view would write to memory.
+        let repeats =
+            options.target == Target::DistortedRays || options.amplifier == Amplifier::Instanced;
         let mut all = Rewritten::default();
         for shader in sources {
             if shader.stage != last && shader.stage != Stage::Fragment {
                 let facts = facts(&shader.source, options.es)?;
                 if facts.subroutines {
                     return Err(NoVariant::Subroutines);
+                }
+                if repeats && !facts.writes.is_empty() {
+                    return Err(NoVariant::Effects);
                 }
                 all.projection |= facts.projection;
                 all.sources
@@ -190,7 +197,7 @@ impl<'a> Rewritten<'a> {
             if new.facts.subroutines {
                 return Err(NoVariant::Subroutines);
             }
-            if distorts && new.facts.side_effects {
+            if repeats && !new.facts.writes.is_empty() {
                 return Err(NoVariant::Effects);
             }
             let changed = matches!(new.text, Cow::Owned(_));
@@ -256,6 +263,17 @@ fn locations(actives: Vec<Active>, location: impl Fn(&CStr) -> i32) -> Vec<(CStr
     actives.into_iter().filter_map(place).collect()
 }
 
+/// By index of a storage block in a program: its index in the variant.
+fn same_storage_blocks(gl: &Gl, program: ProgramName, variant: ProgramName) -> Vec<Option<u32>> {
+    if !gl.tells_storage_blocks() {
+        return Vec::new();
+    }
+    let [from, to] = [program, variant].map(|of| gl.storage_blocks(of));
+    let same = |name: &String| to.iter().position(|other| other == name);
+    let all = from.iter().map(|name| same(name).map(|at| at as u32));
+    all.collect()
+}
+
 /// The outputs that a program's fragment shader declares, with their locations.
 fn outputs(gl: &Gl, program: ProgramName) -> Vec<(CString, u32)> {
     let names = gl.program_outputs(program).into_iter();
@@ -306,6 +324,7 @@ impl Variant {
             blocks: (0..blocks)
                 .map(|at| gl.same_block(program, at, name))
                 .collect(),
+            storage: same_storage_blocks(gl, program, name),
         }
     }
 
@@ -328,6 +347,14 @@ impl Variant {
         for (binding, block) in bindings.into_iter().zip(&self.blocks) {
             if let Some(block) = *block {
                 gl.uniform_block_binding(self.name, block, binding);
+            }
+        }
+        if !self.storage.is_empty() {
+            let bindings = gl.storage_bindings(program);
+            for (binding, block) in bindings.into_iter().zip(&self.storage) {
+                if let Some(block) = *block {
+                    gl.storage_block_binding(self.name, block, binding);
+                }
             }
         }
         now

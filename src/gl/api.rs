@@ -95,7 +95,6 @@ plain! {
     compile_shader = glCompileShader(shader: ShaderName);
     attach_shader = glAttachShader(program: ProgramName, shader: ShaderName);
     link_program = glLinkProgram(program: ProgramName);
-    use_program = glUseProgram(program: ProgramName);
     bind_program_pipeline = glBindProgramPipeline(pipeline: u32);
     uniform_1i = glUniform1i(location: i32, v: i32);
     uniform_1f = glUniform1f(location: i32, v: f32);

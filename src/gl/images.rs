@@ -24,6 +24,11 @@ impl ImageUnit {
 }
 
 impl Gl {
+    /// Whether shaders load from and store to images.
+    pub fn has_images(&self) -> bool {
+        self.since((4, 2), Some((3, 1))) || self.has_extension("GL_ARB_shader_image_load_store")
+    }
+
     /// What is bound to an image unit, counted from 0; none where that is nothing.
     pub fn image_unit(&self, unit: u32) -> Option<ImageUnit> {
         let ask = |name| self.get_integers_indexed::<1>(name, unit)[0];

@@ -23,11 +23,13 @@ mod pixels;
 mod positions;
 mod programs;
 mod questions;
+mod resources;
 pub mod shadow;
 #[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
 #[rustfmt::skip]
 mod table;
 mod textures;
+mod uniforms;
 
 pub use api::Gl;
 pub use bindings::{buffer_binding, texture_binding};
@@ -45,5 +47,6 @@ pub use object_names::{
 pub use pixel_store::PixelStore;
 pub use programs::{Active, BlockPlace};
 pub use real::{Ptr, Real};
+pub use resources::{BindingPoint, BoundRange};
 pub use table::{COUNT, NAMES, slot};
 pub use textures::{Level, is_multisampled};

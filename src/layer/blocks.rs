@@ -1,7 +1,9 @@
 //! Uniform blocks of the program's shaders: the buffers that are bound to them, and the matrices that are in those.
 
 use super::{Layer, Member};
-use crate::gl::{BlockPlace, BufferName, Gl, Mapping, ProgramName, consts as c};
+use crate::gl::{
+    BindingPoint, BlockPlace, BoundRange, BufferName, Gl, Mapping, ProgramName, consts as c,
+};
 use crate::state::{Found, State, UniformBuffers, binding_change, block_changes, link_change};
 use rustc_hash::FxHashMap;
 use std::sync::MutexGuard;
@@ -40,6 +42,11 @@ pub(super) struct BlockReader<'a> {
 }
 
 impl Blocks {
+    /// The buffer that is bound at a target.
+    pub(super) fn bound_at(&self, target: u32) -> BufferName {
+        self.bound.get(&target).copied().unwrap_or_default()
+    }
+
     /// The buffer and byte where a uniform of a block lies.
     fn place(
         &mut self,
@@ -103,7 +110,7 @@ impl BlockReader<'_> {
 
 impl Layer {
     /// The contents of uniform buffers that are followed.
-    fn buffers(&self) -> MutexGuard<'_, UniformBuffers> {
+    pub(super) fn buffers(&self) -> MutexGuard<'_, UniformBuffers> {
         self.session.group.uniform_buffers()
     }
 
@@ -126,25 +133,23 @@ impl Layer {
         }
     }
 
-    /// glBindBufferBase, glBindBufferRange and their kin: `start` is the first byte. With `generic` the buffer is bound at the target as well.
-    pub fn binds_buffer_at(
-        &mut self,
-        target: u32,
-        index: u32,
-        (buffer, start): (BufferName, usize),
-        generic: bool,
-    ) {
+    /// glBindBufferBase, glBindBufferRange and their kin. With `generic` the buffer is bound at the target as well.
+    pub fn binds_buffer_at(&mut self, target: u32, index: u32, range: BoundRange, generic: bool) {
+        let buffer = range.buffer;
         if generic {
             self.blocks.bound.insert(target, buffer);
         }
         match target {
             c::UNIFORM_BUFFER => {
                 self.buffers().follow(buffer);
-                self.blocks.points.insert(index, (buffer, start));
+                self.blocks.points.insert(index, (buffer, range.start));
                 block_changes();
             }
             c::SHADER_STORAGE_BUFFER | c::ATOMIC_COUNTER_BUFFER | c::TRANSFORM_FEEDBACK_BUFFER => {
                 self.buffers().bound_to_be_written(buffer);
+                if target != c::TRANSFORM_FEEDBACK_BUFFER {
+                    self.memory.binds(BindingPoint { target, index }, range);
+                }
             }
             _ => {}
         }
@@ -188,7 +193,7 @@ impl Layer {
     pub fn buffer_name(&self, which: BufferRef) -> BufferName {
         match which {
             BufferRef::Named(name) => name,
-            BufferRef::Bound(target) => self.blocks.bound.get(&target).copied().unwrap_or_default(),
+            BufferRef::Bound(target) => self.blocks.bound_at(target),
         }
     }
 
@@ -201,6 +206,7 @@ impl Layer {
         self.blocks
             .points
             .retain(|_, (bound, _)| !names.contains(bound));
+        self.memory.deleted(names);
         block_changes();
     }
 

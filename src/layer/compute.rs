@@ -1,12 +1,12 @@
 //! Compute shaders that read images which differ between the views: each view gets images of its own to be written to.
 
-use super::{Layer, keep_bindings};
+use super::Layer;
 use crate::atlas::Tiles;
 use crate::gl::{Gl, ImageUnit, Object, ProgramName};
 
 impl Layer {
-    /// glDispatchCompute: dispatches once, or for each view with its textures and images. Buffers are written by every dispatch. A shader
-    /// that writes to no image is dispatched once, with the textures and images of the program's own view.
+    /// glDispatchCompute: dispatches once, or for each view with its textures and images. Buffers are written once. A shader that writes to no
+    /// image is dispatched once, with the textures and images of the program's own view.
     pub fn compute(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         self.shaders_wrote();
         if !self.has_copies() {
@@ -31,15 +31,10 @@ impl Layer {
             self.write_back_textures(gl);
             return call();
         }
-        self.state.keep_errors(gl);
-        keep_bindings(gl, || {
-            for image in images.iter().filter(writes) {
-                self.targets
-                    .offscreen
-                    .split_named(gl, &mut self.targets.names, image.texture);
-            }
-        });
-        self.drain_own_errors(gl);
+        for image in images.iter().filter(writes) {
+            self.split_image(gl, image.texture);
+        }
+        let mut redirection = self.redirect(gl, &images);
         let tiles = Tiles {
             shown: self.wanted_views(),
             ..self.targets.atlas.tiles
@@ -48,23 +43,13 @@ impl Layer {
         self.queries.pause(gl);
         for view in tiles.order().filter(|&view| view != own).chain([own]) {
             self.targets.offscreen.bind(gl, &sampled, view);
-            for image in &images {
-                let views = self.targets.offscreen.views(image.texture);
-                if let Some(&name) = views.get(view.0 as usize) {
-                    gl.bind_image(image, name);
-                }
-            }
+            redirection.enter(gl, view, own);
             if view == own {
                 self.queries.resume(gl);
             }
             call();
         }
         self.targets.offscreen.unbind(gl, &sampled);
-        for image in &images {
-            gl.bind_image(image, image.texture);
-        }
-        for image in images.iter().filter(writes) {
-            self.targets.offscreen.written(image.texture);
-        }
+        redirection.leave(gl);
     }
 }

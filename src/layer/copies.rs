@@ -8,6 +8,14 @@ use super::{Layer, keep_bindings};
 use crate::gl::{FramebufferName, Gl, Object, RenderbufferName, TextureName, consts as c};
 use crate::view::ViewIndex;
 
+/// The texture that a copy writes to.
+#[derive(Clone, Copy, Debug)]
+enum CopyTo {
+    /// It is bound at this target of the active unit.
+    Bound(u32),
+    Named(TextureName),
+}
+
 impl Layer {
     /// glCopyTexImage* and glCopyTexSubImage*: copies from each view into its own texture. `x` and `width` are the columns in pixels.
     pub fn copy_texture(
@@ -18,32 +26,63 @@ impl Layer {
         width: i32,
         call: &mut dyn FnMut(),
     ) {
+        let to = CopyTo::Bound(target);
+        self.copy_from_views(gl, to, x, width, &mut |_| call());
+    }
+
+    /// The same for a command that names its texture; `call` gets the name.
+    pub fn copy_named_texture(
+        &mut self,
+        gl: &Gl,
+        texture: TextureName,
+        x: i32,
+        width: i32,
+        call: &mut dyn FnMut(TextureName),
+    ) {
+        self.copy_from_views(gl, CopyTo::Named(texture), x, width, call);
+    }
+
+    fn copy_from_views(
+        &mut self,
+        gl: &Gl,
+        to: CopyTo,
+        x: i32,
+        width: i32,
+        call: &mut dyn FnMut(TextureName),
+    ) {
         let from = self.state.framebuffers.read;
         if let (FramebufferName::ZERO, Reading::Parked(_)) = (from, self.canvases.reading()) {
-            return self.in_read_canvas(gl, |layer| layer.copy_texture(gl, target, x, width, call));
+            return self.in_read_canvas(gl, |layer| {
+                layer.copy_from_views(gl, to, x, width, call);
+            });
         }
         let differs = match from {
             FramebufferName::ZERO => self.reads_views(),
             _ => self.targets.offscreen.is_split(gl, from),
         };
-        let texture = self.bound_texture(gl, target);
+        let texture = match to {
+            CopyTo::Bound(target) => self.bound_texture(gl, target),
+            CopyTo::Named(texture) => texture,
+        };
+        let own_call = &mut || call(texture);
         if self.compiles() || !differs || texture.is_zero() {
-            return self.read(gl, x, width, call);
+            return self.read(gl, x, width, own_call);
         }
         self.leave_mono(gl);
         if from.is_zero() && !self.make_singles(gl, false) {
-            return self.read(gl, x, width, call);
+            return self.read(gl, x, width, own_call);
         }
         self.state.keep_errors(gl);
         let split = keep_bindings(gl, || {
-            let names = &mut self.targets.names;
-            self.targets
-                .offscreen
-                .split_texture(gl, names, (target, texture))
+            let (offscreen, names) = (&mut self.targets.offscreen, &mut self.targets.names);
+            match to {
+                CopyTo::Bound(target) => offscreen.split_texture(gl, names, (target, texture)),
+                CopyTo::Named(texture) => offscreen.split_named(gl, names, texture),
+            }
         });
         self.drain_own_errors(gl);
         self.state.keep_errors(gl);
-        self.read(gl, x, width, call);
+        self.read(gl, x, width, own_call);
         if self.state.keep_errors(gl) || !split {
             return; // a wrong call is as wrong in the other views
         }
@@ -63,14 +102,33 @@ impl Layer {
                         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
                     }
                 }
-                gl.bind_texture(target, name);
-                call();
+                if let CopyTo::Bound(target) = to {
+                    gl.bind_texture(target, name);
+                }
+                call(name);
             }
         }
-        gl.bind_texture(target, texture);
+        if let CopyTo::Bound(target) = to {
+            gl.bind_texture(target, texture);
+        }
         self.targets.offscreen.written(texture);
         self.drain_own_errors(gl);
         self.rebind(gl);
+    }
+
+    /// Runs `work` for a command on the textures of a unit, GL_TEXTURE0 and so on, which is the active one meanwhile.
+    pub fn with_unit<R>(&mut self, gl: &Gl, unit: u32, work: impl FnOnce(&mut Self) -> R) -> R {
+        let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+        // The driver refuses others.
+        let other = unit != active && unit.wrapping_sub(c::TEXTURE0) < 32;
+        if other {
+            gl.active_texture(unit);
+        }
+        let done = work(self);
+        if other {
+            gl.active_texture(active);
+        }
+        done
     }
 
     /// Whether what is read from framebuffer 0 may differ between the views.
@@ -147,6 +205,7 @@ impl Layer {
     /// glDeleteTextures.
     pub fn deleted_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
         self.targets.offscreen.deleted_textures(gl, textures);
+        self.images_change();
     }
 
     /// glDeleteRenderbuffers.

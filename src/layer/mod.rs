@@ -24,6 +24,7 @@ mod framebuffer;
 mod frames;
 mod immediate;
 mod lists;
+mod memory;
 mod mono;
 mod neutral;
 mod occlusion;
@@ -54,7 +55,7 @@ pub use control::Pictured;
 pub use draw::Primitives;
 pub use frames::Frames;
 pub use lists::is_scaled;
-pub use queries::Answer;
+pub use queries::{Answer, ResultPlace};
 pub use reading::DrawableId;
 pub use tracked::Primitive;
 
@@ -72,6 +73,7 @@ use canvas::Canvases;
 use diagnostics::Diagnostics;
 use fit::make_atlas;
 use frame::Frame;
+use memory::Memory;
 use recordings::Recordings;
 use session::Session;
 pub use share_group::Member;
@@ -114,6 +116,7 @@ pub struct Layer {
     frame: Frame,
     canvases: Canvases,
     blocks: Blocks,
+    memory: Memory,
     queries: queries::Queries,
     diagnostics: Diagnostics,
 }
@@ -189,6 +192,7 @@ impl Layer {
             frame: Frame::default(),
             canvases: Canvases::new(drawable.id),
             blocks: Blocks::default(),
+            memory: Memory::default(),
             queries: queries::Queries::default(),
             diagnostics: Diagnostics::new(report),
         });

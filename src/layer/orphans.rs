@@ -26,6 +26,7 @@ impl Layer {
             lists.orphans.buffers.extend(buffer);
             lists.orphans.fences.extend(fence);
         }
+        lists.orphans.buffers.extend(self.memory.take_buffers());
         let programs = self
             .targets
             .interleaver

@@ -2,10 +2,10 @@
 
 use super::blocks::BlockReader;
 use crate::draw::{Drawn, NoVariant, Variant};
-use crate::gl::{Gl, Held, ImageUnit, ProgramName};
+use crate::gl::{Gl, Held, ProgramName};
 use crate::plan::camera;
 use crate::plan::decide::Linked as Linking;
-use crate::state::{Matrices, Samplers, block_change, link_change, uniform_change};
+use crate::state::{Matrices, Samplers, SideEffects, block_change, link_change, uniform_change};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -74,6 +74,7 @@ pub(super) struct ProgramRecord {
     distorting: Option<Result<Arc<Variant>, NoVariant>>,
     matrices: Matrices,
     samplers: Samplers,
+    effects: Arc<SideEffects>,
     /// [`uniform_change`] when the samplers were last read, and their texture units with the targets.
     units: (u64, Vec<(u32, u32)>),
     /// Its matrices that unproject depths, with their locations. Before them: [`uniform_change`] and the aspect ratio that they were found
@@ -92,6 +93,7 @@ impl ProgramRecord {
         how: Result<Drawn, NoVariant>,
         matrices: Matrices,
         samplers: Samplers,
+        effects: SideEffects,
     ) -> Self {
         ProgramRecord {
             link,
@@ -99,6 +101,7 @@ impl ProgramRecord {
             how,
             matrices,
             samplers,
+            effects: Arc::new(effects),
             units: (0, Vec::new()),
             unprojections: (0, 0.0, Vec::new()),
             camera: CameraSearch {
@@ -313,14 +316,16 @@ impl OwnVariants {
         known.units.1.clone()
     }
 
-    /// What is bound to the image units that a program loads and stores.
-    pub(super) fn images(&self, gl: &Gl, program: ProgramName) -> Vec<ImageUnit> {
+    /// The image units that a program loads and stores, counted from 0.
+    pub(super) fn image_units(&self, gl: &Gl, program: ProgramName) -> Vec<u32> {
         let known = self.known.get(&program);
-        let units = known.map_or_else(Vec::new, |known| known.samplers.image_units(gl, program));
-        units
-            .into_iter()
-            .filter_map(|unit| gl.image_unit(unit))
-            .collect()
+        known.map_or_else(Vec::new, |known| known.samplers.image_units(gl, program))
+    }
+
+    /// Where a program writes to memory; none for a program without a record.
+    pub(super) fn effects(&self, program: ProgramName) -> Option<Arc<SideEffects>> {
+        let known = self.known.get(&program);
+        known.map(|known| known.effects.clone())
     }
 
     /// The projection of the camera of a program with a variant, column-major: `Some(None)` where no camera is found, `None` for a program

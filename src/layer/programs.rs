@@ -7,7 +7,9 @@ use crate::config::Strategy;
 use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
 use crate::plan::decide::{Linked as Linking, Shaders, VariantFacts};
-use crate::state::{Linked, Matrices, Samplers, Shaders as ProgramSources, link_change, sources};
+use crate::state::{
+    Linked, Matrices, Samplers, Shaders as ProgramSources, SideEffects, link_change, sources,
+};
 use std::sync::Arc;
 
 impl Layer {
@@ -151,7 +153,11 @@ impl Layer {
     /// What is bound to the image units that a program loads and stores.
     pub(super) fn images_of(&mut self, gl: &Gl, program: ProgramName) -> Vec<ImageUnit> {
         self.link_variant(gl, program);
-        self.variants.own.images(gl, program)
+        let units = self.variants.own.image_units(gl, program);
+        let images = units.into_iter();
+        images
+            .filter_map(|unit| self.memory.image(gl, unit))
+            .collect()
     }
 
     /// The number of a program, counted as they are linked, and the hash of its shaders' sources; 0 where they are not known.
@@ -193,6 +199,8 @@ impl Layer {
         };
         let matrices = Matrices::of(gl, program);
         let samplers = Samplers::of(gl, program);
+        let sources = linked.as_ref().map(|linked| &*linked.sources);
+        let effects = SideEffects::of(gl, program, sources);
         self.drain_own_errors(gl);
         match &how {
             Ok(Drawn::ByVariant(_)) => {
@@ -204,7 +212,7 @@ impl Layer {
                 "what program {program} draws is the same in all views: {reason}"
             )),
         }
-        let new = ProgramRecord::new((link, checked), how, matrices, samplers);
+        let new = ProgramRecord::new((link, checked), how, matrices, samplers, effects);
         self.variants.own.put(gl, program, new);
     }
 

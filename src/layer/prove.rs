@@ -29,6 +29,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 
 const FRONT: &str = "the program draws to the front buffer or reads from it";
 const COPIES: &str = "the program draws with a texture copied from the frame";
+const WRITES: &str = "the program's shaders write to memory";
 const ACCUM: &str = "the program uses the accumulation buffer";
 const ONCE: &str = "a profile keeps draws in the program's own view only";
 const STACK: &str = "the program's attribute stack was full";
@@ -222,6 +223,9 @@ impl Layer {
         }
         if !images.bound.is_empty() {
             return self.diagnostics.proving.refuse(COPIES);
+        }
+        if self.writes_memory() {
+            return self.diagnostics.proving.refuse(WRITES);
         }
         let mut sent = true;
         self.in_proof(gl, |layer| {

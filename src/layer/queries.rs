@@ -5,7 +5,7 @@
 
 use super::Layer;
 use super::feedback::Feedback;
-use crate::gl::{Gl, QueryName, consts as c};
+use crate::gl::{BufferName, Gl, QueryName, consts as c};
 use std::collections::HashMap;
 
 /// Active and ended queries of a context.
@@ -39,6 +39,31 @@ pub enum Answer {
     Any(bool),
     /// Whether the rest of the result is available.
     Available(bool),
+}
+
+impl Answer {
+    /// The whole result, with the driver's part of it.
+    #[must_use]
+    pub fn with(self, part: u64) -> u64 {
+        match self {
+            Answer::Count(count) => count.saturating_add(part),
+            Answer::Any(any) => u64::from(any || part != 0),
+            Answer::Available(all) => u64::from(all && part != 0),
+        }
+    }
+}
+
+/// The place in a buffer that a result of a query is written to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResultPlace {
+    /// None for that at GL_QUERY_BUFFER.
+    pub buffer: Option<BufferName>,
+    /// The first byte.
+    pub at: usize,
+    /// 4 or 8.
+    pub bytes: usize,
+    /// The largest number that fits.
+    pub most: u64,
 }
 
 const TARGETS: [u32; 14] = [
@@ -243,7 +268,8 @@ impl Queries {
         Some(match name {
             c::QUERY_RESULT | c::QUERY_RESULT_NO_WAIT => match *target {
                 c::ANY_SAMPLES_PASSED | c::ANY_SAMPLES_PASSED_CONSERVATIVE => {
-                    Answer::Any(values.any(|value| value != 0))
+                    // All are waited for, so that the result is available from now on.
+                    Answer::Any(values.fold(false, |any, value| any | (value != 0)))
                 }
                 _ => Answer::Count(values.map(u64::from).sum()),
             },
@@ -302,6 +328,58 @@ impl Layer {
     /// The query to ask the driver about in the place of one of the program's.
     pub fn asked_query(&self, query: QueryName) -> QueryName {
         self.queries.asked(query)
+    }
+
+    /// Whether a result of this query that goes to a buffer is to be written by [`Layer::result_to_buffer`].
+    pub fn continues_query(&self, query: QueryName) -> bool {
+        self.queries.is_continued(query)
+    }
+
+    /// Whether the program has bound a buffer that results of queries go to, in place of its memory.
+    pub fn has_query_buffer(&self) -> bool {
+        !self.blocks.bound_at(c::QUERY_BUFFER).is_zero()
+    }
+
+    /// A result of a query goes to a buffer; `call` is the program's own, with another name where it must not be left out.
+    pub fn result_to_buffer(
+        &mut self,
+        gl: &Gl,
+        query: QueryName,
+        name: u32,
+        place: ResultPlace,
+        call: &mut dyn FnMut(u32),
+    ) {
+        let name = match name {
+            c::QUERY_RESULT_NO_WAIT => c::QUERY_RESULT,
+            name => name,
+        };
+        self.state.keep_errors(gl);
+        call(name);
+        if self.state.keep_errors(gl) {
+            return;
+        }
+        let bound = BufferName(gl.get_integer(c::QUERY_BUFFER_BINDING) as u32);
+        let buffer = place.buffer.unwrap_or(bound);
+        gl.bind_buffer(c::QUERY_BUFFER, BufferName::ZERO);
+        let part = u64::from(gl.query_object(query, name));
+        let result = |query, name| gl.query_object(query, name);
+        let answer = self.queries.answer(query, name, result);
+        gl.bind_buffer(c::QUERY_BUFFER, bound);
+        if let Some(answer) = answer {
+            let whole = answer.with(part).min(place.most);
+            let before = BufferName(gl.get_integer(c::COPY_WRITE_BUFFER) as u32);
+            gl.bind_buffer(c::COPY_WRITE_BUFFER, buffer);
+            let (all, half) = (whole.to_ne_bytes(), (whole as u32).to_ne_bytes());
+            let bytes = if place.bytes == all.len() {
+                &all[..]
+            } else {
+                &half[..]
+            };
+            gl.buffer_sub_data(c::COPY_WRITE_BUFFER, place.at, bytes);
+            gl.bind_buffer(c::COPY_WRITE_BUFFER, before);
+        }
+        self.buffers().forget_all(buffer);
+        gl.drop_errors();
     }
 
     /// The part of a result of the program's query that our queries hold, if there are any.

@@ -1,5 +1,6 @@
 //! Features that a source uses, found by its tokens. Names in macros and in all branches of `#if` count as used.
 
+use super::memory::MemoryWrites;
 use super::scan::{Kind, Scan};
 use super::version::Version;
 
@@ -36,8 +37,8 @@ pub struct Facts {
     pub feedback: bool,
     /// There are subroutines, whose uniforms belong to the program that is bound.
     pub subroutines: bool,
-    /// Images, buffers or counters are written; a second draw would write them again.
-    pub side_effects: bool,
+    /// The memory that is written; a second draw would write it again.
+    pub writes: MemoryWrites,
     /// Uniform 4x4 matrices.
     pub matrices: Vec<Matrix>,
 }
@@ -49,17 +50,6 @@ pub struct Matrix {
     pub name: String,
     /// The name of the uniform block that it is in.
     pub block: Option<String>,
-}
-
-/// Whether a name is that of a function or declaration by which shaders write to memory.
-fn writes(name: &[u8], version: Version) -> bool {
-    // `buffer` is a plain name in versions without storage buffers; sources that get them by extension name the extension.
-    let buffers = version.desktop(430) || (version.es && version.number >= 310);
-    name.starts_with(b"imageStore")
-        || name.starts_with(b"imageAtomic")
-        || name.starts_with(b"atomic")
-        || name == b"GL_ARB_shader_storage_buffer_object"
-        || (buffers && name == b"buffer")
 }
 
 impl Facts {
@@ -85,7 +75,7 @@ impl Facts {
             cull_distance: false,
             feedback: false,
             subroutines: false,
-            side_effects: false,
+            writes: MemoryWrites::of(scan, version),
             matrices: matrices(scan),
         };
         for at in 0..scan.tokens.len() {
@@ -110,7 +100,6 @@ impl Facts {
                     facts.projection |= name.starts_with(b"gl_ModelViewProjectionMatrix")
                         || name.starts_with(b"gl_ProjectionMatrix");
                     facts.feedback |= name.starts_with(b"xfb_");
-                    facts.side_effects |= writes(name, version);
                 }
             }
         }

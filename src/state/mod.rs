@@ -9,6 +9,7 @@ mod lists;
 mod neutral;
 mod rectangles;
 mod shaders;
+mod side_effects;
 mod uniform_buffers;
 
 pub use classification::ClassificationState;
@@ -22,8 +23,10 @@ pub use shaders::{
     uniform_changes,
 };
 
+pub use side_effects::SideEffects;
 pub use uniform_buffers::{
     Found, UniformBuffers, binding_change, binding_changes, block_change, block_changes,
+    store_change, store_changes,
 };
 
 use crate::gl::{Gl, ProgramName, consts as c};

@@ -49,6 +49,19 @@ pub fn binding_change() -> u64 {
     BINDINGS.load(Ordering::Relaxed)
 }
 
+/// Number of times that some buffer got another store, in all contexts.
+static STORES: AtomicU64 = AtomicU64::new(1);
+
+/// Notes that a buffer gets another store.
+pub fn store_changes() {
+    STORES.fetch_add(1, Ordering::Relaxed);
+}
+
+/// The number of stores that buffers have got so far.
+pub fn store_change() -> u64 {
+    STORES.load(Ordering::Relaxed)
+}
+
 /// What is known of the matrix at a place of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Found {

@@ -1,7 +1,8 @@
 /* Preloaded behind the layer: a driver that is out of memory once, or from some call on.
  *   FAIL_AT    the number of the call that fails, counted from 1 over all commands below
  *   FAIL_FROM  all calls from this number on fail
- *   FAIL_OUT   a file that gets the name of the command that has failed first */
+ *   FAIL_OUT   a file that gets the name of the command that has failed first
+ *   LOST_AT    the context is lost at this swap of buffers: from then on all of them fail, and glGetError says so for ever */
 #define _GNU_SOURCE
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -10,6 +11,7 @@
 #include <stdlib.h>
 
 static __thread GLenum error;
+static int lost;
 
 static void *next(const char *name)
 {
@@ -24,6 +26,8 @@ static int fails(const char *name)
     static long calls, failed;
     const char *at = getenv("FAIL_AT"), *from = getenv("FAIL_FROM");
     calls++;
+    if (lost)
+        return 1;
     if (!(at && calls == atol(at)) && !(from && calls >= atol(from)))
         return 0;
     if (!failed++) {
@@ -98,8 +102,23 @@ GLenum glCheckFramebufferStatus(GLenum target)
     return GL_FRAMEBUFFER_UNSUPPORTED;
 }
 
+void glXSwapBuffers(void *display, unsigned long drawable)
+{
+    static int swaps;
+    const char *at = getenv("LOST_AT");
+    ((void (*)(void *, unsigned long))next("glXSwapBuffers"))(display, drawable);
+    lost |= at && ++swaps == atoi(at);
+}
+
+GLenum glGetGraphicsResetStatus(void)
+{
+    return lost ? GL_UNKNOWN_CONTEXT_RESET : GL_NO_ERROR;
+}
+
 GLenum glGetError(void)
 {
+    if (lost)
+        return GL_CONTEXT_LOST;
     GLenum pending = error;
     error = GL_NO_ERROR;
     return pending ? pending : ((GLenum(*)(void))next("glGetError"))();

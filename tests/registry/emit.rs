@@ -270,8 +270,9 @@ pub fn entry(commands: &[Command]) -> String {
                 };
                 writeln!(
                     o,
-                    "    if {not}imm::record(slot::{name}, Effect::{}, |rec| {{",
-                    effect(name)
+                    "    if {not}imm::record(slot::{name}, Effect::{}, |{}| {{",
+                    effect(name),
+                    if c.params.is_empty() { "_" } else { "rec" }
                 )
                 .unwrap();
                 o.push_str(&writes);
@@ -290,11 +291,12 @@ pub fn entry(commands: &[Command]) -> String {
                 )
                 .unwrap();
             }
-            "matrix" | "cap" | "list_only" | "before_uncompiled" | "uniform" | "texture" | "texture_parameter" | "divide" | "write_back" | "storage" | "named" | "attached" => {
+            "matrix" | "cap" | "list_only" | "before_uncompiled" | "uniform" | "texture" | "texture_parameter" | "divide" | "images" | "write_back" | "storage" | "named" | "unit_texture" | "attached" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
-                    "list_only" | "before_uncompiled" | "uniform" | "texture_parameter" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
+                    "list_only" | "before_uncompiled" | "uniform" | "texture_parameter" | "divide" | "images" | "write_back" | "storage" | "attached" => format!("{class}()"),
                     "texture" => "texture(target)".into(),
+                    "unit_texture" => "unit_texture(texunit, target)".into(),
                     "named" => format!("named(Object::{arg}({arg}Name({})))", c.params[0].name),
                     _ => {
                         let hook = if c.params.len() > 1 { "cap_indexed" } else { "cap" };
@@ -310,6 +312,8 @@ pub fn entry(commands: &[Command]) -> String {
             "draw" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::draw(Kind::{arg}, &mut |gl| {call})").unwrap(),
             "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(x, width, &mut |gl| {call})").unwrap(),
             "copy" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::copy(target, x, width, &mut |gl| {call})").unwrap(),
+            "copy_unit" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::copy_unit(texunit, target, x, width, &mut |gl| {call})").unwrap(),
+            "copy_named" => writeln!(o, "    // SAFETY: the program's own call, also on a texture of ours.\n    hooks::copy_named(TextureName(texture), x, width, &mut |gl, TextureName(texture)| {call})").unwrap(),
             "now" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read_now(x, width, &mut |gl| {call})").unwrap(),
             "compute" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::compute(&mut |gl| {call})").unwrap(),
             "mipmap" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::mipmap(target, &mut |gl| {call})").unwrap(),

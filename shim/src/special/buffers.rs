@@ -4,9 +4,9 @@ use crate::context::{current_key, peek, real};
 use crate::hooks::{before_uncompiled, uniform};
 use crate::shares;
 use core::slice::from_raw_parts;
-use manyview_core::gl::{BufferName, Mapping, Ptr, buffer_binding, consts as c};
+use manyview_core::gl::{BoundRange, BufferName, Mapping, Ptr, buffer_binding, consts as c};
 use manyview_core::layer::BufferRef;
-use manyview_core::state::{UniformBuffers, binding_changes};
+use manyview_core::state::{UniformBuffers, binding_changes, store_changes};
 
 /// Runs `change` on the contents of a buffer, if the layer follows them.
 fn change(which: BufferRef, change: impl FnOnce(&mut UniformBuffers, BufferName)) {
@@ -34,6 +34,16 @@ pub(crate) unsafe fn glUniformBlockBinding(
     binding_changes();
 }
 
+pub(crate) unsafe fn glShaderStorageBlockBinding(
+    program: u32,
+    storageBlockIndex: u32,
+    storageBlockBinding: u32,
+) {
+    uniform();
+    // SAFETY: the program's own call.
+    unsafe { real().glShaderStorageBlockBinding(program, storageBlockIndex, storageBlockBinding) };
+}
+
 pub(crate) unsafe fn glBindBuffer(target: u32, buffer: u32) {
     before_uncompiled();
     // SAFETY: the program's own call.
@@ -44,7 +54,12 @@ pub(crate) unsafe fn glBindBuffer(target: u32, buffer: u32) {
 pub(crate) unsafe fn glBindBufferBase(target: u32, index: u32, buffer: u32) {
     // SAFETY: the program's own call.
     unsafe { real().glBindBufferBase(target, index, buffer) };
-    peek(|l| l.binds_buffer_at(target, index, (BufferName(buffer), 0), true));
+    let range = BoundRange {
+        buffer: BufferName(buffer),
+        start: 0,
+        size: None,
+    };
+    peek(|l| l.binds_buffer_at(target, index, range, true));
 }
 
 pub(crate) unsafe fn glBindBufferRange(
@@ -56,26 +71,42 @@ pub(crate) unsafe fn glBindBufferRange(
 ) {
     // SAFETY: the program's own call.
     unsafe { real().glBindBufferRange(target, index, buffer, offset, size) };
-    let start = usize::try_from(offset).unwrap_or(0);
-    peek(|l| l.binds_buffer_at(target, index, (BufferName(buffer), start), true));
+    let range = BoundRange {
+        buffer: BufferName(buffer),
+        start: usize::try_from(offset).unwrap_or(0),
+        size: Some(usize::try_from(size).unwrap_or(0)),
+    };
+    peek(|l| l.binds_buffer_at(target, index, range, true));
 }
 
 /// Notes the buffers that several binding points get.
 ///
 /// # Safety
 /// The arrays have `count` elements, or are null.
-unsafe fn bound_to_many(target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr) {
+unsafe fn bound_to_many(
+    target: u32,
+    first: u32,
+    count: i32,
+    buffers: Ptr,
+    [offsets, sizes]: [Ptr; 2],
+) {
     for at in 0..usize::try_from(count).unwrap_or(0) {
         // SAFETY: forwarded.
-        let (buffer, start) = unsafe {
+        let (buffer, [start, size]) = unsafe {
             let buffer =
                 (!buffers.is_null()).then(|| buffers.cast::<u32>().add(at).read_unaligned());
-            let start =
-                (!offsets.is_null()).then(|| offsets.cast::<isize>().add(at).read_unaligned());
-            (buffer.unwrap_or(0), start.unwrap_or(0))
+            let bytes = [offsets, sizes].map(|bytes: Ptr| {
+                (!bytes.is_null()).then(|| bytes.cast::<isize>().add(at).read_unaligned())
+            });
+            (buffer.unwrap_or(0), bytes)
         };
-        let place = (BufferName(buffer), usize::try_from(start).unwrap_or(0));
-        peek(|l| l.binds_buffer_at(target, first.saturating_add(at as u32), place, false));
+        let bytes = |given: isize| usize::try_from(given).unwrap_or(0);
+        let range = BoundRange {
+            buffer: BufferName(buffer),
+            start: start.map_or(0, bytes),
+            size: size.map(bytes).filter(|_| buffer != 0),
+        };
+        peek(|l| l.binds_buffer_at(target, first.saturating_add(at as u32), range, false));
     }
 }
 
@@ -83,7 +114,7 @@ pub(crate) unsafe fn glBindBuffersBase(target: u32, first: u32, count: i32, buff
     // SAFETY: the program's own call, and its array.
     unsafe {
         real().glBindBuffersBase(target, first, count, buffers);
-        bound_to_many(target, first, count, buffers, core::ptr::null_mut());
+        bound_to_many(target, first, count, buffers, [core::ptr::null_mut(); 2]);
     }
 }
 
@@ -98,7 +129,7 @@ pub(crate) unsafe fn glBindBuffersRange(
     // SAFETY: the program's own call, and its arrays.
     unsafe {
         real().glBindBuffersRange(target, first, count, buffers, offsets, sizes);
-        bound_to_many(target, first, count, buffers, offsets);
+        bound_to_many(target, first, count, buffers, [offsets, sizes]);
     }
 }
 
@@ -130,6 +161,7 @@ unsafe fn replaced(which: BufferRef, size: isize, data: Ptr, call: impl FnOnce()
     };
     change(which, UniformBuffers::unmapped_by_driver);
     call();
+    store_changes();
     // SAFETY: forwarded.
     let data = unsafe { bytes(data, size) };
     let size = usize::try_from(size).unwrap_or(0);

@@ -53,36 +53,43 @@ pub(crate) unsafe fn glDeleteRenderbuffers(n: i32, renderbuffers: Ptr) {
     unsafe { real().glDeleteRenderbuffers(n, renderbuffers) };
 }
 
-pub(crate) unsafe fn glCopyImageSubData(
-    srcName: u32,
-    srcTarget: u32,
-    srcLevel: i32,
-    srcX: i32,
-    srcY: i32,
-    srcZ: i32,
-    dstName: u32,
-    dstTarget: u32,
-    dstLevel: i32,
-    dstX: i32,
-    dstY: i32,
-    dstZ: i32,
-    srcWidth: i32,
-    srcHeight: i32,
-    srcDepth: i32,
-) {
-    write_back();
-    named(match dstTarget {
-        c::RENDERBUFFER => Object::Renderbuffer(RenderbufferName(dstName)),
-        _ => Object::Texture(TextureName(dstName)),
-    });
-    // SAFETY: the program's own call.
-    unsafe {
-        real().glCopyImageSubData(
-            srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX,
-            dstY, dstZ, srcWidth, srcHeight, srcDepth,
-        )
-    };
+/// Hooks of a command that copies between images.
+macro_rules! copies_images {
+    ($($name:ident),*) => {$(
+        pub(crate) unsafe fn $name(
+            srcName: u32,
+            srcTarget: u32,
+            srcLevel: i32,
+            srcX: i32,
+            srcY: i32,
+            srcZ: i32,
+            dstName: u32,
+            dstTarget: u32,
+            dstLevel: i32,
+            dstX: i32,
+            dstY: i32,
+            dstZ: i32,
+            width: i32,
+            height: i32,
+            depth: i32,
+        ) {
+            write_back();
+            named(match dstTarget {
+                c::RENDERBUFFER => Object::Renderbuffer(RenderbufferName(dstName)),
+                _ => Object::Texture(TextureName(dstName)),
+            });
+            // SAFETY: the program's own call.
+            unsafe {
+                real().$name(
+                    srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel,
+                    dstX, dstY, dstZ, width, height, depth,
+                )
+            };
+        }
+    )*};
 }
+
+copies_images!(glCopyImageSubData, glCopyImageSubDataNV);
 
 pub(crate) unsafe fn glGenerateTextureMipmap(texture: u32) {
     before_uncompiled();
@@ -91,6 +98,24 @@ pub(crate) unsafe fn glGenerateTextureMipmap(texture: u32) {
     // SAFETY: the program's own call, on a texture of ours.
     let call = &mut |name: TextureName| unsafe { real().glGenerateTextureMipmap(name.0) };
     if_split(|gl, l| l.mipmaps_of(gl, TextureName(texture), call));
+}
+
+pub(crate) unsafe fn glGenerateTextureMipmapEXT(texture: u32, target: u32) {
+    before_uncompiled();
+    // SAFETY: the program's own call.
+    unsafe { real().glGenerateTextureMipmapEXT(texture, target) };
+    // SAFETY: the program's own call, on a texture of ours.
+    let call =
+        &mut |name: TextureName| unsafe { real().glGenerateTextureMipmapEXT(name.0, target) };
+    if_split(|gl, l| l.mipmaps_of(gl, TextureName(texture), call));
+}
+
+pub(crate) unsafe fn glGenerateMultiTexMipmapEXT(texunit: u32, target: u32) {
+    before_uncompiled();
+    // SAFETY: the program's own call.
+    let mut call = || unsafe { real().glGenerateMultiTexMipmapEXT(texunit, target) };
+    call();
+    if_split(|gl, l| l.with_unit(gl, texunit, |l| l.mipmaps(gl, target, &mut call)));
 }
 
 /// A call that chooses buffers. `ours` handles framebuffer 0; the driver handles the others, and names that `ours` does not know.
@@ -149,24 +174,31 @@ unsafe fn buffers(n: i32, bufs: Ptr) -> Option<Vec<u32>> {
     Some(unsafe { from_raw_parts(bufs as *const u32, n) }.to_vec())
 }
 
-pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
-    // SAFETY: the program's array.
-    let names = unsafe { buffers(n, bufs) };
-    if compile(Command::Of(Run::DrawBuffers), Touch::NONE) {
-        // A call without valid names is an error with any framebuffer.
-        let mut compiled = vec![1];
-        compiled.extend_from_slice(names.as_deref().unwrap_or(&[u32::MAX]));
-        enter(|_, l| l.compiled_names(&compiled));
-        // SAFETY: compiled into the program's list.
-        return unsafe { real().glDrawBuffers(n, bufs) };
-    }
-    choose_draw(
-        names.as_deref(),
-        true,
-        // SAFETY: the program's own call.
-        &mut || unsafe { real().glDrawBuffers(n, bufs) },
-    );
+/// Hooks of a command that chooses several draw buffers.
+macro_rules! chooses_several {
+    ($($name:ident),*) => {$(
+        pub(crate) unsafe fn $name(n: i32, bufs: Ptr) {
+            // SAFETY: the program's array.
+            let names = unsafe { buffers(n, bufs) };
+            if compile(Command::Of(Run::DrawBuffers), Touch::NONE) {
+                // A call without valid names is an error with any framebuffer.
+                let mut compiled = vec![1];
+                compiled.extend_from_slice(names.as_deref().unwrap_or(&[u32::MAX]));
+                enter(|_, l| l.compiled_names(&compiled));
+                // SAFETY: compiled into the program's list.
+                return unsafe { real().$name(n, bufs) };
+            }
+            choose_draw(
+                names.as_deref(),
+                true,
+                // SAFETY: the program's own call.
+                &mut || unsafe { real().$name(n, bufs) },
+            );
+        }
+    )*};
 }
+
+chooses_several!(glDrawBuffers, glDrawBuffersNV);
 
 pub(crate) unsafe fn glReadBufferNV(mode: u32) {
     // The extension has the same command, for contexts that lack the plain name.

@@ -2,6 +2,7 @@
 
 use crate::context::{enter, peek, real};
 use crate::hooks::{Touch, before_uncompiled, touch};
+use manyview_core::gl::shadow::forget_subroutines;
 use manyview_core::gl::{ProgramName, Ptr, consts::DELETE_STATUS};
 
 pub(crate) unsafe fn glLinkProgram(program: u32) {
@@ -25,6 +26,7 @@ pub(crate) unsafe fn glUseProgram(program: u32) {
     touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     // SAFETY: the program's own call.
     unsafe { real().glUseProgram(program) };
+    forget_subroutines();
     if peek(|l| l.has_pending_deletions()) == Some(true) {
         enter(|gl, l| l.delete_pending(gl));
     }

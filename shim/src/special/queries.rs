@@ -4,8 +4,8 @@ use crate::context::{enter, peek, real};
 use crate::hooks::{before_uncompiled, compile};
 use core::slice::from_raw_parts;
 use manyview_core::gl::consts::CURRENT_QUERY;
-use manyview_core::gl::{Ptr, QueryName};
-use manyview_core::layer::Answer;
+use manyview_core::gl::{BufferName, Ptr, QueryName};
+use manyview_core::layer::{Answer, ResultPlace};
 use manyview_core::state::{Command, Run, Touch};
 
 /// Hooks of the commands that begin and end a query, under the names of OpenGL and of the extension of OpenGL ES.
@@ -119,19 +119,21 @@ macro_rules! query_object {
         pub(crate) unsafe fn $name(id: u32, pname: u32, params: Ptr) {
             before_uncompiled();
             let query = QueryName(id);
+            if continues(query) && peek(|l| l.has_query_buffer()) == Some(true) {
+                let place = place::<$value>(None, params as usize, <$value>::MAX as u64);
+                // SAFETY: the program's own call.
+                let call = &mut |pname| unsafe { real().$name(id, pname, params) };
+                enter(|gl, l| l.result_to_buffer(gl, query, pname, place, call));
+                return;
+            }
             let asked = peek(|l| l.asked_query(query)).unwrap_or(query);
             // SAFETY: the program's own call.
             unsafe { real().$name(asked.0, pname, params) };
             if let Some(answer) = more(query, pname, params) {
                 // SAFETY: the driver has written one value there.
                 let value = unsafe { &mut *params.cast::<$value>() };
-                *value = match answer {
-                    Answer::Count(n) => {
-                        value.saturating_add(<$value>::try_from(n).unwrap_or(<$value>::MAX))
-                    }
-                    Answer::Any(any) => <$value>::from(any || *value != 0),
-                    Answer::Available(all) => <$value>::from(all && *value != 0),
-                };
+                let whole = answer.with(u64::try_from(*value).unwrap_or(0));
+                *value = <$value>::try_from(whole).unwrap_or(<$value>::MAX);
             }
         }
     };
@@ -142,3 +144,40 @@ query_object!(glGetQueryObjectuiv, u32);
 query_object!(glGetQueryObjectuivEXT, u32);
 query_object!(glGetQueryObjecti64v, i64);
 query_object!(glGetQueryObjectui64v, u64);
+
+/// Whether queries of ours hold a part of the result of an ended one.
+fn continues(query: QueryName) -> bool {
+    peek(|l| l.continues_query(query)) == Some(true)
+}
+
+fn place<T>(buffer: Option<BufferName>, at: usize, most: u64) -> ResultPlace {
+    ResultPlace {
+        buffer,
+        at,
+        bytes: size_of::<T>(),
+        most,
+    }
+}
+
+/// Hooks of the commands that write results of queries to buffers that they name.
+macro_rules! query_buffer_object {
+    ($name:ident, $value:ty) => {
+        pub(crate) unsafe fn $name(id: u32, buffer: u32, pname: u32, offset: isize) {
+            before_uncompiled();
+            // SAFETY: the program's own call.
+            let call = &mut |pname| unsafe { real().$name(id, buffer, pname, offset) };
+            let query = QueryName(id);
+            if !continues(query) {
+                return call(pname);
+            }
+            let at = usize::try_from(offset).unwrap_or(0);
+            let place = place::<$value>(Some(BufferName(buffer)), at, <$value>::MAX as u64);
+            enter(|gl, l| l.result_to_buffer(gl, query, pname, place, call));
+        }
+    };
+}
+
+query_buffer_object!(glGetQueryBufferObjectiv, i32);
+query_buffer_object!(glGetQueryBufferObjectuiv, u32);
+query_buffer_object!(glGetQueryBufferObjecti64v, i64);
+query_buffer_object!(glGetQueryBufferObjectui64v, u64);

@@ -1,6 +1,7 @@
 //! Questions: what is known is answered; else the driver is asked, and its answer is kept.
 
 use super::key::{self, Form, Kept, Key};
+use super::uniforms::BlockKind;
 use super::{Shadow, matrices, with};
 use crate::gl::consts as c;
 
@@ -40,19 +41,28 @@ pub(in crate::gl) fn is_uniform_unchanged(program: u32, location: i32, since: u6
 
 /// The binding points of a program's uniform blocks: what is known, or what `ask` answers.
 pub(in crate::gl) fn block_bindings(program: u32, ask: impl Fn() -> Vec<u32>) -> Vec<u32> {
+    blocks(program, BlockKind::Uniform, ask)
+}
+
+/// The binding points of a program's storage blocks: what is known, or what `ask` answers.
+pub(in crate::gl) fn storage_bindings(program: u32, ask: impl Fn() -> Vec<u32>) -> Vec<u32> {
+    blocks(program, BlockKind::Storage, ask)
+}
+
+fn blocks(program: u32, kind: BlockKind, ask: impl Fn() -> Vec<u32>) -> Vec<u32> {
     let uniforms = with(|s| s.uniforms.clone());
-    if let Some(known) = uniforms.as_ref().and_then(|u| u.blocks(program)) {
+    if let Some(known) = uniforms.as_ref().and_then(|u| u.blocks(program, kind)) {
         if cfg!(feature = "check-shadow") {
             assert_eq!(
                 known,
                 ask(),
-                "bindings of uniform blocks of program {program}"
+                "bindings of blocks of program {program}, {kind:?}"
             );
         }
         return known;
     }
     let bindings = ask();
-    uniforms.inspect(|u| u.blocks_are(program, bindings.clone()));
+    uniforms.inspect(|u| u.blocks_are(program, kind, bindings.clone()));
     bindings
 }
 

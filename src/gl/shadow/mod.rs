@@ -16,6 +16,7 @@ mod matrices;
 mod objects;
 mod stack;
 mod store;
+mod subroutines;
 mod uniforms;
 mod values;
 
@@ -23,8 +24,8 @@ use super::consts as c;
 use super::real::Real;
 pub(super) use ask::{
     attributes, block_bindings, has_extension, is_enabled, is_enabled_at, is_uniform_unchanged,
-    keep_uniform, light, material, matrix, tex_env, tex_gen, uniform, uniform_changes, value,
-    value_at,
+    keep_uniform, light, material, matrix, storage_bindings, tex_env, tex_gen, uniform,
+    uniform_changes, value, value_at,
 };
 use change::Change;
 use core::cell::{Cell, RefCell};
@@ -36,6 +37,9 @@ use matrices::Matrices;
 use rustc_hash::{FxHashMap, FxHashSet};
 use stack::Stack;
 use store::Store;
+use subroutines::Subroutines;
+pub use subroutines::forget_subroutines;
+pub(super) use subroutines::subroutines_of;
 use uniforms::UniformValues;
 
 /// Objects that were deleted by any context: their names may become those of others.
@@ -84,6 +88,7 @@ pub(super) struct Shadow {
     compiling: Option<Compiling>,
     lists: CompiledLists,
     uniforms: UniformValues,
+    subroutines: Subroutines,
     /// Between glBegin and glEnd, where the driver refuses most calls.
     inside: bool,
     /// Some capability was set by its index. Until then, none is kept by its index.
@@ -123,6 +128,7 @@ impl ContextShadow {
             compiling: None,
             lists: shared.lists,
             uniforms: shared.uniforms,
+            subroutines: Subroutines::default(),
             inside: false,
             indexed: false,
             binding_points: false,

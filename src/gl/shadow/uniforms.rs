@@ -5,8 +5,8 @@ use super::Shadow;
 use super::change::Change;
 use super::key::Key;
 use crate::gl::consts as c;
-use crate::gl::programs::{Base, shape};
 use crate::gl::real::Ptr;
+use crate::gl::uniforms::{Base, shape};
 use core::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use rustc_hash::FxHashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -31,8 +31,15 @@ struct Uniform {
 struct Program {
     uniforms: FxHashMap<i32, Uniform>,
     changes: u64,
-    /// Binding points of its uniform blocks, by index.
-    blocks: Option<Vec<u32>>,
+    /// Binding points of its blocks of each kind, by index.
+    blocks: [Option<Vec<u32>>; 2],
+}
+
+/// A kind of blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum BlockKind {
+    Uniform,
+    Storage,
 }
 
 #[derive(Debug, Default)]
@@ -54,7 +61,7 @@ pub(super) fn unseen() {
 impl Program {
     fn forget(&mut self) {
         self.changes += 1;
-        self.blocks = None;
+        self.blocks = [None, None];
         for uniform in self.uniforms.values_mut() {
             uniform.value = None;
             uniform.changed = self.changes;
@@ -126,29 +133,31 @@ impl UniformValues {
         uniform.is_some_and(|uniform| uniform.changed <= since)
     }
 
-    pub(super) fn blocks(&self, program: u32) -> Option<Vec<u32>> {
-        self.all().programs.get(&program)?.blocks.clone()
+    pub(super) fn blocks(&self, program: u32, kind: BlockKind) -> Option<Vec<u32>> {
+        self.all().programs.get(&program)?.blocks[kind as usize].clone()
     }
 
-    pub(super) fn blocks_are(&self, program: u32, bindings: Vec<u32>) {
+    pub(super) fn blocks_are(&self, program: u32, kind: BlockKind, bindings: Vec<u32>) {
         let mut all = self.all();
-        all.programs.entry(program).or_default().blocks = Some(bindings);
+        all.programs.entry(program).or_default().blocks[kind as usize] = Some(bindings);
     }
 
-    /// glUniformBlockBinding.
-    pub(super) fn block_is_bound(&self, program: u32, block: u32, binding: u32) {
+    /// glUniformBlockBinding and glShaderStorageBlockBinding.
+    fn block_is_bound(&self, program: u32, kind: BlockKind, block: u32, binding: u32) {
         let mut all = self.all();
         let Some(program) = all.programs.get_mut(&program) else {
             return;
         };
-        // OpenGL has at least 36 binding points.
-        let bound = program
-            .blocks
-            .as_mut()
-            .and_then(|blocks| blocks.get_mut(block as usize));
+        // There are at least so many binding points.
+        let points = match kind {
+            BlockKind::Uniform => 36,
+            BlockKind::Storage => 8,
+        };
+        let blocks = &mut program.blocks[kind as usize];
+        let bound = blocks.as_mut().and_then(|all| all.get_mut(block as usize));
         match bound {
-            Some(bound) if binding < 36 => *bound = binding,
-            _ => program.blocks = None,
+            Some(bound) if binding < points => *bound = binding,
+            _ => *blocks = None,
         }
     }
 }
@@ -235,7 +244,18 @@ impl Shadow {
         block: u32,
         binding: u32,
     ) {
-        self.uniforms.block_is_bound(program, block, binding);
+        let kind = BlockKind::Uniform;
+        self.uniforms.block_is_bound(program, kind, block, binding);
+    }
+
+    pub(in crate::gl) unsafe fn glShaderStorageBlockBinding(
+        &mut self,
+        program: u32,
+        block: u32,
+        binding: u32,
+    ) {
+        let kind = BlockKind::Storage;
+        self.uniforms.block_is_bound(program, kind, block, binding);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Execute: sends one [`Draw`] to the driver by the method that was decided, or by replay where that method turns out to be impossible.
 
 use super::super::Layer;
+use super::super::memory::Redirection;
 use super::super::own_variants::{Entered, VariantUse};
 use super::super::targets::Targets;
 use super::{Draw, Images, Send};
@@ -91,9 +92,7 @@ impl Layer {
 
     /// Makes the call once, in the program's own view only.
     fn once(&mut self, gl: &Gl, images: &Images, call: &mut dyn FnMut()) {
-        if self.has_copies()
-            && (!images.bound.is_empty() || self.state.primitives.transform_feedback)
-        {
+        if self.has_copies() && (images.differ() || self.state.primitives.transform_feedback) {
             self.write_back_textures(gl);
         }
         // Feedback and selection draw nothing, and report places in the program's own viewport.
@@ -202,6 +201,10 @@ impl Layer {
         images: &Images,
         call: &mut dyn FnMut(ViewIndex),
     ) -> bool {
+        let mut redirection = match hazard {
+            ReplayHazard::Clear => Redirection::default(),
+            _ => self.redirect(gl, &images.units),
+        };
         let Layer {
             targets,
             state,
@@ -226,11 +229,13 @@ impl Layer {
                 frame.owe_own_view(false);
             }
             offscreen.bind(gl, &images.bound, view);
+            redirection.enter(gl, view, own);
             call(view);
         };
         let sent = replay(gl, surface, state, &known.rig, shear, hazard, true, each);
         frame.owe_own_view(false);
         offscreen.unbind(gl, &images.bound);
+        redirection.leave(gl);
         sent
     }
 

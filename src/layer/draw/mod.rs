@@ -20,7 +20,7 @@ use super::Layer;
 use crate::atlas::ViewSet;
 use crate::config::Class;
 use crate::draw::{Drawing, ReplayHazard};
-use crate::gl::Gl;
+use crate::gl::{Gl, ImageUnit};
 use crate::offscreen::Bound;
 use crate::plan::decide::Demand;
 use crate::plan::{Kind, Method, Plan, decide};
@@ -60,6 +60,17 @@ pub(super) struct Images {
     pub(super) bound: Arc<[Bound]>,
     /// The matrices by which the program computes positions from depths, with their uniform locations.
     pub(super) unprojections: Arc<[(i32, [f32; 16])]>,
+    /// What the draw may load from and store to by image units.
+    pub(super) units: Arc<[ImageUnit]>,
+    /// Some of those differ between the views.
+    pub(super) units_differ: bool,
+}
+
+impl Images {
+    /// Whether the draw reads what differs between the views.
+    pub(super) fn differ(&self) -> bool {
+        self.units_differ || !self.bound.is_empty()
+    }
 }
 
 /// A command that was decided, and for which everything is ready.

@@ -3,7 +3,7 @@
 use super::super::Layer;
 use super::{Images, Request};
 use crate::config::{Output, Projection, Strategy};
-use crate::gl::{Gl, ProgramName, consts as c};
+use crate::gl::{Gl, ImageUnit, Object, ProgramName, consts as c};
 use crate::interleave::Sources;
 use crate::plan::class::{Classed, Target, Traits};
 use crate::plan::decide::{
@@ -48,7 +48,7 @@ impl Layer {
             true => Images::none(),
             false => self.observe_images(gl),
         };
-        let reads_views = !images.bound.is_empty();
+        let reads_views = images.differ();
         let mut facts = Facts {
             traits,
             classed,
@@ -281,15 +281,20 @@ impl Layer {
         if self.session.config.views < 2 || !self.state.makes_pictures() {
             return Images::none();
         }
+        let units = self.image_units(gl);
         let bound = self.sampled(gl);
         // The depths of a view have to be unprojected by its own camera.
         let unprojections = match bound.is_empty() {
             true => Arc::default(),
             false => self.unprojections_of(gl, self.state.in_use.program).into(),
         };
+        let offscreen = &self.targets.offscreen;
+        let differs = |unit: &ImageUnit| offscreen.has(Object::Texture(unit.texture));
         Images {
             bound,
             unprojections,
+            units_differ: units.iter().any(differs),
+            units,
         }
     }
 }
@@ -299,6 +304,8 @@ impl Images {
         Images {
             bound: Arc::default(),
             unprojections: Arc::default(),
+            units: Arc::default(),
+            units_differ: false,
         }
     }
 }

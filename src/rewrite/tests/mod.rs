@@ -231,10 +231,6 @@ fn what_a_text_uses() {
             "Bones.bones"
         ]
     );
-    let effects = |text: &str| facts(text.as_bytes(), false).unwrap().side_effects;
-    assert!(effects("#version 430\nbuffer B { int a; };"));
-    assert!(effects("void f() { imageStore(i, ivec2(0), vec4(0)); }"));
-    assert!(!effects("#version 120\nuniform sampler2D buffer;"));
 }
 
 #[test]
