@@ -179,8 +179,9 @@ fn the_connection_to_the_x_server_is_lost() {
             .arg(demo("gears"))
             .args(["--frames", "1000000", "--size", "160x120"])
             .stderr(std::process::Stdio::piped());
-        let child = screen.give(&mut command).spawn().expect("it starts");
+        let mut child = screen.give(&mut command).spawn().expect("it starts");
         std::thread::sleep(std::time::Duration::from_secs(2));
+        assert!(child.try_wait().expect("asked").is_none(), "it draws");
         drop(screen);
         let output = child.wait_with_output().expect("it ends");
         let stderr = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1880] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1881] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1888,10 +1888,11 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1880] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1880] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1881] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -3772,11 +3773,12 @@ pub(crate) static HOOK: [Option<crate::Address>; 1880] = [
     None,
     None,
     None,
+    None,
 ];
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1880] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1881] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -5610,6 +5612,7 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1880] = [
     Some(zeros_OSMesaCreateContextAttribs),
     Some(zeros_OSMesaDestroyContext),
     Some(zeros_OSMesaGetProcAddress),
+    None,
     None,
     None,
     None,
@@ -15899,19 +15902,19 @@ export! { 994, glGetCompressedTextureImage, first_glGetCompressedTextureImage, h
     unsafe { gl.glGetCompressedTextureImage(texture, level, bufSize, pixels) };
 } }
 export! { 995, glBindImageTexture, first_glBindImageTexture, hook_glBindImageTexture, zeros_glBindImageTexture, (unit: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: u32) -> (), {
-    hooks::images();
+    hooks::images(unit, 1);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTexture(unit, texture, level, layered, layer, access, format) };
 } }
 export! { 996, glBindImageTextures, first_glBindImageTextures, hook_glBindImageTextures, zeros_glBindImageTextures, (first: u32, count: i32, textures: Ptr) -> (), {
-    hooks::images();
+    hooks::images(first, count);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTextures(first, count, textures) };
 } }
 export! { 997, glBindImageTextureEXT, first_glBindImageTextureEXT, hook_glBindImageTextureEXT, zeros_glBindImageTextureEXT, (index: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: i32) -> (), {
-    hooks::images();
+    hooks::images(index, 1);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTextureEXT(index, texture, level, layered, layer, access, format) };

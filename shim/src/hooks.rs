@@ -74,7 +74,11 @@ pub(crate) fn texture(target: u32) {
 #[inline]
 pub(crate) fn unit_texture(unit: u32, target: u32) {
     list_only();
-    if_split(|gl, l| l.with_unit(gl, unit, |l| l.texture_written(gl, target)));
+    if_split(|gl, l| {
+        if !l.compiles() {
+            l.with_unit(gl, unit, |l| l.texture_written(gl, target));
+        }
+    });
 }
 
 /// Before a command that writes to a texture or renderbuffer, which it names.
@@ -91,11 +95,11 @@ pub(crate) fn write_back() {
     if_split(|gl, l| l.write_back_textures(gl));
 }
 
-/// Before a command that binds textures to image units.
+/// Before a command that binds textures to so many image units.
 #[inline]
-pub(crate) fn images() {
+pub(crate) fn images(first: u32, count: i32) {
     write_back();
-    context::peek(|l| l.images_change());
+    context::peek(|l| l.images_change(first, count));
 }
 
 /// Before a command that makes an attribute advance per instance.
@@ -165,10 +169,8 @@ pub(crate) fn copy_named(
     width: i32,
     call: &mut dyn FnMut(&'static Real, TextureName),
 ) {
-    let call = core::cell::RefCell::new(call);
-    let own = &mut || (call.borrow_mut())(real(), texture);
-    instead(own, |gl, l, _| {
-        let each = &mut |name| (call.borrow_mut())(gl.real(), name);
+    let call = &mut |name| call(real(), name);
+    context::instead_at(texture, call, |gl, l, each| {
         l.copy_named_texture(gl, texture, x, width, each);
     });
 }

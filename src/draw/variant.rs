@@ -265,7 +265,8 @@ fn locations(actives: Vec<Active>, location: impl Fn(&CStr) -> i32) -> Vec<(CStr
 
 /// By index of a storage block in a program: its index in the variant.
 fn same_storage_blocks(gl: &Gl, program: ProgramName, variant: ProgramName) -> Vec<Option<u32>> {
-    if !gl.tells_storage_blocks() {
+    // OpenGL ES has no command for it: the source alone says where a block is bound.
+    if gl.is_es() || !gl.tells_storage_blocks() {
         return Vec::new();
     }
     let [from, to] = [program, variant].map(|of| gl.storage_blocks(of));

@@ -195,14 +195,20 @@ impl Gl {
         };
     }
 
-    /// glCopyBufferSubData from GL_COPY_READ_BUFFER to the beginning of GL_COPY_WRITE_BUFFER.
-    pub fn copy_buffer(&self, from: usize, bytes: usize) {
+    /// glCopyBufferSubData from a byte of GL_COPY_READ_BUFFER to one of GL_COPY_WRITE_BUFFER.
+    pub fn copy_buffer(&self, from: usize, to: usize, bytes: usize) {
         let (read, write) = (c::COPY_READ_BUFFER, c::COPY_WRITE_BUFFER);
         // SAFETY: no pointers.
         unsafe {
             self.real
-                .glCopyBufferSubData(read, write, from as isize, 0, bytes as isize)
+                .glCopyBufferSubData(read, write, from as isize, to as isize, bytes as isize)
         };
+    }
+
+    /// What shaders have stored to images is there for copies of textures.
+    pub fn finish_writes_to_textures(&self) {
+        // SAFETY: no pointers.
+        unsafe { self.real.glMemoryBarrier(c::TEXTURE_UPDATE_BARRIER_BIT) };
     }
 
     /// What shaders have written is there for copies from and to buffers.

@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1880;
+pub const COUNT: usize = 1881;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1874,20 +1874,21 @@ pub mod slot {
     pub const glGetProgramResourceName: usize = 1863;
     pub const glGetProgramResourceiv: usize = 1864;
     pub const glGetInteger64i_v: usize = 1865;
-    pub const glGetUniformi64vARB: usize = 1866;
-    pub const glGetUniformui64vARB: usize = 1867;
-    pub const glFenceSync: usize = 1868;
-    pub const glClientWaitSync: usize = 1869;
-    pub const glDeleteSync: usize = 1870;
-    pub const glGetBufferSubData: usize = 1871;
-    pub const glGetBufferParameteriv: usize = 1872;
-    pub const glGetUniformBlockIndex: usize = 1873;
-    pub const glGenBuffers: usize = 1874;
-    pub const glBindAttribLocation: usize = 1875;
-    pub const glProgramParameteri: usize = 1876;
-    pub const glPatchParameteri: usize = 1877;
-    pub const glGenVertexArrays: usize = 1878;
-    pub const glGenSamplers: usize = 1879;
+    pub const glGetProgramStageiv: usize = 1866;
+    pub const glGetUniformi64vARB: usize = 1867;
+    pub const glGetUniformui64vARB: usize = 1868;
+    pub const glFenceSync: usize = 1869;
+    pub const glClientWaitSync: usize = 1870;
+    pub const glDeleteSync: usize = 1871;
+    pub const glGetBufferSubData: usize = 1872;
+    pub const glGetBufferParameteriv: usize = 1873;
+    pub const glGetUniformBlockIndex: usize = 1874;
+    pub const glGenBuffers: usize = 1875;
+    pub const glBindAttribLocation: usize = 1876;
+    pub const glProgramParameteri: usize = 1877;
+    pub const glPatchParameteri: usize = 1878;
+    pub const glGenVertexArrays: usize = 1879;
+    pub const glGenSamplers: usize = 1880;
 }
 
 /// Name of each command.
@@ -3758,6 +3759,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGetProgramResourceName",
     c"glGetProgramResourceiv",
     c"glGetInteger64i_v",
+    c"glGetProgramStageiv",
     c"glGetUniformi64vARB",
     c"glGetUniformui64vARB",
     c"glFenceSync",
@@ -5641,6 +5643,7 @@ real_functions! {
     glGetProgramResourceName(program: u32, programInterface: u32, index: u32, bufSize: i32, length: Ptr, name: Ptr);
     glGetProgramResourceiv(program: u32, programInterface: u32, index: u32, propCount: i32, props: Ptr, count: i32, length: Ptr, params: Ptr);
     glGetInteger64i_v(target: u32, index: u32, data: Ptr);
+    glGetProgramStageiv(program: u32, shadertype: u32, pname: u32, values: Ptr);
     glGetUniformi64vARB(program: u32, location: i32, params: Ptr);
     glGetUniformui64vARB(program: u32, location: i32, params: Ptr);
     glFenceSync(condition: u32, flags: u32) -> Ptr = core::ptr::null_mut();

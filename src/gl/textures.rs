@@ -270,13 +270,14 @@ impl Gl {
     }
 
     /// A store for these levels of the texture bound at a target, from 0 on and without data. No unpack buffer may be bound.
-    pub fn tex_levels_empty(&self, target: u32, levels: &[Level]) {
+    /// With `immutable` there can be no further levels.
+    pub fn tex_levels_empty(&self, target: u32, levels: &[Level], immutable: bool) {
         let Some(first) = levels.first() else {
             return;
         };
         // glTexImage* of OpenGL ES wants the very format and type that go with the internal format.
         let kind = first.unsized_type();
-        if !self.is_es() || kind.is_some() {
+        if !immutable && (!self.is_es() || kind.is_some()) {
             for (at, level) in (0..).zip(levels) {
                 self.tex_level_empty(target, at, level);
             }
@@ -289,7 +290,10 @@ impl Gl {
             c::TEXTURE_3D => w.max(h).max(d),
             _ => w.max(h),
         };
-        let count = longest.max(1).ilog2() as i32 + 1;
+        let count = match immutable {
+            true => levels.len() as i32,
+            false => longest.max(1).ilog2() as i32 + 1,
+        };
         let real = self.real;
         // SAFETY: no pointers.
         unsafe {
@@ -303,9 +307,16 @@ impl Gl {
                 c::TEXTURE_3D | c::TEXTURE_2D_ARRAY | c::TEXTURE_CUBE_MAP_ARRAY => {
                     real.glTexStorage3D(target, count, internal, w, h, d)
                 }
+                c::TEXTURE_1D => real.glTexStorage1D(target, count, internal, w),
                 _ => real.glTexStorage2D(target, count, internal, w, h),
             }
         };
+    }
+
+    /// Whether the texture bound at a target has a store that cannot be replaced (glTexStorage).
+    pub fn is_immutable(&self, target: u32) -> bool {
+        self.since((4, 2), Some((3, 0)))
+            && self.get_tex_parameter(target, c::TEXTURE_IMMUTABLE_FORMAT) != 0
     }
 
     /// glTexImage2D of level 0 of RGBA8 without data. No unpack buffer may be bound.

@@ -63,7 +63,7 @@ impl Gl {
         unsafe { self.real.glUseProgram(program.0) };
         for (stage, indices) in shadow::subroutines_of(program.0) {
             let (count, all) = (indices.len() as i32, indices.as_ptr() as Ptr);
-            // SAFETY: so many indices, which the driver has got for this program before.
+            // SAFETY: so many indices, which the driver has taken for this program before.
             unsafe { self.real.glUniformSubroutinesuiv(stage, count, all) };
         }
     }

@@ -121,6 +121,7 @@ impl Layer {
             return;
         }
         let before = self.blocks.bound.insert(target, buffer).unwrap_or_default();
+        self.memory.binds_alone(target);
         match target {
             c::UNIFORM_BUFFER => self.buffers().follow(buffer),
             // Pixels and results of queries are written while a buffer is bound there.

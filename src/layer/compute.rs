@@ -27,6 +27,12 @@ impl Layer {
             |image: &ImageUnit| self.targets.offscreen.has(Object::Texture(image.texture));
         let reads = !sampled.is_empty() || images.iter().any(differs);
         let writes = |image: &&ImageUnit| image.is_written();
+        if program.is_zero() && self.state.in_use.pipeline != 0 {
+            // What it stores to is the program's own texture again.
+            for image in self.pipeline_images(gl).iter().filter(writes) {
+                self.written(gl, Object::Texture(image.texture));
+            }
+        }
         if !reads || !images.iter().any(|image| writes(&image)) {
             self.write_back_textures(gl);
             return call();

@@ -86,6 +86,18 @@ impl Layer {
         if self.state.keep_errors(gl) || !split {
             return; // a wrong call is as wrong in the other views
         }
+        self.copy_other_views(gl, to, texture, call);
+    }
+
+    /// Copies from each view into its own texture, after the program's own call.
+    fn copy_other_views(
+        &mut self,
+        gl: &Gl,
+        to: CopyTo,
+        texture: TextureName,
+        call: &mut dyn FnMut(TextureName),
+    ) {
+        let from = self.state.framebuffers.read;
         self.state.refresh(gl);
         if !from.is_zero() {
             self.split(gl, from);
@@ -119,8 +131,8 @@ impl Layer {
     /// Runs `work` for a command on the textures of a unit, GL_TEXTURE0 and so on, which is the active one meanwhile.
     pub fn with_unit<R>(&mut self, gl: &Gl, unit: u32, work: impl FnOnce(&mut Self) -> R) -> R {
         let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
-        // The driver refuses others.
-        let other = unit != active && unit.wrapping_sub(c::TEXTURE0) < 32;
+        // The driver refuses others. A list gets the program's command alone.
+        let other = unit != active && unit.wrapping_sub(c::TEXTURE0) < 32 && !self.compiles();
         if other {
             gl.active_texture(unit);
         }
@@ -192,6 +204,9 @@ impl Layer {
     /// Writes the own view's images back to the program's textures, before those are read or written in another way than by drawing.
     pub fn write_back_textures(&mut self, gl: &Gl) {
         self.state.keep_errors(gl);
+        if self.memory.has_images() {
+            gl.finish_writes_to_textures();
+        }
         self.targets.offscreen.write_back(gl);
         self.drain_own_errors(gl);
     }
@@ -205,7 +220,7 @@ impl Layer {
     /// glDeleteTextures.
     pub fn deleted_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
         self.targets.offscreen.deleted_textures(gl, textures);
-        self.images_change();
+        self.memory.deleted_textures(textures);
     }
 
     /// glDeleteRenderbuffers.

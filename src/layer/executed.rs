@@ -2,13 +2,15 @@
 
 use super::Layer;
 use super::draw::{Decided, Request};
+use super::memory::Redirection;
 use crate::atlas::Surface;
 use crate::draw::{Current, enter_own, others};
-use crate::gl::{Gl, ListName, consts as c};
+use crate::gl::{Gl, ImageUnit, ListName, consts as c};
 use crate::offscreen::Target;
 use crate::plan::decide::Demand;
 use crate::plan::{Kind, Method, Shear, Unrepresentable};
 use crate::state::Effect;
+use std::sync::Arc;
 
 /// A run that is being drawn in the program's own view.
 #[derive(Debug)]
@@ -20,6 +22,8 @@ pub(super) struct Own {
     before: Current,
     /// The program's framebuffer, where each view has its own.
     target: Option<Target>,
+    /// What the draw may load from and store to by image units.
+    units: Arc<[ImageUnit]>,
 }
 
 impl Layer {
@@ -29,7 +33,7 @@ impl Layer {
             demand: Demand::Everything(Unrepresentable::CompileAndExecute),
             ..Request::of(Kind::List)
         };
-        let Decided { plan, .. } = self.decide(gl, &request);
+        let Decided { plan, images } = self.decide(gl, &request);
         self.queries.drawn();
         let framebuffer = self.state.framebuffers.draw;
         let mut target = self
@@ -52,6 +56,7 @@ impl Layer {
             everywhere,
             before: Current::take(gl, Effect::ALL, true),
             target,
+            units: images.units,
         });
     }
 
@@ -65,10 +70,16 @@ impl Layer {
         if own.everywhere {
             self.queries.pause(gl);
         }
+        // The own view is drawn.
+        let mut redirection = match own.everywhere {
+            true => self.redirect(gl, &own.units),
+            false => Redirection::default(),
+        };
         let surface: &mut dyn Surface = match &mut own.target {
             Some(target) => target,
             None => &mut self.targets.atlas,
         };
+        let drawn = surface.tiles().own();
         others(
             gl,
             surface,
@@ -79,11 +90,13 @@ impl Layer {
             &mut |view| {
                 own.before.put(gl);
                 self.targets.offscreen.bind(gl, &bound, view);
+                redirection.enter(gl, view, drawn);
                 gl.call_list(name);
             },
         );
         if own.everywhere {
             self.targets.offscreen.unbind(gl, &bound);
+            redirection.leave(gl);
         }
         if let Some(target) = own.target.take() {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, target.own());

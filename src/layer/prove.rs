@@ -221,7 +221,7 @@ impl Layer {
         if !self.state.draws_to_window() {
             return;
         }
-        if !images.bound.is_empty() {
+        if images.differ() {
             return self.diagnostics.proving.refuse(COPIES);
         }
         if self.writes_memory() {

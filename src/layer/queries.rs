@@ -367,16 +367,23 @@ impl Layer {
         gl.bind_buffer(c::QUERY_BUFFER, bound);
         if let Some(answer) = answer {
             let whole = answer.with(part).min(place.most);
-            let before = BufferName(gl.get_integer(c::COPY_WRITE_BUFFER) as u32);
-            gl.bind_buffer(c::COPY_WRITE_BUFFER, buffer);
+            let targets = [c::COPY_READ_BUFFER, c::COPY_WRITE_BUFFER];
+            let before = targets.map(|target| BufferName(gl.get_integer(target) as u32));
             let (all, half) = (whole.to_ne_bytes(), (whole as u32).to_ne_bytes());
             let bytes = if place.bytes == all.len() {
                 &all[..]
             } else {
                 &half[..]
             };
-            gl.buffer_sub_data(c::COPY_WRITE_BUFFER, place.at, bytes);
-            gl.bind_buffer(c::COPY_WRITE_BUFFER, before);
+            // A buffer may be one that only copies can write to.
+            let ours = self.scratch(gl, 0, all.len());
+            gl.bind_buffer(c::COPY_READ_BUFFER, ours);
+            gl.buffer_sub_data(c::COPY_READ_BUFFER, 0, bytes);
+            gl.bind_buffer(c::COPY_WRITE_BUFFER, buffer);
+            gl.copy_buffer(0, place.at, bytes.len());
+            for (target, buffer) in targets.into_iter().zip(before) {
+                gl.bind_buffer(target, buffer);
+            }
         }
         self.buffers().forget_all(buffer);
         gl.drop_errors();

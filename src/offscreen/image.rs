@@ -285,12 +285,13 @@ impl ImageSupport {
     ) -> Option<Image> {
         binding(target)?;
         let levels = gl.tex_levels(target);
+        let immutable = gl.is_immutable(target);
         let own = Object::Texture(texture);
         let mut like = || {
             let name = names.texture(gl);
             gl.bind_texture(target, name);
             complete(gl, target, || {
-                gl.tex_levels_empty(target, &levels);
+                gl.tex_levels_empty(target, &levels, immutable);
                 for (at, level) in (0..).zip(&levels) {
                     let objects = (own, Object::Texture(name));
                     fill(gl, target, objects, at, level);

@@ -16,6 +16,8 @@ pub struct MemoryWrites {
     pub counters: bool,
     /// It stores to images.
     pub images: bool,
+    /// A macro declares storage blocks.
+    pub unclear: bool,
 }
 
 /// A storage block of a source.
@@ -31,7 +33,7 @@ struct Block {
 impl MemoryWrites {
     /// Whether nothing is written.
     pub fn is_empty(&self) -> bool {
-        self.blocks.is_empty() && !self.counters && !self.images
+        *self == MemoryWrites::default()
     }
 
     /// With those of another source of the same program.
@@ -40,6 +42,7 @@ impl MemoryWrites {
         self.blocks.extend(other.blocks);
         self.counters |= other.counters;
         self.images |= other.images;
+        self.unclear |= other.unclear;
         self
     }
 
@@ -54,10 +57,13 @@ impl MemoryWrites {
             true => blocks(scan),
             false => Vec::new(),
         };
-        let out = passes_out(scan);
+        let out = passes_out(scan) || has_macros(scan);
+        let in_macro = |at: &usize| scan.tokens[*at].directive && *scan.name(*at) == *b"buffer";
+        let unclear = has_blocks && (0..scan.tokens.len()).any(|at| in_macro(&at));
         let written = blocks.iter().filter(|block| is_written(scan, block, out));
         MemoryWrites {
             blocks: written.map(|block| block.name.clone()).collect(),
+            unclear,
             counters: named(|name| name == b"atomic_uint"),
             images: named(|name| {
                 name.starts_with(b"imageStore") || name.starts_with(b"imageAtomic")
@@ -87,10 +93,13 @@ fn behind(scan: &Scan, at: usize) -> usize {
 fn blocks(scan: &Scan) -> Vec<Block> {
     let mut found = Vec::new();
     for at in 0..scan.tokens.len() {
-        if *scan.name(at) != *b"buffer" {
+        if *scan.name(at) != *b"buffer" || scan.tokens[at].directive {
             continue;
         }
-        let ends = |at: &usize| [b';', b'{', b'}'].iter().any(|&mark| scan.is(*at, mark));
+        let ends = |at: &usize| {
+            let marks = [b';', b'{', b'}'];
+            !scan.tokens[*at].directive && marks.iter().any(|&mark| scan.is(*at, mark))
+        };
         let start = (0..at).rev().find(ends).map_or(0, |end| end + 1);
         let Some(open) = (at..scan.tokens.len())
             .find(ends)
@@ -109,7 +118,8 @@ fn blocks(scan: &Scan) -> Vec<Block> {
         found.push(Block {
             name,
             names,
-            readonly: (start..open).any(|at| *scan.name(at) == *b"readonly"),
+            readonly: (start..open)
+                .any(|at| *scan.name(at) == *b"readonly" && !scan.tokens[at].directive),
             tokens: start..end.unwrap_or(close),
         });
     }
@@ -132,6 +142,17 @@ fn passes_out(scan: &Scan) -> bool {
         let name = scan.name(at);
         let before = (0..at).rev().find(|&at| !qualifies(&scan.name(at)));
         (*name == *b"out" || *name == *b"inout") && before.is_some_and(opens)
+    })
+}
+
+/// Whether there are macros with parameters, which may write to what is passed to them.
+fn has_macros(scan: &Scan) -> bool {
+    let mut directives = scan.directives.iter();
+    directives.any(|directive| {
+        let name = directive.tokens.start + 2;
+        *scan.called(directive) == *b"define"
+            && scan.is(name + 1, b'(')
+            && scan.tokens[name].end == scan.tokens[name + 1].start
     })
 }
 
@@ -167,19 +188,28 @@ fn writes_at(scan: &Scan, at: usize, out: bool) -> bool {
     if scan.tokens[at].directive {
         return true;
     }
-    let before = |steps: usize| at.checked_sub(steps).map_or(0, mark);
-    if before(1) == b'.' {
+    // The first token of what is written, and the one behind it.
+    let (mut start, mut end) = (at, at + 1);
+    let before = |start: usize, steps: usize| start.checked_sub(steps).map_or(0, mark);
+    if before(start, 1) == b'.' {
         return false;
     }
-    let stepped = [[b'+'; 2], [b'-'; 2]].contains(&[before(1), before(2)]);
-    let mut end = at + 1;
+    let called = |start: usize| match start.checked_sub(2) {
+        Some(at) => scan.name(at),
+        None => Default::default(),
+    };
     loop {
         match mark(end) {
             b'[' => end = behind(scan, end),
             b'.' => end += 2,
+            // In parentheses of its own.
+            b')' if before(start, 1) == b'(' && called(start).is_empty() => {
+                (start, end) = (start - 1, end + 1);
+            }
             _ => break,
         }
     }
+    let stepped = [[b'+'; 2], [b'-'; 2]].contains(&[before(start, 1), before(start, 2)]);
     let next = [mark(end), mark(end + 1), mark(end + 2)];
     let assigned = match next {
         [b'=', after, _] => after != b'=',
@@ -192,15 +222,10 @@ fn writes_at(scan: &Scan, at: usize, out: bool) -> bool {
         [b'<', b'<', b'='] | [b'>', b'>', b'='] => true,
         _ => false,
     };
-    let function = match before(1) {
-        b'(' => at
-            .checked_sub(2)
-            .map(|at| scan.name(at))
-            .unwrap_or_default(),
-        _ => Default::default(),
-    };
-    let passed = matches!(before(1), b'(' | b',') && matches!(next[0], b')' | b',');
-    stepped || assigned || function.starts_with(b"atomic") || out && passed
+    let opens = before(start, 1);
+    let atomic = opens == b'(' && called(start).starts_with(b"atomic");
+    let passed = matches!(opens, b'(' | b',') && matches!(next[0], b')' | b',');
+    stepped || assigned || atomic || out && passed
 }
 
 #[cfg(test)]
@@ -237,6 +262,8 @@ mod tests {
             "$b[$b[0].c].c = 2;",
             "int old = atomicAdd($b[3].c, 1);",
             "if (x) $b[f(1, 2)].c |= 4;",
+            "($a) = 1;",
+            "atomicAdd(($b[0].c), 1);",
         ] {
             assert!(is_written(written), "{written}");
         }
@@ -246,6 +273,7 @@ mod tests {
             "if ($a <= 1 || $a >= 2 || $a != 3) x = $b[0].c;",
             "x = f($a, $b[1].c) << $a;",
             "int n = $b.length();",
+            "if (($a) == 1) x = ($b[0].c) + 1;",
             "s.a = 1; s.b[0].c = 2;",
         ] {
             assert!(!is_written(read), "{read}");
@@ -264,6 +292,13 @@ mod tests {
         assert!(writes(&out).blocks.contains("B"));
         let defined = format!("{block}#define SET a =\nvoid main() {{ SET 1; }}");
         assert!(writes(&defined).blocks.contains("B"));
+        let macros = format!("{block}#define ADD(x) atomicAdd(x, 1)\nvoid main() {{ ADD(a); }}");
+        assert!(writes(&macros).blocks.contains("B"));
+        let declared = "#version 430\n#define RO readonly buffer\n#define RW buffer\nRW B { int a; };\nvoid main() { a = 1; }";
+        assert!(writes(declared).unclear);
+        let after =
+            "#version 430\n#define RO readonly\nbuffer B { int a; };\nvoid main() { a = 1; }";
+        assert!(writes(after).blocks.contains("B"));
         let readonly = "#version 430\nreadonly buffer B { int a; };\nvoid main() { int a = 1; }";
         assert!(writes(readonly).is_empty());
         let outputs =

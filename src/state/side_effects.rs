@@ -29,7 +29,11 @@ impl SideEffects {
 
     /// Those of a program that is linked from these sources; none where they are not known.
     pub fn of(gl: &Gl, program: ProgramName, sources: Option<&[ShaderSource]>) -> Self {
-        let of_source = |shader: &ShaderSource| facts(&shader.source, gl.is_es()).ok();
+        let of_source = |shader: &ShaderSource| match shader.source.as_slice() {
+            // SPIR-V.
+            [] => None,
+            source => facts(source, gl.is_es()).ok(),
+        };
         let writes = sources.and_then(|all| {
             all.iter()
                 .try_fold(MemoryWrites::default(), |writes, shader| {
@@ -38,7 +42,7 @@ impl SideEffects {
         });
         match writes {
             Some(writes) if writes.is_empty() => SideEffects::default(),
-            Some(writes) if gl.tells_storage_blocks() => {
+            Some(writes) if gl.tells_storage_blocks() && !writes.unclear => {
                 let names = gl.storage_blocks(program).into_iter().enumerate();
                 let written = names.filter(|(_, name)| {
                     let block = name.split('[').next().unwrap_or_default();

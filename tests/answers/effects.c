@@ -3,6 +3,8 @@
  *
  *   effects counter    an atomic counter of fragments, in a range of a buffer
  *   effects image      each fragment stores its place in an image, which a further draw shows
+ *   effects level      so do they in level 1 of a texture with two levels, which is shown by its name alone
+ *   effects nowhere    so do they in a framebuffer without attachments
  *   effects atomic     fragments add to a pixel of an image
  *   effects storage    fragments add to a storage block, whose old value tells their colour
  *   effects vertex     vertices add to a storage block
@@ -10,6 +12,7 @@
  *   effects arrays     an array of blocks, of which one is written
  *   effects readonly   places of vertices come from a block that is not written, and another one is
  *   effects list       a draw in a display list
+ *   effects executed   the same, executed while it is compiled
  *   effects pixels     the shader draws a rectangle of pixels
  *   effects pipeline   a program pipeline */
 #include "../support/c/shaders.h"
@@ -30,7 +33,8 @@ static const char *const separate =
     "#version 430\nuniform mat4 camera; layout(location = 0) in vec2 place; out gl_PerVertex { vec4 gl_Position; };\n"
     "void main() { gl_Position = camera * vec4(place * 0.5, -2.0, 1.0); }\n";
 static const char *const whole = "#version 430\nlayout(location = 0) in vec2 place; out vec2 at; void main() { at = place * 0.5 + 0.5; gl_Position = vec4(place, 0.0, 1.0); }";
-static const char *const shows = "#version 430\nuniform sampler2D image; in vec2 at; out vec4 colour; void main() { colour = texture(image, at); }";
+static const char *const shows = "#version 430\nuniform sampler2D image; uniform float level; in vec2 at; out vec4 colour;\n"
+                                 "void main() { colour = textureLod(image, at, level); }";
 static const char *const green = "#version 430\nout vec4 colour; void main() { colour = vec4(0.0, 1.0, 0.0, 1.0); }";
 static const char *const counts = "#version 430\nlayout(binding = 0, offset = 4) uniform atomic_uint n; out vec4 colour;\n"
                                   "void main() { atomicCounterIncrement(n); colour = vec4(0.0, 1.0, 0.0, 1.0); }\n";
@@ -48,6 +52,12 @@ static const char *const adds_to_one =
 static GLuint buffers[3], texture, program, shown, pipeline;
 static const char *mode;
 
+/* Whether fragments store to an image, which is shown. */
+static int shows_image(void)
+{
+    return !strcmp(mode, "image") || !strcmp(mode, "level") || !strcmp(mode, "nowhere");
+}
+
 static int is(const char *other)
 {
     return !strcmp(mode, other);
@@ -64,7 +74,10 @@ static void tell(int frame)
     for (int i = 0; i < 3; i++)
         glGetNamedBufferSubData(buffers[i], 0, BYTES, sums[i]);
     glBindTexture(GL_TEXTURE_2D, texture);
-    glGetTexImage(GL_TEXTURE_2D, 0, is("atomic") ? GL_RED_INTEGER : GL_RGBA, is("atomic") ? GL_UNSIGNED_INT : GL_UNSIGNED_BYTE, pixels);
+    if (is("atomic"))
+        glGetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels);
+    else
+        glGetTexImage(GL_TEXTURE_2D, is("level"), GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         stored += pixels[i] != 0;
     printf("frame %d:", frame);
@@ -85,7 +98,7 @@ static void tell(int frame)
     GLint image = -1, used = -1;
     glGetIntegeri_v(GL_IMAGE_BINDING_NAME, 2, &image);
     glGetIntegerv(GL_CURRENT_PROGRAM, &used);
-    printf(", image %d, program %d, error 0x%x\n", (GLuint)image == texture, (GLuint)used == (is("pipeline") ? 0 : is("image") ? shown : program),
+    printf(", image %d, program %d, error 0x%x\n", (GLuint)image == texture, (GLuint)used == (is("pipeline") ? 0 : shows_image() ? shown : program),
            glGetError());
 }
 
@@ -111,10 +124,10 @@ static void set_up(void)
     }
     glGenTextures(1, &texture);
     glBindTexture(GL_TEXTURE_2D, texture);
-    glTexStorage2D(GL_TEXTURE_2D, 1, is("atomic") ? GL_R32UI : GL_RGBA8, WIDTH, HEIGHT);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexStorage2D(GL_TEXTURE_2D, 1 + is("level"), is("atomic") ? GL_R32UI : GL_RGBA8, WIDTH << is("level"), HEIGHT << is("level"));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, is("level") ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glBindImageTexture(2, texture, 0, GL_FALSE, 0, is("atomic") ? GL_READ_WRITE : GL_WRITE_ONLY, is("atomic") ? GL_R32UI : GL_RGBA8);
+    glBindImageTexture(2, texture, is("level"), GL_FALSE, 0, is("atomic") ? GL_READ_WRITE : GL_WRITE_ONLY, is("atomic") ? GL_R32UI : GL_RGBA8);
     glBindBufferRange(GL_ATOMIC_COUNTER_BUFFER, 0, buffers[0], 256, 256);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, buffers[1]);
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 4, buffers[2], 256, 256);
@@ -123,7 +136,7 @@ static void set_up(void)
         glNamedBufferSubData(buffers[2], 0, sizeof places, places);
     glBindBuffer(GL_COPY_READ_BUFFER, buffers[2]);
     const char *vertex = is("vertex") ? writes_vertex : is("readonly") ? reads_vertex : plain;
-    const char *fragment = is("counter") || is("pixels") ? counts : is("image") ? stores : is("atomic") ? adds_pixel : is("vertex") ? green :
+    const char *fragment = is("counter") || is("pixels") ? counts : shows_image() ? stores : is("atomic") ? adds_pixel : is("vertex") ? green :
                            is("arrays") ? adds_to_one : adds;
     program = linked(vertex, fragment, PLACE), shown = linked(whole, shows, PLACE);
     if (is("rebound"))
@@ -146,7 +159,8 @@ int main(int argc, char **argv)
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
         return 77;
     set_up();
-    GLuint limit = 0, list = glGenLists(1);
+    GLuint limit = 0, list = glGenLists(1), framebuffer;
+    glGenFramebuffers(1, &framebuffer);
     for (int frame = 1; frame <= 2; frame++) {
         glClearColor(0, 0, 1, 1);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -159,22 +173,30 @@ int main(int argc, char **argv)
             limit += 24 * 24;
             glUniform1ui(glGetUniformLocation(program, "limit"), limit);
         }
-        if (is("list")) {
+        if (is("nowhere")) {
+            glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+            glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, WIDTH);
+            glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, HEIGHT);
+        }
+        if (is("list") || is("executed")) {
             if (frame == 1) {
-                glNewList(list, GL_COMPILE);
+                glNewList(list, is("list") ? GL_COMPILE : GL_COMPILE_AND_EXECUTE);
                 quad(PLACE);
                 glEndList();
             }
-            glCallList(list);
+            if (frame == 2 || is("list"))
+                glCallList(list);
         } else if (is("pixels")) {
             glWindowPos2i(20, 20);
             glDrawPixels(8, 8, GL_RGBA, GL_UNSIGNED_BYTE, colours);
         } else {
             quad(PLACE);
         }
-        if (is("image")) {
+        if (shows_image()) {
             glMemoryBarrier(GL_ALL_BARRIER_BITS);
+            glBindFramebuffer(GL_FRAMEBUFFER, 0);
             glUseProgram(shown);
+            glUniform1f(glGetUniformLocation(shown, "level"), (float)is("level"));
             glBindTexture(GL_TEXTURE_2D, texture);
             quad(PLACE);
         }

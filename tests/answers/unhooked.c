@@ -13,6 +13,7 @@
  *   subroutine                 a subroutine is chosen for several draws and frames
  *   indexed statistics         queries by glBeginQueryIndexed; of GL_ARB_pipeline_statistics_query
  *   results resultsbound       results of queries in a buffer that is named, or bound
+ *   resultsfixed               in one whose store only copies can change
  *
  * Draws are at the depth of zero parallax, so that all views show the same. Prints what is read back, and errors. */
 #define SURFACE_SIZE
@@ -317,7 +318,10 @@ static void queries(void)
     glGenQueries(KINDS, names);
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_QUERY_BUFFER, buffer);
-    glBufferData(GL_QUERY_BUFFER, sizeof values, values, GL_DYNAMIC_READ);
+    if (is("resultsfixed"))
+        glBufferStorage(GL_QUERY_BUFFER, sizeof values, values, 0);
+    else
+        glBufferData(GL_QUERY_BUFFER, sizeof values, values, GL_DYNAMIC_READ);
     glBindBuffer(GL_QUERY_BUFFER, 0);
     for (int i = from; i < to; i++) {
         GLint now[2] = {0};
@@ -334,7 +338,7 @@ static void queries(void)
         else
             glEndQuery(kinds[i]);
         printf("0x%x: current %d %d, ", kinds[i], (GLuint)now[0] == names[i], (GLuint)now[1] == names[i]);
-        if (is("results")) {
+        if (is("results") || is("resultsfixed")) {
             glGetQueryBufferObjectuiv(names[i], buffer, GL_QUERY_RESULT, 8 * i);
             glGetQueryBufferObjectuiv(names[i], buffer, GL_QUERY_RESULT_AVAILABLE, 8 * i + 4);
         } else if (is("resultsbound")) {

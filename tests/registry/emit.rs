@@ -294,7 +294,11 @@ pub fn entry(commands: &[Command]) -> String {
             "matrix" | "cap" | "list_only" | "before_uncompiled" | "uniform" | "texture" | "texture_parameter" | "divide" | "images" | "write_back" | "storage" | "named" | "unit_texture" | "attached" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
-                    "list_only" | "before_uncompiled" | "uniform" | "texture_parameter" | "divide" | "images" | "write_back" | "storage" | "attached" => format!("{class}()"),
+                    "list_only" | "before_uncompiled" | "uniform" | "texture_parameter" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
+                    "images" => match c.params.iter().any(|p| p.name == "count") {
+                        true => format!("images({}, count)", c.params[0].name),
+                        false => format!("images({}, 1)", c.params[0].name),
+                    },
                     "texture" => "texture(target)".into(),
                     "unit_texture" => "unit_texture(texunit, target)".into(),
                     "named" => format!("named(Object::{arg}({arg}Name({})))", c.params[0].name),

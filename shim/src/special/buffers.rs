@@ -74,7 +74,10 @@ pub(crate) unsafe fn glBindBufferRange(
     let range = BoundRange {
         buffer: BufferName(buffer),
         start: usize::try_from(offset).unwrap_or(0),
-        size: Some(usize::try_from(size).unwrap_or(0)),
+        // Without a size the driver refuses it, as it refuses a place before the beginning.
+        size: Some(usize::try_from(size).unwrap_or(0))
+            .filter(|_| offset >= 0)
+            .or(Some(0)),
     };
     peek(|l| l.binds_buffer_at(target, index, range, true));
 }
@@ -104,7 +107,12 @@ unsafe fn bound_to_many(
         let range = BoundRange {
             buffer: BufferName(buffer),
             start: start.map_or(0, bytes),
-            size: size.map(bytes).filter(|_| buffer != 0),
+            size: match first.saturating_add(count.max(0) as u32) {
+                // The driver may refuse the call as a whole.
+                9.. => Some(0),
+                _ if start.is_some_and(|start| start < 0) => Some(0),
+                _ => size.map(bytes).filter(|_| buffer != 0),
+            },
         };
         peek(|l| l.binds_buffer_at(target, first.saturating_add(at as u32), range, false));
     }

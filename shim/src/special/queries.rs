@@ -1,6 +1,6 @@
 //! Queries that count samples or primitives. They count those of one view instead of all.
 
-use crate::context::{enter, peek, real};
+use crate::context::{enter, instead_at, peek, real};
 use crate::hooks::{before_uncompiled, compile};
 use core::slice::from_raw_parts;
 use manyview_core::gl::consts::CURRENT_QUERY;
@@ -123,8 +123,9 @@ macro_rules! query_object {
                 let place = place::<$value>(None, params as usize, <$value>::MAX as u64);
                 // SAFETY: the program's own call.
                 let call = &mut |pname| unsafe { real().$name(id, pname, params) };
-                enter(|gl, l| l.result_to_buffer(gl, query, pname, place, call));
-                return;
+                return instead_at(pname, call, |gl, l, call| {
+                    l.result_to_buffer(gl, query, pname, place, call);
+                });
             }
             let asked = peek(|l| l.asked_query(query)).unwrap_or(query);
             // SAFETY: the program's own call.
@@ -172,7 +173,9 @@ macro_rules! query_buffer_object {
             }
             let at = usize::try_from(offset).unwrap_or(0);
             let place = place::<$value>(Some(BufferName(buffer)), at, <$value>::MAX as u64);
-            enter(|gl, l| l.result_to_buffer(gl, query, pname, place, call));
+            instead_at(pname, call, |gl, l, call| {
+                l.result_to_buffer(gl, query, pname, place, call);
+            });
         }
     };
 }

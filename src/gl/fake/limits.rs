@@ -188,6 +188,7 @@ const INITIAL: &[(u32, &[f64])] = &[
     (c::TEXTURE_MIN_LOD, &[-1000.0]),
     (c::TEXTURE_MAX_LOD, &[1000.0]),
     (c::TEXTURE_MAX_LEVEL, &[1000.0]),
+    (c::TEXTURE_IMMUTABLE_FORMAT, &[0.0]),
     (c::TEXTURE_BORDER_COLOR, &[0.0; 4]),
     (c::TEXTURE_MAX_ANISOTROPY, &[1.0]),
     (c::TEXTURE_SWIZZLE_R, &[c::RED as f64]),

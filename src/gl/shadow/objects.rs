@@ -138,6 +138,7 @@ impl Shadow {
     }
 
     pub(in crate::gl) unsafe fn glLinkProgram(&mut self, program: u32) {
+        self.subroutines.relinked(program);
         self.uniforms.relinked(program);
         self.deleted(&[program], |binding| binding == c::CURRENT_PROGRAM);
     }

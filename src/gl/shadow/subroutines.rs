@@ -11,6 +11,8 @@ use crate::gl::real::Ptr;
 pub(super) struct Subroutines {
     program: u32,
     chosen: Vec<(u32, Vec<u32>)>,
+    /// By stage: how many uniforms and subroutines it has.
+    numbers: Vec<(u32, [u32; 2])>,
 }
 
 /// The program uses a program, which forgets the subroutines that were chosen.
@@ -27,6 +29,15 @@ pub(in crate::gl) fn subroutines_of(program: u32) -> Vec<(u32, Vec<u32>)> {
     known.unwrap_or_default()
 }
 
+impl Subroutines {
+    /// A program gets another executable.
+    pub(super) fn relinked(&mut self, program: u32) {
+        if self.program == program {
+            *self = Subroutines::default();
+        }
+    }
+}
+
 impl Shadow {
     pub(in crate::gl) unsafe fn glUniformSubroutinesuiv(
         &mut self,
@@ -36,20 +47,51 @@ impl Shadow {
     ) {
         let program = self.values.known(Key::Value(c::CURRENT_PROGRAM));
         let [program, ..] = program.unwrap_or_else(|| [self.integer(c::CURRENT_PROGRAM), 0, 0, 0]);
-        let count = usize::try_from(count).unwrap_or(0);
-        if program == 0 || indices.is_null() {
+        let count = u32::try_from(count).unwrap_or(0);
+        if program == 0 || indices.is_null() || self.compiling.is_some() || self.inside {
             return;
         }
-        // SAFETY: so many indices (the program's array).
-        let indices = unsafe { std::slice::from_raw_parts(indices.cast::<u32>(), count) }.to_vec();
         if self.subroutines.program != program {
             self.subroutines = Subroutines {
                 program,
-                chosen: Vec::new(),
+                ..Subroutines::default()
             };
         }
+        let [uniforms, subroutines] = self.numbers_of_subroutines(program, stage);
+        if count != uniforms {
+            return; // the driver has refused it
+        }
+        // SAFETY: so many indices, which the driver has read (the program's array).
+        let indices = unsafe { std::slice::from_raw_parts(indices.cast::<u32>(), count as usize) };
+        if indices.iter().any(|&index| index >= subroutines) {
+            return;
+        }
+        let indices = indices.to_vec();
         let chosen = &mut self.subroutines.chosen;
         chosen.retain(|(known, _)| *known != stage);
         chosen.push((stage, indices));
+    }
+
+    /// How many uniforms and subroutines a stage of a program has.
+    fn numbers_of_subroutines(&mut self, program: u32, stage: u32) -> [u32; 2] {
+        let known = self.subroutines.numbers.iter();
+        if let Some((_, numbers)) = known.into_iter().find(|(known, _)| *known == stage) {
+            return *numbers;
+        }
+        let names = [
+            c::ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS,
+            c::ACTIVE_SUBROUTINES,
+        ];
+        let numbers = names.map(|name| {
+            let mut v = 0i32;
+            // SAFETY: one integer.
+            unsafe {
+                self.real
+                    .glGetProgramStageiv(program, stage, name, (&raw mut v).cast())
+            };
+            v.max(0) as u32
+        });
+        self.subroutines.numbers.push((stage, numbers));
+        numbers
     }
 }

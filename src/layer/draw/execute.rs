@@ -9,7 +9,7 @@ use crate::atlas::{Surface, Tiles};
 use crate::draw::{
     Amplified, Current, Drawing, FixedState, Programs, ReplayHazard, Variant, replay,
 };
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, Object, consts as c};
 use crate::offscreen::Target;
 use crate::plan::{Method, Plan, Shear, camera};
 use crate::state::Touch;
@@ -92,6 +92,15 @@ impl Layer {
 
     /// Makes the call once, in the program's own view only.
     fn once(&mut self, gl: &Gl, images: &Images, call: &mut dyn FnMut()) {
+        // What is stored to an image is the program's own texture again.
+        let stores = !images.units.is_empty() && self.stores_to_images();
+        for unit in images
+            .units
+            .iter()
+            .filter(|unit| stores && unit.is_written())
+        {
+            self.written(gl, Object::Texture(unit.texture));
+        }
         if self.has_copies() && (images.differ() || self.state.primitives.transform_feedback) {
             self.write_back_textures(gl);
         }

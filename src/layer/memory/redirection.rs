@@ -1,0 +1,155 @@
+//! What is bound while a draw is sent for a view.
+
+use crate::gl::{BindingPoint, BoundRange, BufferName, Gl, ImageUnit, TextureName, consts as c};
+use crate::view::ViewIndex;
+
+/// A buffer that a draw of another view writes to in the place of the program's.
+#[derive(Debug)]
+pub(super) struct Redirected {
+    pub(super) point: BindingPoint,
+    /// The program's.
+    pub(super) range: BoundRange,
+    pub(super) bytes: usize,
+    /// The layer's; 0 where there is no memory for one.
+    pub(super) scratch: BufferName,
+}
+
+/// Where the draw of each view writes to.
+#[derive(Debug, Default)]
+pub(in crate::layer) struct Redirection {
+    pub(super) buffers: Vec<Redirected>,
+    /// Images that are stored to or differ, with the texture of each view; without any where they cannot differ.
+    pub(super) images: Vec<(ImageUnit, Vec<TextureName>)>,
+    /// Bindings of the program that are used to copy, by target.
+    pub(super) bound: Vec<(u32, BufferName)>,
+    /// Others than the program's are bound.
+    pub(super) away: bool,
+}
+
+impl Redirection {
+    /// Before a draw of a view: binds what it writes to.
+    pub(in crate::layer) fn enter(&mut self, gl: &Gl, view: ViewIndex, own: ViewIndex) {
+        if self.buffers.is_empty() && self.images.is_empty() {
+            return;
+        }
+        match view == own {
+            true => self.put_buffers(gl),
+            false => self.bind_scratch(gl),
+        }
+        for (image, views) in &self.images {
+            let texture = views.get(view.0 as usize).copied();
+            let without = match view == own {
+                true => image.texture,
+                false => TextureName::ZERO,
+            };
+            gl.bind_image(image, texture.unwrap_or(without));
+        }
+    }
+
+    /// After the draw of all views: binds what the program has bound.
+    pub(in crate::layer) fn leave(mut self, gl: &Gl) {
+        self.put_buffers(gl);
+        for (image, _) in &self.images {
+            gl.bind_image(image, image.texture);
+        }
+    }
+
+    fn bind_scratch(&mut self, gl: &Gl) {
+        if self.buffers.is_empty() {
+            return;
+        }
+        self.away = true;
+        gl.finish_writes_to_buffers();
+        for buffer in &self.buffers {
+            let whole = BoundRange {
+                buffer: buffer.scratch,
+                start: 0,
+                size: (!buffer.scratch.is_zero()).then_some(buffer.bytes),
+            };
+            if !buffer.scratch.is_zero() {
+                gl.bind_buffer(c::COPY_READ_BUFFER, buffer.range.buffer);
+                gl.bind_buffer(c::COPY_WRITE_BUFFER, buffer.scratch);
+                gl.copy_buffer(buffer.range.start, 0, buffer.bytes);
+            }
+            gl.bind_range(buffer.point, &whole);
+        }
+    }
+
+    fn put_buffers(&mut self, gl: &Gl) {
+        if !std::mem::take(&mut self.away) {
+            return;
+        }
+        for buffer in &self.buffers {
+            gl.bind_range(buffer.point, &buffer.range);
+        }
+        for &(target, buffer) in &self.bound {
+            gl.bind_buffer(target, buffer);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gl::fake::Fake;
+
+    const POINT: BindingPoint = BindingPoint {
+        target: c::SHADER_STORAGE_BUFFER,
+        index: 3,
+    };
+
+    fn part(buffer: u32, start: usize, size: Option<usize>) -> BoundRange {
+        BoundRange {
+            buffer: BufferName(buffer),
+            start,
+            size,
+        }
+    }
+
+    #[test]
+    fn other_views_write_to_copies() {
+        let fake = Fake::new();
+        let gl = fake.gl();
+        let mut redirection = Redirection {
+            buffers: vec![Redirected {
+                point: POINT,
+                range: part(7, 256, Some(64)),
+                bytes: 64,
+                scratch: BufferName(9),
+            }],
+            bound: vec![(c::COPY_READ_BUFFER, BufferName(5))],
+            ..Redirection::default()
+        };
+        let (own, other) = (ViewIndex(1), ViewIndex(0));
+        fake.forget();
+        redirection.enter(&gl, other, own);
+        let names: Vec<_> = fake.calls().iter().map(|call| call.name).collect();
+        assert_eq!(
+            names,
+            [
+                "glMemoryBarrier",
+                "glBindBuffer",
+                "glBindBuffer",
+                "glCopyBufferSubData",
+                "glBindBufferRange"
+            ]
+        );
+        assert_eq!(
+            fake.lines("glBindBufferRange"),
+            ["glBindBufferRange(37074, 3, 9, 0, 64)"]
+        );
+        fake.forget();
+        redirection.enter(&gl, own, own);
+        let lines = fake.lines("gl*");
+        assert_eq!(
+            lines,
+            [
+                "glBindBufferRange(37074, 3, 7, 256, 64)",
+                "glBindBuffer(36662, 5)"
+            ]
+        );
+        fake.forget();
+        redirection.leave(&gl);
+        assert_eq!(fake.count("gl*"), 0, "the own view was the last");
+    }
+}
