@@ -35,6 +35,8 @@ TESTS_32 := answers cases conditions drawables front harm hosts memory oracle ou
 NOT_32 := a_captured_picture_replaces_no_other_file capture_says_that_there_is_no_stereo_window
 # Tests that `check-shadow` runs: those that preload the layer into programs of this project and compare what these get.
 TESTS_SHADOW := answers cases conditions drawables front oracle passes quad random shaded
+# Tests that `sanitize` runs: random calls, programs with threads, hosts of plugins, rare commands.
+TESTS_SANITIZED := random harm hosts answers
 # Packages of test-full only.
 FULL_PACKAGES := valgrind
 # Drivers of test-drivers that are not Mesa's own software renderers: lavapipe, under zink.
@@ -53,7 +55,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build release demos demo bench overhead pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants fuzz shaders man notices book lint packages \
+.PHONY: help build release demos demo bench overhead pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -138,6 +140,7 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
 	$(MAKE) check-shadow
+	@if rustc +nightly --version >/dev/null 2>&1; then $(MAKE) sanitize; else echo "no sanitizer watches the library: run rustup toolchain install nightly to have that" >&2; fi
 	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
 	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
@@ -180,6 +183,9 @@ measured: packages build demos ## take the tables of docs/measured.md again (a q
 
 mutants: rust ## do the unit tests see changes of the path of a draw? MUTANTS=6/10 (needs cargo-mutants; an hour)
 	@sh scripts/mutants.sh $(MUTANTS) $(TARGET)/mutants
+
+sanitize: packages build demos ## run tests with a library that the sanitizer of addresses watches (needs nightly); target/sanitize
+	@sh scripts/sanitize.sh $(TARGET)/sanitize $(TESTS_SANITIZED)
 
 fuzz: rust ## feed random files, requests and shaders to what reads them, each kind for FUZZ_SECONDS=600 (needs cargo-fuzz); target/fuzz
 	@sh scripts/fuzz.sh $(FUZZ_SECONDS) $(TARGET)/fuzz

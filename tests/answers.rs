@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use support::views::{REPLAYED, VIEWS, Views, extents};
 use support::{
-    Compiled, bare, built, extent, layered, library, lines, own_screen, rgb, succeed,
+    Compiled, bare, built, extent, layered, lines, own_screen, preloaded, rgb, succeed,
     window_picture,
 };
 
@@ -493,7 +493,7 @@ fn a_camera_in_a_uniform_block_zooms_in_every_way() {
 fn cameras_in_uniform_blocks_are_not_asked_for() {
     let source = Path::new("tests/answers/asked.c");
     let behind = built("asked", &[source], Compiled::Library, &["-ldl"]);
-    let both = format!("{}:{}", library().display(), behind.display());
+    let both = format!("{}:{}", preloaded(), behind.display());
     let folder = tempfile::tempdir().expect("a folder");
     let (told, program) = (folder.path().join("asked"), program("blocks"));
     for (mode, most) in [

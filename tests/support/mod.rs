@@ -98,10 +98,19 @@ pub(crate) fn bare(program: impl AsRef<std::ffi::OsStr>) -> Command {
     without_layer(Command::new(program))
 }
 
+/// What is preloaded for the layer: the library, and before it the runtime of a sanitizer that watches it, if there is one.
+pub(crate) fn preloaded() -> String {
+    let library = library().display().to_string();
+    match std::env::var("MANYVIEW_TESTS_RUNTIME") {
+        Ok(first) => format!("{first}:{library}"),
+        Err(_) => library,
+    }
+}
+
 /// A program with the layer preloaded, by variables only. `options` are names without `MANYVIEW_` and values.
 pub(crate) fn layered(program: impl AsRef<std::ffi::OsStr>, options: &[(&str, &str)]) -> Command {
     let mut command = bare(program);
-    command.env("LD_PRELOAD", library());
+    command.env("LD_PRELOAD", preloaded());
     command.envs(
         options
             .iter()
