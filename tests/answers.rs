@@ -224,6 +224,7 @@ fn storage_blocks_are_written_once() {
     for mode in ["storage", "vertex", "rebound", "arrays", "readonly"] {
         written_once(mode);
     }
+    alike("unhooked", &["esblock"], 1);
 }
 
 #[test]
@@ -357,14 +358,25 @@ fn draws_in_several_primitive_modes_are_in_every_view() {
 
 #[test]
 fn textures_that_are_written_by_their_names_show_what_was_written() {
-    for mode in ["image", "subimage", "multi", "copied", "mipmap", "nvcopied"] {
+    for mode in [
+        "image",
+        "subimage",
+        "multi",
+        "copied",
+        "corecopied",
+        "unitcopied",
+        "unitlist",
+        "mipmap",
+        "unitmipmap",
+        "nvcopied",
+    ] {
         alike("unhooked", &[mode], 1);
     }
 }
 
 #[test]
 fn framebuffers_get_other_images_by_their_names() {
-    for mode in ["attached", "renderbuffer", "named"] {
+    for mode in ["attached", "renderbuffer", "named", "readbuffers"] {
         alike("unhooked", &[mode], 1);
     }
 }

@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1881] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1882] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1451,6 +1451,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1881] = [
     AtomicPtr::new(first_glNamedFramebufferDrawBuffer as *mut ()),
     AtomicPtr::new(first_glNamedFramebufferDrawBuffers as *mut ()),
     AtomicPtr::new(first_glNamedFramebufferReadBuffer as *mut ()),
+    AtomicPtr::new(first_glGetFramebufferParameterivEXT as *mut ()),
     AtomicPtr::new(first_glFramebufferDrawBufferEXT as *mut ()),
     AtomicPtr::new(first_glFramebufferDrawBuffersEXT as *mut ()),
     AtomicPtr::new(first_glFramebufferReadBufferEXT as *mut ()),
@@ -1892,7 +1893,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1881] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1881] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1882] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -3336,6 +3337,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1881] = [
     Some(crate::Address(hook_glNamedFramebufferDrawBuffer as *const ())),
     Some(crate::Address(hook_glNamedFramebufferDrawBuffers as *const ())),
     Some(crate::Address(hook_glNamedFramebufferReadBuffer as *const ())),
+    Some(crate::Address(hook_glGetFramebufferParameterivEXT as *const ())),
     Some(crate::Address(hook_glFramebufferDrawBufferEXT as *const ())),
     Some(crate::Address(hook_glFramebufferDrawBuffersEXT as *const ())),
     Some(crate::Address(hook_glFramebufferReadBufferEXT as *const ())),
@@ -3778,7 +3780,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1881] = [
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1881] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1882] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -5222,6 +5224,7 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1881] = [
     Some(zeros_glNamedFramebufferDrawBuffer),
     Some(zeros_glNamedFramebufferDrawBuffers),
     Some(zeros_glNamedFramebufferReadBuffer),
+    Some(zeros_glGetFramebufferParameterivEXT),
     Some(zeros_glFramebufferDrawBufferEXT),
     Some(zeros_glFramebufferDrawBuffersEXT),
     Some(zeros_glFramebufferReadBufferEXT),
@@ -5663,36 +5666,36 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1881] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
-    (b"OSMesaCreateContext", 1828, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1830, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1829, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1831, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1832, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1827, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglBindTexImage", 1809, crate::Address(eglBindTexImage as *const ())),
-    (b"eglCopyBuffers", 1806, crate::Address(eglCopyBuffers as *const ())),
-    (b"eglCreateContext", 1811, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1818, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1819, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1817, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1812, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1820, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1814, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1815, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1816, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1822, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1810, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglPostSubBufferNV", 1803, crate::Address(eglPostSubBufferNV as *const ())),
-    (b"eglReleaseThread", 1813, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1800, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersRegion2NOK", 1805, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
-    (b"eglSwapBuffersRegionNOK", 1804, crate::Address(eglSwapBuffersRegionNOK as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1802, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1801, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"eglTerminate", 1821, crate::Address(eglTerminate as *const ())),
-    (b"eglWaitClient", 1808, crate::Address(eglWaitClient as *const ())),
-    (b"eglWaitGL", 1807, crate::Address(eglWaitGL as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
+    (b"OSMesaCreateContext", 1829, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1831, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1830, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1832, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1833, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1828, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglBindTexImage", 1810, crate::Address(eglBindTexImage as *const ())),
+    (b"eglCopyBuffers", 1807, crate::Address(eglCopyBuffers as *const ())),
+    (b"eglCreateContext", 1812, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1819, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1820, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1818, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1813, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1821, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1815, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1816, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1817, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1823, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1811, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglPostSubBufferNV", 1804, crate::Address(eglPostSubBufferNV as *const ())),
+    (b"eglReleaseThread", 1814, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1801, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersRegion2NOK", 1806, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
+    (b"eglSwapBuffersRegionNOK", 1805, crate::Address(eglSwapBuffersRegionNOK as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1803, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1802, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"eglTerminate", 1822, crate::Address(eglTerminate as *const ())),
+    (b"eglWaitClient", 1809, crate::Address(eglWaitClient as *const ())),
+    (b"eglWaitGL", 1808, crate::Address(eglWaitGL as *const ())),
     (b"glAccum", 1412, crate::Address(glAccum as *const ())),
     (b"glActiveStencilFaceEXT", 821, crate::Address(glActiveStencilFaceEXT as *const ())),
     (b"glActiveTexture", 556, crate::Address(glActiveTexture as *const ())),
@@ -5702,25 +5705,25 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glArrayElement", 261, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 262, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 455, crate::Address(glBegin as *const ())),
-    (b"glBeginConditionalRender", 1563, crate::Address(glBeginConditionalRender as *const ())),
-    (b"glBeginConditionalRenderNV", 1564, crate::Address(glBeginConditionalRenderNV as *const ())),
-    (b"glBeginQuery", 1575, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1576, crate::Address(glBeginQueryARB as *const ())),
-    (b"glBeginQueryEXT", 1556, crate::Address(glBeginQueryEXT as *const ())),
-    (b"glBeginQueryIndexed", 1572, crate::Address(glBeginQueryIndexed as *const ())),
+    (b"glBeginConditionalRender", 1564, crate::Address(glBeginConditionalRender as *const ())),
+    (b"glBeginConditionalRenderNV", 1565, crate::Address(glBeginConditionalRenderNV as *const ())),
+    (b"glBeginQuery", 1576, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1577, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginQueryEXT", 1557, crate::Address(glBeginQueryEXT as *const ())),
+    (b"glBeginQueryIndexed", 1573, crate::Address(glBeginQueryIndexed as *const ())),
     (b"glBeginTransformFeedback", 712, crate::Address(glBeginTransformFeedback as *const ())),
     (b"glBeginTransformFeedbackEXT", 713, crate::Address(glBeginTransformFeedbackEXT as *const ())),
     (b"glBeginTransformFeedbackNV", 714, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindBuffer", 1672, crate::Address(glBindBuffer as *const ())),
-    (b"glBindBufferARB", 1673, crate::Address(glBindBufferARB as *const ())),
-    (b"glBindBufferBase", 1674, crate::Address(glBindBufferBase as *const ())),
-    (b"glBindBufferBaseEXT", 1675, crate::Address(glBindBufferBaseEXT as *const ())),
-    (b"glBindBufferBaseNV", 1676, crate::Address(glBindBufferBaseNV as *const ())),
-    (b"glBindBufferRange", 1677, crate::Address(glBindBufferRange as *const ())),
-    (b"glBindBufferRangeEXT", 1678, crate::Address(glBindBufferRangeEXT as *const ())),
-    (b"glBindBufferRangeNV", 1679, crate::Address(glBindBufferRangeNV as *const ())),
-    (b"glBindBuffersBase", 1680, crate::Address(glBindBuffersBase as *const ())),
-    (b"glBindBuffersRange", 1681, crate::Address(glBindBuffersRange as *const ())),
+    (b"glBindBuffer", 1673, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1674, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindBufferBase", 1675, crate::Address(glBindBufferBase as *const ())),
+    (b"glBindBufferBaseEXT", 1676, crate::Address(glBindBufferBaseEXT as *const ())),
+    (b"glBindBufferBaseNV", 1677, crate::Address(glBindBufferBaseNV as *const ())),
+    (b"glBindBufferRange", 1678, crate::Address(glBindBufferRange as *const ())),
+    (b"glBindBufferRangeEXT", 1679, crate::Address(glBindBufferRangeEXT as *const ())),
+    (b"glBindBufferRangeNV", 1680, crate::Address(glBindBufferRangeNV as *const ())),
+    (b"glBindBuffersBase", 1681, crate::Address(glBindBuffersBase as *const ())),
+    (b"glBindBuffersRange", 1682, crate::Address(glBindBuffersRange as *const ())),
     (b"glBindFragmentShaderATI", 624, crate::Address(glBindFragmentShaderATI as *const ())),
     (b"glBindFramebuffer", 1429, crate::Address(glBindFramebuffer as *const ())),
     (b"glBindFramebufferEXT", 1430, crate::Address(glBindFramebufferEXT as *const ())),
@@ -5732,18 +5735,18 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glBindProgramNV", 607, crate::Address(glBindProgramNV as *const ())),
     (b"glBindProgramPipeline", 626, crate::Address(glBindProgramPipeline as *const ())),
     (b"glBindProgramPipelineEXT", 627, crate::Address(glBindProgramPipelineEXT as *const ())),
-    (b"glBindRenderbuffer", 1655, crate::Address(glBindRenderbuffer as *const ())),
-    (b"glBindRenderbufferEXT", 1667, crate::Address(glBindRenderbufferEXT as *const ())),
-    (b"glBindSampler", 1741, crate::Address(glBindSampler as *const ())),
-    (b"glBindSamplers", 1742, crate::Address(glBindSamplers as *const ())),
+    (b"glBindRenderbuffer", 1656, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindRenderbufferEXT", 1668, crate::Address(glBindRenderbufferEXT as *const ())),
+    (b"glBindSampler", 1742, crate::Address(glBindSampler as *const ())),
+    (b"glBindSamplers", 1743, crate::Address(glBindSamplers as *const ())),
     (b"glBindTexture", 1423, crate::Address(glBindTexture as *const ())),
     (b"glBindTextureEXT", 1424, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 559, crate::Address(glBindTextureUnit as *const ())),
     (b"glBindTextures", 558, crate::Address(glBindTextures as *const ())),
     (b"glBindTransformFeedback", 722, crate::Address(glBindTransformFeedback as *const ())),
     (b"glBindTransformFeedbackNV", 723, crate::Address(glBindTransformFeedbackNV as *const ())),
-    (b"glBindVertexArray", 1736, crate::Address(glBindVertexArray as *const ())),
-    (b"glBindVertexArrayOES", 1737, crate::Address(glBindVertexArrayOES as *const ())),
+    (b"glBindVertexArray", 1737, crate::Address(glBindVertexArray as *const ())),
+    (b"glBindVertexArrayOES", 1738, crate::Address(glBindVertexArrayOES as *const ())),
     (b"glBitmap", 1413, crate::Address(glBitmap as *const ())),
     (b"glBlendColor", 755, crate::Address(glBlendColor as *const ())),
     (b"glBlendColorEXT", 756, crate::Address(glBlendColorEXT as *const ())),
@@ -5776,27 +5779,27 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glBlendFunciEXT", 739, crate::Address(glBlendFunciEXT as *const ())),
     (b"glBlendFunciOES", 740, crate::Address(glBlendFunciOES as *const ())),
     (b"glBlendParameteriNV", 830, crate::Address(glBlendParameteriNV as *const ())),
-    (b"glBlitFramebuffer", 1446, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferANGLE", 1555, crate::Address(glBlitFramebufferANGLE as *const ())),
-    (b"glBlitFramebufferEXT", 1447, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 1448, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 1449, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1684, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1685, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferStorage", 1687, crate::Address(glBufferStorage as *const ())),
-    (b"glBufferStorageEXT", 1688, crate::Address(glBufferStorageEXT as *const ())),
-    (b"glBufferSubData", 1691, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1692, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glBlitFramebuffer", 1447, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferANGLE", 1556, crate::Address(glBlitFramebufferANGLE as *const ())),
+    (b"glBlitFramebufferEXT", 1448, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 1449, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 1450, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBufferData", 1685, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1686, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferStorage", 1688, crate::Address(glBufferStorage as *const ())),
+    (b"glBufferStorageEXT", 1689, crate::Address(glBufferStorageEXT as *const ())),
+    (b"glBufferSubData", 1692, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1693, crate::Address(glBufferSubDataARB as *const ())),
     (b"glCallList", 1418, crate::Address(glCallList as *const ())),
     (b"glCallLists", 1419, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1506, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1507, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glCheckFramebufferStatus", 1507, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1508, crate::Address(glCheckFramebufferStatusEXT as *const ())),
     (b"glClampColor", 610, crate::Address(glClampColor as *const ())),
     (b"glClampColorARB", 611, crate::Address(glClampColorARB as *const ())),
     (b"glClear", 1300, crate::Address(glClear as *const ())),
     (b"glClearAccum", 757, crate::Address(glClearAccum as *const ())),
-    (b"glClearBufferData", 1708, crate::Address(glClearBufferData as *const ())),
-    (b"glClearBufferSubData", 1709, crate::Address(glClearBufferSubData as *const ())),
+    (b"glClearBufferData", 1709, crate::Address(glClearBufferData as *const ())),
+    (b"glClearBufferSubData", 1710, crate::Address(glClearBufferSubData as *const ())),
     (b"glClearBufferfi", 1301, crate::Address(glClearBufferfi as *const ())),
     (b"glClearBufferfv", 1302, crate::Address(glClearBufferfv as *const ())),
     (b"glClearBufferiv", 1303, crate::Address(glClearBufferiv as *const ())),
@@ -5809,22 +5812,22 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glClearDepthf", 760, crate::Address(glClearDepthf as *const ())),
     (b"glClearDepthfOES", 761, crate::Address(glClearDepthfOES as *const ())),
     (b"glClearIndex", 762, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedBufferData", 1710, crate::Address(glClearNamedBufferData as *const ())),
-    (b"glClearNamedBufferDataEXT", 1701, crate::Address(glClearNamedBufferDataEXT as *const ())),
-    (b"glClearNamedBufferSubData", 1711, crate::Address(glClearNamedBufferSubData as *const ())),
-    (b"glClearNamedBufferSubDataEXT", 1702, crate::Address(glClearNamedBufferSubDataEXT as *const ())),
-    (b"glClearNamedFramebufferfi", 1453, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 1450, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 1451, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 1452, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearNamedBufferData", 1711, crate::Address(glClearNamedBufferData as *const ())),
+    (b"glClearNamedBufferDataEXT", 1702, crate::Address(glClearNamedBufferDataEXT as *const ())),
+    (b"glClearNamedBufferSubData", 1712, crate::Address(glClearNamedBufferSubData as *const ())),
+    (b"glClearNamedBufferSubDataEXT", 1703, crate::Address(glClearNamedBufferSubDataEXT as *const ())),
+    (b"glClearNamedFramebufferfi", 1454, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 1451, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 1452, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 1453, crate::Address(glClearNamedFramebufferuiv as *const ())),
     (b"glClearStencil", 763, crate::Address(glClearStencil as *const ())),
     (b"glClearTexImage", 881, crate::Address(glClearTexImage as *const ())),
     (b"glClearTexImageEXT", 882, crate::Address(glClearTexImageEXT as *const ())),
     (b"glClearTexSubImage", 883, crate::Address(glClearTexSubImage as *const ())),
     (b"glClearTexSubImageEXT", 884, crate::Address(glClearTexSubImageEXT as *const ())),
-    (b"glClientActiveTexture", 1747, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1748, crate::Address(glClientActiveTextureARB as *const ())),
-    (b"glClientAttribDefaultEXT", 1734, crate::Address(glClientAttribDefaultEXT as *const ())),
+    (b"glClientActiveTexture", 1748, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1749, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClientAttribDefaultEXT", 1735, crate::Address(glClientAttribDefaultEXT as *const ())),
     (b"glClipControl", 604, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 605, crate::Address(glClipControlEXT as *const ())),
     (b"glClipPlane", 764, crate::Address(glClipPlane as *const ())),
@@ -5874,7 +5877,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glColorP3uiv", 442, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 443, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 444, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1750, crate::Address(glColorPointer as *const ())),
+    (b"glColorPointer", 1751, crate::Address(glColorPointer as *const ())),
     (b"glCompressedMultiTexImage1DEXT", 980, crate::Address(glCompressedMultiTexImage1DEXT as *const ())),
     (b"glCompressedMultiTexImage2DEXT", 981, crate::Address(glCompressedMultiTexImage2DEXT as *const ())),
     (b"glCompressedMultiTexImage3DEXT", 982, crate::Address(glCompressedMultiTexImage3DEXT as *const ())),
@@ -5904,73 +5907,73 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glCompressedTextureSubImage2DEXT", 901, crate::Address(glCompressedTextureSubImage2DEXT as *const ())),
     (b"glCompressedTextureSubImage3D", 875, crate::Address(glCompressedTextureSubImage3D as *const ())),
     (b"glCompressedTextureSubImage3DEXT", 902, crate::Address(glCompressedTextureSubImage3DEXT as *const ())),
-    (b"glCopyBufferSubData", 1703, crate::Address(glCopyBufferSubData as *const ())),
-    (b"glCopyBufferSubDataNV", 1704, crate::Address(glCopyBufferSubDataNV as *const ())),
-    (b"glCopyColorSubTable", 1552, crate::Address(glCopyColorSubTable as *const ())),
-    (b"glCopyColorSubTableEXT", 1553, crate::Address(glCopyColorSubTableEXT as *const ())),
-    (b"glCopyColorTable", 1544, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1545, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1546, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1547, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1548, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1549, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyBufferSubData", 1704, crate::Address(glCopyBufferSubData as *const ())),
+    (b"glCopyBufferSubDataNV", 1705, crate::Address(glCopyBufferSubDataNV as *const ())),
+    (b"glCopyColorSubTable", 1553, crate::Address(glCopyColorSubTable as *const ())),
+    (b"glCopyColorSubTableEXT", 1554, crate::Address(glCopyColorSubTableEXT as *const ())),
+    (b"glCopyColorTable", 1545, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1546, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1547, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1548, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1549, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1550, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
     (b"glCopyImageSubData", 974, crate::Address(glCopyImageSubData as *const ())),
     (b"glCopyImageSubDataEXT", 975, crate::Address(glCopyImageSubDataEXT as *const ())),
     (b"glCopyImageSubDataNV", 977, crate::Address(glCopyImageSubDataNV as *const ())),
     (b"glCopyImageSubDataOES", 976, crate::Address(glCopyImageSubDataOES as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1536, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1537, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
-    (b"glCopyMultiTexSubImage1DEXT", 1538, crate::Address(glCopyMultiTexSubImage1DEXT as *const ())),
-    (b"glCopyMultiTexSubImage2DEXT", 1539, crate::Address(glCopyMultiTexSubImage2DEXT as *const ())),
-    (b"glCopyMultiTexSubImage3DEXT", 1551, crate::Address(glCopyMultiTexSubImage3DEXT as *const ())),
-    (b"glCopyNamedBufferSubData", 1705, crate::Address(glCopyNamedBufferSubData as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1537, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1538, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyMultiTexSubImage1DEXT", 1539, crate::Address(glCopyMultiTexSubImage1DEXT as *const ())),
+    (b"glCopyMultiTexSubImage2DEXT", 1540, crate::Address(glCopyMultiTexSubImage2DEXT as *const ())),
+    (b"glCopyMultiTexSubImage3DEXT", 1552, crate::Address(glCopyMultiTexSubImage3DEXT as *const ())),
+    (b"glCopyNamedBufferSubData", 1706, crate::Address(glCopyNamedBufferSubData as *const ())),
     (b"glCopyPixels", 1415, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1517, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1518, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1519, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1520, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1521, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1522, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1523, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1524, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1540, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1541, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTexSubImage3DOES", 1542, crate::Address(glCopyTexSubImage3DOES as *const ())),
-    (b"glCopyTextureImage1DEXT", 1532, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1533, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1530, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage1DEXT", 1534, crate::Address(glCopyTextureSubImage1DEXT as *const ())),
-    (b"glCopyTextureSubImage2D", 1531, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage2DEXT", 1535, crate::Address(glCopyTextureSubImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage3D", 1543, crate::Address(glCopyTextureSubImage3D as *const ())),
-    (b"glCopyTextureSubImage3DEXT", 1550, crate::Address(glCopyTextureSubImage3DEXT as *const ())),
+    (b"glCopyTexImage1D", 1518, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1519, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1520, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1521, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1522, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1523, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1524, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1525, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1541, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1542, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTexSubImage3DOES", 1543, crate::Address(glCopyTexSubImage3DOES as *const ())),
+    (b"glCopyTextureImage1DEXT", 1533, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1534, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1531, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage1DEXT", 1535, crate::Address(glCopyTextureSubImage1DEXT as *const ())),
+    (b"glCopyTextureSubImage2D", 1532, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage2DEXT", 1536, crate::Address(glCopyTextureSubImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage3D", 1544, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCopyTextureSubImage3DEXT", 1551, crate::Address(glCopyTextureSubImage3DEXT as *const ())),
     (b"glCoverFillPathInstancedNV", 1390, crate::Address(glCoverFillPathInstancedNV as *const ())),
     (b"glCoverFillPathNV", 1391, crate::Address(glCoverFillPathNV as *const ())),
     (b"glCoverStrokePathInstancedNV", 1392, crate::Address(glCoverStrokePathInstancedNV as *const ())),
     (b"glCoverStrokePathNV", 1393, crate::Address(glCoverStrokePathNV as *const ())),
     (b"glCreateTextures", 970, crate::Address(glCreateTextures as *const ())),
     (b"glCullFace", 770, crate::Address(glCullFace as *const ())),
-    (b"glDebugMessageCallback", 1621, crate::Address(glDebugMessageCallback as *const ())),
-    (b"glDebugMessageCallbackARB", 1622, crate::Address(glDebugMessageCallbackARB as *const ())),
-    (b"glDebugMessageCallbackKHR", 1623, crate::Address(glDebugMessageCallbackKHR as *const ())),
-    (b"glDeleteBuffers", 1682, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1683, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDebugMessageCallback", 1622, crate::Address(glDebugMessageCallback as *const ())),
+    (b"glDebugMessageCallbackARB", 1623, crate::Address(glDebugMessageCallbackARB as *const ())),
+    (b"glDebugMessageCallbackKHR", 1624, crate::Address(glDebugMessageCallbackKHR as *const ())),
+    (b"glDeleteBuffers", 1683, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1684, crate::Address(glDeleteBuffersARB as *const ())),
     (b"glDeleteFramebuffers", 1431, crate::Address(glDeleteFramebuffers as *const ())),
     (b"glDeleteFramebuffersEXT", 1432, crate::Address(glDeleteFramebuffersEXT as *const ())),
     (b"glDeleteLists", 1420, crate::Address(glDeleteLists as *const ())),
     (b"glDeleteProgram", 1298, crate::Address(glDeleteProgram as *const ())),
-    (b"glDeleteProgramPipelines", 1744, crate::Address(glDeleteProgramPipelines as *const ())),
-    (b"glDeleteQueries", 1579, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1580, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteRenderbuffers", 1670, crate::Address(glDeleteRenderbuffers as *const ())),
-    (b"glDeleteRenderbuffersEXT", 1671, crate::Address(glDeleteRenderbuffersEXT as *const ())),
-    (b"glDeleteSamplers", 1743, crate::Address(glDeleteSamplers as *const ())),
+    (b"glDeleteProgramPipelines", 1745, crate::Address(glDeleteProgramPipelines as *const ())),
+    (b"glDeleteQueries", 1580, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1581, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1671, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1672, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteSamplers", 1744, crate::Address(glDeleteSamplers as *const ())),
     (b"glDeleteTextures", 1425, crate::Address(glDeleteTextures as *const ())),
     (b"glDeleteTransformFeedbacks", 724, crate::Address(glDeleteTransformFeedbacks as *const ())),
     (b"glDeleteTransformFeedbacksNV", 725, crate::Address(glDeleteTransformFeedbacksNV as *const ())),
-    (b"glDeleteVertexArrays", 1738, crate::Address(glDeleteVertexArrays as *const ())),
-    (b"glDeleteVertexArraysAPPLE", 1739, crate::Address(glDeleteVertexArraysAPPLE as *const ())),
-    (b"glDeleteVertexArraysOES", 1740, crate::Address(glDeleteVertexArraysOES as *const ())),
+    (b"glDeleteVertexArrays", 1739, crate::Address(glDeleteVertexArrays as *const ())),
+    (b"glDeleteVertexArraysAPPLE", 1740, crate::Address(glDeleteVertexArraysAPPLE as *const ())),
+    (b"glDeleteVertexArraysOES", 1741, crate::Address(glDeleteVertexArraysOES as *const ())),
     (b"glDepthBoundsEXT", 771, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthBoundsdNV", 819, crate::Address(glDepthBoundsdNV as *const ())),
     (b"glDepthFunc", 543, crate::Address(glDepthFunc as *const ())),
@@ -5988,18 +5991,18 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glDepthRangef", 545, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 546, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 531, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1746, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientState", 1747, crate::Address(glDisableClientState as *const ())),
     (b"glDisableClientStateiEXT", 622, crate::Address(glDisableClientStateiEXT as *const ())),
     (b"glDisableIndexedEXT", 538, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexArrayAttrib", 1768, crate::Address(glDisableVertexArrayAttrib as *const ())),
-    (b"glDisableVertexArrayAttribEXT", 1769, crate::Address(glDisableVertexArrayAttribEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1764, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1765, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexArrayAttrib", 1769, crate::Address(glDisableVertexArrayAttrib as *const ())),
+    (b"glDisableVertexArrayAttribEXT", 1770, crate::Address(glDisableVertexArrayAttribEXT as *const ())),
+    (b"glDisableVertexAttribArray", 1765, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1766, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 537, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 539, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 540, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 541, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1512, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDiscardFramebufferEXT", 1513, crate::Address(glDiscardFramebufferEXT as *const ())),
     (b"glDispatchCompute", 1005, crate::Address(glDispatchCompute as *const ())),
     (b"glDispatchComputeGroupSizeARB", 1007, crate::Address(glDispatchComputeGroupSizeARB as *const ())),
     (b"glDispatchComputeIndirect", 1006, crate::Address(glDispatchComputeIndirect as *const ())),
@@ -6066,34 +6069,34 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glDrawTransformFeedbackStream", 1354, crate::Address(glDrawTransformFeedbackStream as *const ())),
     (b"glDrawTransformFeedbackStreamInstanced", 1355, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
     (b"glDrawVkImageNV", 1388, crate::Address(glDrawVkImageNV as *const ())),
-    (b"glEGLImageTargetRenderbufferStorageOES", 1661, crate::Address(glEGLImageTargetRenderbufferStorageOES as *const ())),
+    (b"glEGLImageTargetRenderbufferStorageOES", 1662, crate::Address(glEGLImageTargetRenderbufferStorageOES as *const ())),
     (b"glEGLImageTargetTexStorageEXT", 934, crate::Address(glEGLImageTargetTexStorageEXT as *const ())),
     (b"glEGLImageTargetTexture2DOES", 869, crate::Address(glEGLImageTargetTexture2DOES as *const ())),
     (b"glEGLImageTargetTextureStorageEXT", 922, crate::Address(glEGLImageTargetTextureStorageEXT as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1755, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1756, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 530, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1745, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientState", 1746, crate::Address(glEnableClientState as *const ())),
     (b"glEnableClientStateiEXT", 623, crate::Address(glEnableClientStateiEXT as *const ())),
     (b"glEnableIndexedEXT", 533, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexArrayAttrib", 1770, crate::Address(glEnableVertexArrayAttrib as *const ())),
-    (b"glEnableVertexArrayAttribEXT", 1771, crate::Address(glEnableVertexArrayAttribEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1762, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1763, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexArrayAttrib", 1771, crate::Address(glEnableVertexArrayAttrib as *const ())),
+    (b"glEnableVertexArrayAttribEXT", 1772, crate::Address(glEnableVertexArrayAttribEXT as *const ())),
+    (b"glEnableVertexAttribArray", 1763, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1764, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 532, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 534, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 535, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 536, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 456, crate::Address(glEnd as *const ())),
-    (b"glEndConditionalRender", 1565, crate::Address(glEndConditionalRender as *const ())),
-    (b"glEndConditionalRenderNV", 1566, crate::Address(glEndConditionalRenderNV as *const ())),
-    (b"glEndConditionalRenderNVX", 1567, crate::Address(glEndConditionalRenderNVX as *const ())),
+    (b"glEndConditionalRender", 1566, crate::Address(glEndConditionalRender as *const ())),
+    (b"glEndConditionalRenderNV", 1567, crate::Address(glEndConditionalRenderNV as *const ())),
+    (b"glEndConditionalRenderNVX", 1568, crate::Address(glEndConditionalRenderNVX as *const ())),
     (b"glEndList", 1417, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1577, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1578, crate::Address(glEndQueryARB as *const ())),
-    (b"glEndQueryEXT", 1557, crate::Address(glEndQueryEXT as *const ())),
-    (b"glEndQueryIndexed", 1573, crate::Address(glEndQueryIndexed as *const ())),
+    (b"glEndQuery", 1578, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1579, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndQueryEXT", 1558, crate::Address(glEndQueryEXT as *const ())),
+    (b"glEndQueryIndexed", 1574, crate::Address(glEndQueryIndexed as *const ())),
     (b"glEndTransformFeedback", 715, crate::Address(glEndTransformFeedback as *const ())),
     (b"glEndTransformFeedbackEXT", 716, crate::Address(glEndTransformFeedbackEXT as *const ())),
     (b"glEndTransformFeedbackNV", 717, crate::Address(glEndTransformFeedbackNV as *const ())),
@@ -6110,17 +6113,17 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glEvalMesh2", 1365, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 259, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 260, crate::Address(glEvalPoint2 as *const ())),
-    (b"glEvaluateDepthValuesARB", 1668, crate::Address(glEvaluateDepthValuesARB as *const ())),
-    (b"glFeedbackBuffer", 1648, crate::Address(glFeedbackBuffer as *const ())),
-    (b"glFinish", 1560, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1561, crate::Address(glFlush as *const ())),
-    (b"glFlushMappedBufferRange", 1723, crate::Address(glFlushMappedBufferRange as *const ())),
-    (b"glFlushMappedBufferRangeAPPLE", 1724, crate::Address(glFlushMappedBufferRangeAPPLE as *const ())),
-    (b"glFlushMappedBufferRangeEXT", 1725, crate::Address(glFlushMappedBufferRangeEXT as *const ())),
-    (b"glFlushMappedNamedBufferRange", 1726, crate::Address(glFlushMappedNamedBufferRange as *const ())),
-    (b"glFlushMappedNamedBufferRangeEXT", 1699, crate::Address(glFlushMappedNamedBufferRangeEXT as *const ())),
-    (b"glFogCoordPointer", 1756, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1757, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glEvaluateDepthValuesARB", 1669, crate::Address(glEvaluateDepthValuesARB as *const ())),
+    (b"glFeedbackBuffer", 1649, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFinish", 1561, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1562, crate::Address(glFlush as *const ())),
+    (b"glFlushMappedBufferRange", 1724, crate::Address(glFlushMappedBufferRange as *const ())),
+    (b"glFlushMappedBufferRangeAPPLE", 1725, crate::Address(glFlushMappedBufferRangeAPPLE as *const ())),
+    (b"glFlushMappedBufferRangeEXT", 1726, crate::Address(glFlushMappedBufferRangeEXT as *const ())),
+    (b"glFlushMappedNamedBufferRange", 1727, crate::Address(glFlushMappedNamedBufferRange as *const ())),
+    (b"glFlushMappedNamedBufferRangeEXT", 1700, crate::Address(glFlushMappedNamedBufferRangeEXT as *const ())),
+    (b"glFogCoordPointer", 1757, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1758, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -6135,145 +6138,146 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glFogfv", 577, crate::Address(glFogfv as *const ())),
     (b"glFogi", 578, crate::Address(glFogi as *const ())),
     (b"glFogiv", 579, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 1443, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 1444, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1508, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferParameteriMESA", 1503, crate::Address(glFramebufferParameteriMESA as *const ())),
-    (b"glFramebufferPixelLocalStorageSizeEXT", 1515, crate::Address(glFramebufferPixelLocalStorageSizeEXT as *const ())),
-    (b"glFramebufferReadBufferEXT", 1445, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1476, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1477, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferSampleLocationsfvARB", 1500, crate::Address(glFramebufferSampleLocationsfvARB as *const ())),
-    (b"glFramebufferSampleLocationsfvNV", 1501, crate::Address(glFramebufferSampleLocationsfvNV as *const ())),
-    (b"glFramebufferSamplePositionsfvAMD", 1502, crate::Address(glFramebufferSamplePositionsfvAMD as *const ())),
-    (b"glFramebufferTexture", 1463, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1467, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1468, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1469, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DDownsampleIMG", 1497, crate::Address(glFramebufferTexture2DDownsampleIMG as *const ())),
-    (b"glFramebufferTexture2DEXT", 1470, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture2DMultisampleEXT", 1462, crate::Address(glFramebufferTexture2DMultisampleEXT as *const ())),
-    (b"glFramebufferTexture2DMultisampleIMG", 1498, crate::Address(glFramebufferTexture2DMultisampleIMG as *const ())),
-    (b"glFramebufferTexture3D", 1471, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1472, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTexture3DOES", 1461, crate::Address(glFramebufferTexture3DOES as *const ())),
-    (b"glFramebufferTextureARB", 1464, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1465, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureFaceARB", 1493, crate::Address(glFramebufferTextureFaceARB as *const ())),
-    (b"glFramebufferTextureFaceEXT", 1494, crate::Address(glFramebufferTextureFaceEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1473, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1474, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerDownsampleIMG", 1499, crate::Address(glFramebufferTextureLayerDownsampleIMG as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1475, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureMultisampleMultiviewOVR", 1495, crate::Address(glFramebufferTextureMultisampleMultiviewOVR as *const ())),
-    (b"glFramebufferTextureMultiviewOVR", 1496, crate::Address(glFramebufferTextureMultiviewOVR as *const ())),
-    (b"glFramebufferTextureOES", 1466, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFramebufferDrawBufferEXT", 1444, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 1445, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1509, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferParameteriMESA", 1504, crate::Address(glFramebufferParameteriMESA as *const ())),
+    (b"glFramebufferPixelLocalStorageSizeEXT", 1516, crate::Address(glFramebufferPixelLocalStorageSizeEXT as *const ())),
+    (b"glFramebufferReadBufferEXT", 1446, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1477, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1478, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferSampleLocationsfvARB", 1501, crate::Address(glFramebufferSampleLocationsfvARB as *const ())),
+    (b"glFramebufferSampleLocationsfvNV", 1502, crate::Address(glFramebufferSampleLocationsfvNV as *const ())),
+    (b"glFramebufferSamplePositionsfvAMD", 1503, crate::Address(glFramebufferSamplePositionsfvAMD as *const ())),
+    (b"glFramebufferTexture", 1464, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1468, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1469, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1470, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DDownsampleIMG", 1498, crate::Address(glFramebufferTexture2DDownsampleIMG as *const ())),
+    (b"glFramebufferTexture2DEXT", 1471, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture2DMultisampleEXT", 1463, crate::Address(glFramebufferTexture2DMultisampleEXT as *const ())),
+    (b"glFramebufferTexture2DMultisampleIMG", 1499, crate::Address(glFramebufferTexture2DMultisampleIMG as *const ())),
+    (b"glFramebufferTexture3D", 1472, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1473, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTexture3DOES", 1462, crate::Address(glFramebufferTexture3DOES as *const ())),
+    (b"glFramebufferTextureARB", 1465, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1466, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureFaceARB", 1494, crate::Address(glFramebufferTextureFaceARB as *const ())),
+    (b"glFramebufferTextureFaceEXT", 1495, crate::Address(glFramebufferTextureFaceEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1474, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1475, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerDownsampleIMG", 1500, crate::Address(glFramebufferTextureLayerDownsampleIMG as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1476, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureMultisampleMultiviewOVR", 1496, crate::Address(glFramebufferTextureMultisampleMultiviewOVR as *const ())),
+    (b"glFramebufferTextureMultiviewOVR", 1497, crate::Address(glFramebufferTextureMultiviewOVR as *const ())),
+    (b"glFramebufferTextureOES", 1467, crate::Address(glFramebufferTextureOES as *const ())),
     (b"glFrontFace", 772, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 477, crate::Address(glFrustum as *const ())),
-    (b"glGenFramebuffers", 1651, crate::Address(glGenFramebuffers as *const ())),
-    (b"glGenFramebuffersEXT", 1652, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenFramebuffers", 1652, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1653, crate::Address(glGenFramebuffersEXT as *const ())),
     (b"glGenLists", 1421, crate::Address(glGenLists as *const ())),
-    (b"glGenRenderbuffers", 1653, crate::Address(glGenRenderbuffers as *const ())),
-    (b"glGenRenderbuffersEXT", 1654, crate::Address(glGenRenderbuffersEXT as *const ())),
-    (b"glGenTextures", 1650, crate::Address(glGenTextures as *const ())),
+    (b"glGenRenderbuffers", 1654, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1655, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1651, crate::Address(glGenTextures as *const ())),
     (b"glGenerateMipmap", 967, crate::Address(glGenerateMipmap as *const ())),
     (b"glGenerateMipmapEXT", 968, crate::Address(glGenerateMipmapEXT as *const ())),
     (b"glGenerateMultiTexMipmapEXT", 979, crate::Address(glGenerateMultiTexMipmapEXT as *const ())),
     (b"glGenerateTextureMipmap", 969, crate::Address(glGenerateTextureMipmap as *const ())),
     (b"glGenerateTextureMipmapEXT", 978, crate::Address(glGenerateTextureMipmapEXT as *const ())),
-    (b"glGetBooleanv", 1455, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetClipPlane", 1611, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetBooleanv", 1456, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetClipPlane", 1612, crate::Address(glGetClipPlane as *const ())),
     (b"glGetCompressedMultiTexImageEXT", 998, crate::Address(glGetCompressedMultiTexImageEXT as *const ())),
-    (b"glGetCompressedTexImage", 1629, crate::Address(glGetCompressedTexImage as *const ())),
-    (b"glGetCompressedTexImageARB", 1630, crate::Address(glGetCompressedTexImageARB as *const ())),
+    (b"glGetCompressedTexImage", 1630, crate::Address(glGetCompressedTexImage as *const ())),
+    (b"glGetCompressedTexImageARB", 1631, crate::Address(glGetCompressedTexImageARB as *const ())),
     (b"glGetCompressedTextureImage", 994, crate::Address(glGetCompressedTextureImage as *const ())),
     (b"glGetCompressedTextureImageEXT", 999, crate::Address(glGetCompressedTextureImageEXT as *const ())),
     (b"glGetCompressedTextureSubImage", 1004, crate::Address(glGetCompressedTextureSubImage as *const ())),
-    (b"glGetDoublev", 1457, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1562, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 1456, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1504, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1505, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameterfvAMD", 1514, crate::Address(glGetFramebufferParameterfvAMD as *const ())),
-    (b"glGetFramebufferParameteriv", 1509, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetFramebufferParameterivMESA", 1513, crate::Address(glGetFramebufferParameterivMESA as *const ())),
-    (b"glGetFramebufferPixelLocalStorageSizeEXT", 1516, crate::Address(glGetFramebufferPixelLocalStorageSizeEXT as *const ())),
-    (b"glGetInteger64v", 1458, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 1459, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 1460, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerIndexedvEXT", 1620, crate::Address(glGetIntegerIndexedvEXT as *const ())),
-    (b"glGetIntegeri_v", 1619, crate::Address(glGetIntegeri_v as *const ())),
-    (b"glGetIntegerv", 1454, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetLightfv", 1603, crate::Address(glGetLightfv as *const ())),
-    (b"glGetLightiv", 1604, crate::Address(glGetLightiv as *const ())),
-    (b"glGetMapdv", 1612, crate::Address(glGetMapdv as *const ())),
-    (b"glGetMapfv", 1613, crate::Address(glGetMapfv as *const ())),
-    (b"glGetMapiv", 1614, crate::Address(glGetMapiv as *const ())),
-    (b"glGetMaterialfv", 1605, crate::Address(glGetMaterialfv as *const ())),
-    (b"glGetMaterialiv", 1606, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetDoublev", 1458, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1563, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 1457, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1505, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1506, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameterfvAMD", 1515, crate::Address(glGetFramebufferParameterfvAMD as *const ())),
+    (b"glGetFramebufferParameteriv", 1510, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetFramebufferParameterivEXT", 1443, crate::Address(glGetFramebufferParameterivEXT as *const ())),
+    (b"glGetFramebufferParameterivMESA", 1514, crate::Address(glGetFramebufferParameterivMESA as *const ())),
+    (b"glGetFramebufferPixelLocalStorageSizeEXT", 1517, crate::Address(glGetFramebufferPixelLocalStorageSizeEXT as *const ())),
+    (b"glGetInteger64v", 1459, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1460, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1461, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1621, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1620, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerv", 1455, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetLightfv", 1604, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1605, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1613, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1614, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1615, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1606, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1607, crate::Address(glGetMaterialiv as *const ())),
     (b"glGetMultiTexImageEXT", 1000, crate::Address(glGetMultiTexImageEXT as *const ())),
-    (b"glGetPixelMapfv", 1615, crate::Address(glGetPixelMapfv as *const ())),
-    (b"glGetPixelMapuiv", 1616, crate::Address(glGetPixelMapuiv as *const ())),
-    (b"glGetPixelMapusv", 1617, crate::Address(glGetPixelMapusv as *const ())),
-    (b"glGetPointerv", 1624, crate::Address(glGetPointerv as *const ())),
-    (b"glGetPointervEXT", 1625, crate::Address(glGetPointervEXT as *const ())),
-    (b"glGetPointervKHR", 1626, crate::Address(glGetPointervKHR as *const ())),
-    (b"glGetPolygonStipple", 1618, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetPixelMapfv", 1616, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1617, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1618, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1625, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1626, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1627, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1619, crate::Address(glGetPolygonStipple as *const ())),
     (b"glGetProgramiv", 1299, crate::Address(glGetProgramiv as *const ())),
-    (b"glGetQueryBufferObjecti64v", 1568, crate::Address(glGetQueryBufferObjecti64v as *const ())),
-    (b"glGetQueryBufferObjectiv", 1569, crate::Address(glGetQueryBufferObjectiv as *const ())),
-    (b"glGetQueryBufferObjectui64v", 1570, crate::Address(glGetQueryBufferObjectui64v as *const ())),
-    (b"glGetQueryBufferObjectuiv", 1571, crate::Address(glGetQueryBufferObjectuiv as *const ())),
-    (b"glGetQueryIndexediv", 1574, crate::Address(glGetQueryIndexediv as *const ())),
-    (b"glGetQueryObjecti64v", 1588, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1589, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1583, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1584, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1585, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1590, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1591, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1586, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1587, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryObjectuivEXT", 1559, crate::Address(glGetQueryObjectuivEXT as *const ())),
-    (b"glGetQueryiv", 1581, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1582, crate::Address(glGetQueryivARB as *const ())),
-    (b"glGetQueryivEXT", 1558, crate::Address(glGetQueryivEXT as *const ())),
-    (b"glGetTexEnvfv", 1601, crate::Address(glGetTexEnvfv as *const ())),
-    (b"glGetTexEnviv", 1602, crate::Address(glGetTexEnviv as *const ())),
-    (b"glGetTexGendv", 1598, crate::Address(glGetTexGendv as *const ())),
-    (b"glGetTexGenfv", 1599, crate::Address(glGetTexGenfv as *const ())),
-    (b"glGetTexGeniv", 1600, crate::Address(glGetTexGeniv as *const ())),
-    (b"glGetTexImage", 1627, crate::Address(glGetTexImage as *const ())),
-    (b"glGetTexLevelParameterfv", 1609, crate::Address(glGetTexLevelParameterfv as *const ())),
-    (b"glGetTexLevelParameteriv", 1610, crate::Address(glGetTexLevelParameteriv as *const ())),
-    (b"glGetTexParameterfv", 1607, crate::Address(glGetTexParameterfv as *const ())),
-    (b"glGetTexParameteriv", 1608, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetQueryBufferObjecti64v", 1569, crate::Address(glGetQueryBufferObjecti64v as *const ())),
+    (b"glGetQueryBufferObjectiv", 1570, crate::Address(glGetQueryBufferObjectiv as *const ())),
+    (b"glGetQueryBufferObjectui64v", 1571, crate::Address(glGetQueryBufferObjectui64v as *const ())),
+    (b"glGetQueryBufferObjectuiv", 1572, crate::Address(glGetQueryBufferObjectuiv as *const ())),
+    (b"glGetQueryIndexediv", 1575, crate::Address(glGetQueryIndexediv as *const ())),
+    (b"glGetQueryObjecti64v", 1589, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1590, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1584, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1585, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1586, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1591, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1592, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1587, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1588, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryObjectuivEXT", 1560, crate::Address(glGetQueryObjectuivEXT as *const ())),
+    (b"glGetQueryiv", 1582, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1583, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetQueryivEXT", 1559, crate::Address(glGetQueryivEXT as *const ())),
+    (b"glGetTexEnvfv", 1602, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1603, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1599, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1600, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1601, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1628, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1610, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1611, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1608, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1609, crate::Address(glGetTexParameteriv as *const ())),
     (b"glGetTextureImage", 992, crate::Address(glGetTextureImage as *const ())),
     (b"glGetTextureImageEXT", 1001, crate::Address(glGetTextureImageEXT as *const ())),
     (b"glGetTextureSubImage", 993, crate::Address(glGetTextureSubImage as *const ())),
-    (b"glGetUniformfv", 1632, crate::Address(glGetUniformfv as *const ())),
-    (b"glGetUniformfvARB", 1633, crate::Address(glGetUniformfvARB as *const ())),
-    (b"glGetUniformiv", 1634, crate::Address(glGetUniformiv as *const ())),
-    (b"glGetUniformivARB", 1635, crate::Address(glGetUniformivARB as *const ())),
-    (b"glGetVertexAttribPointerv", 1645, crate::Address(glGetVertexAttribPointerv as *const ())),
-    (b"glGetVertexAttribPointervARB", 1646, crate::Address(glGetVertexAttribPointervARB as *const ())),
-    (b"glGetVertexAttribPointervNV", 1647, crate::Address(glGetVertexAttribPointervNV as *const ())),
-    (b"glGetVertexAttribdv", 1636, crate::Address(glGetVertexAttribdv as *const ())),
-    (b"glGetVertexAttribdvARB", 1637, crate::Address(glGetVertexAttribdvARB as *const ())),
-    (b"glGetVertexAttribdvNV", 1638, crate::Address(glGetVertexAttribdvNV as *const ())),
-    (b"glGetVertexAttribfv", 1639, crate::Address(glGetVertexAttribfv as *const ())),
-    (b"glGetVertexAttribfvARB", 1640, crate::Address(glGetVertexAttribfvARB as *const ())),
-    (b"glGetVertexAttribfvNV", 1641, crate::Address(glGetVertexAttribfvNV as *const ())),
-    (b"glGetVertexAttribiv", 1642, crate::Address(glGetVertexAttribiv as *const ())),
-    (b"glGetVertexAttribivARB", 1643, crate::Address(glGetVertexAttribivARB as *const ())),
-    (b"glGetVertexAttribivNV", 1644, crate::Address(glGetVertexAttribivNV as *const ())),
-    (b"glGetnCompressedTexImage", 1631, crate::Address(glGetnCompressedTexImage as *const ())),
+    (b"glGetUniformfv", 1633, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1634, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1635, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1636, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1646, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1647, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1648, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1637, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1638, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1639, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1640, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1641, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1642, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1643, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1644, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1645, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnCompressedTexImage", 1632, crate::Address(glGetnCompressedTexImage as *const ())),
     (b"glGetnCompressedTexImageARB", 1003, crate::Address(glGetnCompressedTexImageARB as *const ())),
-    (b"glGetnTexImage", 1628, crate::Address(glGetnTexImage as *const ())),
+    (b"glGetnTexImage", 1629, crate::Address(glGetnTexImage as *const ())),
     (b"glGetnTexImageARB", 1002, crate::Address(glGetnTexImageARB as *const ())),
     (b"glHint", 600, crate::Address(glHint as *const ())),
     (b"glIndexMask", 773, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1758, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexPointer", 1759, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -6285,19 +6289,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
     (b"glInitNames", 774, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1749, crate::Address(glInterleavedArrays as *const ())),
-    (b"glInvalidateBufferData", 1706, crate::Address(glInvalidateBufferData as *const ())),
-    (b"glInvalidateBufferSubData", 1707, crate::Address(glInvalidateBufferSubData as *const ())),
-    (b"glInvalidateFramebuffer", 1510, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1511, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glInterleavedArrays", 1750, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateBufferData", 1707, crate::Address(glInvalidateBufferData as *const ())),
+    (b"glInvalidateBufferSubData", 1708, crate::Address(glInvalidateBufferSubData as *const ())),
+    (b"glInvalidateFramebuffer", 1511, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1512, crate::Address(glInvalidateSubFramebuffer as *const ())),
     (b"glInvalidateTexImage", 919, crate::Address(glInvalidateTexImage as *const ())),
     (b"glInvalidateTexSubImage", 920, crate::Address(glInvalidateTexSubImage as *const ())),
-    (b"glIsEnabled", 1592, crate::Address(glIsEnabled as *const ())),
-    (b"glIsEnabledIndexedEXT", 1594, crate::Address(glIsEnabledIndexedEXT as *const ())),
-    (b"glIsEnabledi", 1593, crate::Address(glIsEnabledi as *const ())),
-    (b"glIsEnablediEXT", 1595, crate::Address(glIsEnablediEXT as *const ())),
-    (b"glIsEnablediNV", 1596, crate::Address(glIsEnablediNV as *const ())),
-    (b"glIsEnablediOES", 1597, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsEnabled", 1593, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1595, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1594, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1596, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1597, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1598, crate::Address(glIsEnablediOES as *const ())),
     (b"glIsFramebuffer", 1427, crate::Address(glIsFramebuffer as *const ())),
     (b"glIsFramebufferEXT", 1428, crate::Address(glIsFramebufferEXT as *const ())),
     (b"glIsList", 1422, crate::Address(glIsList as *const ())),
@@ -6328,19 +6332,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glMap1f", 783, crate::Address(glMap1f as *const ())),
     (b"glMap2d", 784, crate::Address(glMap2d as *const ())),
     (b"glMap2f", 785, crate::Address(glMap2f as *const ())),
-    (b"glMapBuffer", 1712, crate::Address(glMapBuffer as *const ())),
-    (b"glMapBufferARB", 1713, crate::Address(glMapBufferARB as *const ())),
-    (b"glMapBufferOES", 1714, crate::Address(glMapBufferOES as *const ())),
-    (b"glMapBufferRange", 1716, crate::Address(glMapBufferRange as *const ())),
-    (b"glMapBufferRangeEXT", 1717, crate::Address(glMapBufferRangeEXT as *const ())),
+    (b"glMapBuffer", 1713, crate::Address(glMapBuffer as *const ())),
+    (b"glMapBufferARB", 1714, crate::Address(glMapBufferARB as *const ())),
+    (b"glMapBufferOES", 1715, crate::Address(glMapBufferOES as *const ())),
+    (b"glMapBufferRange", 1717, crate::Address(glMapBufferRange as *const ())),
+    (b"glMapBufferRangeEXT", 1718, crate::Address(glMapBufferRangeEXT as *const ())),
     (b"glMapGrid1d", 786, crate::Address(glMapGrid1d as *const ())),
     (b"glMapGrid1f", 787, crate::Address(glMapGrid1f as *const ())),
     (b"glMapGrid2d", 788, crate::Address(glMapGrid2d as *const ())),
     (b"glMapGrid2f", 789, crate::Address(glMapGrid2f as *const ())),
-    (b"glMapNamedBuffer", 1715, crate::Address(glMapNamedBuffer as *const ())),
-    (b"glMapNamedBufferEXT", 1696, crate::Address(glMapNamedBufferEXT as *const ())),
-    (b"glMapNamedBufferRange", 1718, crate::Address(glMapNamedBufferRange as *const ())),
-    (b"glMapNamedBufferRangeEXT", 1697, crate::Address(glMapNamedBufferRangeEXT as *const ())),
+    (b"glMapNamedBuffer", 1716, crate::Address(glMapNamedBuffer as *const ())),
+    (b"glMapNamedBufferEXT", 1697, crate::Address(glMapNamedBufferEXT as *const ())),
+    (b"glMapNamedBufferRange", 1719, crate::Address(glMapNamedBufferRange as *const ())),
+    (b"glMapNamedBufferRangeEXT", 1698, crate::Address(glMapNamedBufferRangeEXT as *const ())),
     (b"glMaterialf", 246, crate::Address(glMaterialf as *const ())),
     (b"glMaterialfv", 247, crate::Address(glMaterialfv as *const ())),
     (b"glMateriali", 248, crate::Address(glMateriali as *const ())),
@@ -6371,9 +6375,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glMatrixScalefEXT", 492, crate::Address(glMatrixScalefEXT as *const ())),
     (b"glMatrixTranslatedEXT", 493, crate::Address(glMatrixTranslatedEXT as *const ())),
     (b"glMatrixTranslatefEXT", 494, crate::Address(glMatrixTranslatefEXT as *const ())),
-    (b"glMemoryBarrier", 1727, crate::Address(glMemoryBarrier as *const ())),
-    (b"glMemoryBarrierByRegion", 1729, crate::Address(glMemoryBarrierByRegion as *const ())),
-    (b"glMemoryBarrierEXT", 1728, crate::Address(glMemoryBarrierEXT as *const ())),
+    (b"glMemoryBarrier", 1728, crate::Address(glMemoryBarrier as *const ())),
+    (b"glMemoryBarrierByRegion", 1730, crate::Address(glMemoryBarrierByRegion as *const ())),
+    (b"glMemoryBarrierEXT", 1729, crate::Address(glMemoryBarrierEXT as *const ())),
     (b"glMinSampleShading", 804, crate::Address(glMinSampleShading as *const ())),
     (b"glMinSampleShadingARB", 805, crate::Address(glMinSampleShadingARB as *const ())),
     (b"glMinSampleShadingOES", 806, crate::Address(glMinSampleShadingOES as *const ())),
@@ -6511,31 +6515,31 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glMultiTexSubImage1DEXT", 989, crate::Address(glMultiTexSubImage1DEXT as *const ())),
     (b"glMultiTexSubImage2DEXT", 990, crate::Address(glMultiTexSubImage2DEXT as *const ())),
     (b"glMultiTexSubImage3DEXT", 991, crate::Address(glMultiTexSubImage3DEXT as *const ())),
-    (b"glNamedBufferData", 1686, crate::Address(glNamedBufferData as *const ())),
-    (b"glNamedBufferDataEXT", 1695, crate::Address(glNamedBufferDataEXT as *const ())),
-    (b"glNamedBufferStorage", 1689, crate::Address(glNamedBufferStorage as *const ())),
-    (b"glNamedBufferStorageEXT", 1690, crate::Address(glNamedBufferStorageEXT as *const ())),
-    (b"glNamedBufferSubData", 1693, crate::Address(glNamedBufferSubData as *const ())),
-    (b"glNamedBufferSubDataEXT", 1694, crate::Address(glNamedBufferSubDataEXT as *const ())),
-    (b"glNamedCopyBufferSubDataEXT", 1700, crate::Address(glNamedCopyBufferSubDataEXT as *const ())),
+    (b"glNamedBufferData", 1687, crate::Address(glNamedBufferData as *const ())),
+    (b"glNamedBufferDataEXT", 1696, crate::Address(glNamedBufferDataEXT as *const ())),
+    (b"glNamedBufferStorage", 1690, crate::Address(glNamedBufferStorage as *const ())),
+    (b"glNamedBufferStorageEXT", 1691, crate::Address(glNamedBufferStorageEXT as *const ())),
+    (b"glNamedBufferSubData", 1694, crate::Address(glNamedBufferSubData as *const ())),
+    (b"glNamedBufferSubDataEXT", 1695, crate::Address(glNamedBufferSubDataEXT as *const ())),
+    (b"glNamedCopyBufferSubDataEXT", 1701, crate::Address(glNamedCopyBufferSubDataEXT as *const ())),
     (b"glNamedFramebufferDrawBuffer", 1440, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
     (b"glNamedFramebufferDrawBuffers", 1441, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferParameteri", 1488, crate::Address(glNamedFramebufferParameteri as *const ())),
-    (b"glNamedFramebufferParameteriEXT", 1489, crate::Address(glNamedFramebufferParameteriEXT as *const ())),
+    (b"glNamedFramebufferParameteri", 1489, crate::Address(glNamedFramebufferParameteri as *const ())),
+    (b"glNamedFramebufferParameteriEXT", 1490, crate::Address(glNamedFramebufferParameteriEXT as *const ())),
     (b"glNamedFramebufferReadBuffer", 1442, crate::Address(glNamedFramebufferReadBuffer as *const ())),
-    (b"glNamedFramebufferRenderbuffer", 1480, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
-    (b"glNamedFramebufferRenderbufferEXT", 1487, crate::Address(glNamedFramebufferRenderbufferEXT as *const ())),
-    (b"glNamedFramebufferSampleLocationsfvARB", 1490, crate::Address(glNamedFramebufferSampleLocationsfvARB as *const ())),
-    (b"glNamedFramebufferSampleLocationsfvNV", 1491, crate::Address(glNamedFramebufferSampleLocationsfvNV as *const ())),
-    (b"glNamedFramebufferSamplePositionsfvAMD", 1492, crate::Address(glNamedFramebufferSamplePositionsfvAMD as *const ())),
-    (b"glNamedFramebufferTexture", 1478, crate::Address(glNamedFramebufferTexture as *const ())),
-    (b"glNamedFramebufferTexture1DEXT", 1481, crate::Address(glNamedFramebufferTexture1DEXT as *const ())),
-    (b"glNamedFramebufferTexture2DEXT", 1482, crate::Address(glNamedFramebufferTexture2DEXT as *const ())),
-    (b"glNamedFramebufferTexture3DEXT", 1483, crate::Address(glNamedFramebufferTexture3DEXT as *const ())),
-    (b"glNamedFramebufferTextureEXT", 1484, crate::Address(glNamedFramebufferTextureEXT as *const ())),
-    (b"glNamedFramebufferTextureFaceEXT", 1485, crate::Address(glNamedFramebufferTextureFaceEXT as *const ())),
-    (b"glNamedFramebufferTextureLayer", 1479, crate::Address(glNamedFramebufferTextureLayer as *const ())),
-    (b"glNamedFramebufferTextureLayerEXT", 1486, crate::Address(glNamedFramebufferTextureLayerEXT as *const ())),
+    (b"glNamedFramebufferRenderbuffer", 1481, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
+    (b"glNamedFramebufferRenderbufferEXT", 1488, crate::Address(glNamedFramebufferRenderbufferEXT as *const ())),
+    (b"glNamedFramebufferSampleLocationsfvARB", 1491, crate::Address(glNamedFramebufferSampleLocationsfvARB as *const ())),
+    (b"glNamedFramebufferSampleLocationsfvNV", 1492, crate::Address(glNamedFramebufferSampleLocationsfvNV as *const ())),
+    (b"glNamedFramebufferSamplePositionsfvAMD", 1493, crate::Address(glNamedFramebufferSamplePositionsfvAMD as *const ())),
+    (b"glNamedFramebufferTexture", 1479, crate::Address(glNamedFramebufferTexture as *const ())),
+    (b"glNamedFramebufferTexture1DEXT", 1482, crate::Address(glNamedFramebufferTexture1DEXT as *const ())),
+    (b"glNamedFramebufferTexture2DEXT", 1483, crate::Address(glNamedFramebufferTexture2DEXT as *const ())),
+    (b"glNamedFramebufferTexture3DEXT", 1484, crate::Address(glNamedFramebufferTexture3DEXT as *const ())),
+    (b"glNamedFramebufferTextureEXT", 1485, crate::Address(glNamedFramebufferTextureEXT as *const ())),
+    (b"glNamedFramebufferTextureFaceEXT", 1486, crate::Address(glNamedFramebufferTextureFaceEXT as *const ())),
+    (b"glNamedFramebufferTextureLayer", 1480, crate::Address(glNamedFramebufferTextureLayer as *const ())),
+    (b"glNamedFramebufferTextureLayerEXT", 1487, crate::Address(glNamedFramebufferTextureLayerEXT as *const ())),
     (b"glNamedRenderbufferStorage", 885, crate::Address(glNamedRenderbufferStorage as *const ())),
     (b"glNamedRenderbufferStorageEXT", 887, crate::Address(glNamedRenderbufferStorageEXT as *const ())),
     (b"glNamedRenderbufferStorageMultisample", 886, crate::Address(glNamedRenderbufferStorageMultisample as *const ())),
@@ -6557,7 +6561,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 439, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 440, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1759, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1760, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 478, crate::Address(glOrtho as *const ())),
     (b"glPassThrough", 778, crate::Address(glPassThrough as *const ())),
     (b"glPauseTransformFeedback", 718, crate::Address(glPauseTransformFeedback as *const ())),
@@ -6565,8 +6569,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glPixelMapfv", 790, crate::Address(glPixelMapfv as *const ())),
     (b"glPixelMapuiv", 791, crate::Address(glPixelMapuiv as *const ())),
     (b"glPixelMapusv", 792, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1730, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1731, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelStoref", 1731, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1732, crate::Address(glPixelStorei as *const ())),
     (b"glPixelTransferf", 793, crate::Address(glPixelTransferf as *const ())),
     (b"glPixelTransferi", 794, crate::Address(glPixelTransferi as *const ())),
     (b"glPixelZoom", 795, crate::Address(glPixelZoom as *const ())),
@@ -6590,7 +6594,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glPolygonOffsetClampEXT", 798, crate::Address(glPolygonOffsetClampEXT as *const ())),
     (b"glPolygonStipple", 799, crate::Address(glPolygonStipple as *const ())),
     (b"glPopAttrib", 630, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1733, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPopClientAttrib", 1734, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 480, crate::Address(glPopMatrix as *const ())),
     (b"glPopName", 777, crate::Address(glPopName as *const ())),
     (b"glPrimitiveBoundingBox", 826, crate::Address(glPrimitiveBoundingBox as *const ())),
@@ -6755,8 +6759,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glProvokingVertex", 602, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 603, crate::Address(glProvokingVertexEXT as *const ())),
     (b"glPushAttrib", 629, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1732, crate::Address(glPushClientAttrib as *const ())),
-    (b"glPushClientAttribDefaultEXT", 1735, crate::Address(glPushClientAttribDefaultEXT as *const ())),
+    (b"glPushClientAttrib", 1733, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushClientAttribDefaultEXT", 1736, crate::Address(glPushClientAttribDefaultEXT as *const ())),
     (b"glPushMatrix", 479, crate::Address(glPushMatrix as *const ())),
     (b"glPushName", 776, crate::Address(glPushName as *const ())),
     (b"glRasterPos2d", 631, crate::Address(glRasterPos2d as *const ())),
@@ -6785,12 +6789,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glRasterPos4sv", 654, crate::Address(glRasterPos4sv as *const ())),
     (b"glRasterSamplesEXT", 825, crate::Address(glRasterSamplesEXT as *const ())),
     (b"glReadBuffer", 1439, crate::Address(glReadBuffer as *const ())),
-    (b"glReadBufferNV", 1554, crate::Address(glReadBufferNV as *const ())),
-    (b"glReadPixels", 1525, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1526, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1527, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1528, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1529, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glReadBufferNV", 1555, crate::Address(glReadBufferNV as *const ())),
+    (b"glReadPixels", 1526, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1527, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1528, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1529, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1530, crate::Address(glReadnPixelsKHR as *const ())),
     (b"glRectd", 1356, crate::Address(glRectd as *const ())),
     (b"glRectdv", 1357, crate::Address(glRectdv as *const ())),
     (b"glRectf", 1358, crate::Address(glRectf as *const ())),
@@ -6802,17 +6806,17 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glRectxOES", 1410, crate::Address(glRectxOES as *const ())),
     (b"glRectxvOES", 1411, crate::Address(glRectxvOES as *const ())),
     (b"glRenderMode", 711, crate::Address(glRenderMode as *const ())),
-    (b"glRenderbufferStorage", 1656, crate::Address(glRenderbufferStorage as *const ())),
-    (b"glRenderbufferStorageEXT", 1657, crate::Address(glRenderbufferStorageEXT as *const ())),
-    (b"glRenderbufferStorageMultisample", 1658, crate::Address(glRenderbufferStorageMultisample as *const ())),
-    (b"glRenderbufferStorageMultisampleANGLE", 1662, crate::Address(glRenderbufferStorageMultisampleANGLE as *const ())),
-    (b"glRenderbufferStorageMultisampleAPPLE", 1663, crate::Address(glRenderbufferStorageMultisampleAPPLE as *const ())),
-    (b"glRenderbufferStorageMultisampleAdvancedAMD", 1664, crate::Address(glRenderbufferStorageMultisampleAdvancedAMD as *const ())),
-    (b"glRenderbufferStorageMultisampleCoverageNV", 1665, crate::Address(glRenderbufferStorageMultisampleCoverageNV as *const ())),
-    (b"glRenderbufferStorageMultisampleEXT", 1659, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glRenderbufferStorageMultisampleIMG", 1666, crate::Address(glRenderbufferStorageMultisampleIMG as *const ())),
-    (b"glRenderbufferStorageMultisampleNV", 1660, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
-    (b"glResolveDepthValuesNV", 1669, crate::Address(glResolveDepthValuesNV as *const ())),
+    (b"glRenderbufferStorage", 1657, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1658, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1659, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleANGLE", 1663, crate::Address(glRenderbufferStorageMultisampleANGLE as *const ())),
+    (b"glRenderbufferStorageMultisampleAPPLE", 1664, crate::Address(glRenderbufferStorageMultisampleAPPLE as *const ())),
+    (b"glRenderbufferStorageMultisampleAdvancedAMD", 1665, crate::Address(glRenderbufferStorageMultisampleAdvancedAMD as *const ())),
+    (b"glRenderbufferStorageMultisampleCoverageNV", 1666, crate::Address(glRenderbufferStorageMultisampleCoverageNV as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1660, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleIMG", 1667, crate::Address(glRenderbufferStorageMultisampleIMG as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1661, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
+    (b"glResolveDepthValuesNV", 1670, crate::Address(glResolveDepthValuesNV as *const ())),
     (b"glResumeTransformFeedback", 720, crate::Address(glResumeTransformFeedback as *const ())),
     (b"glResumeTransformFeedbackNV", 721, crate::Address(glResumeTransformFeedbackNV as *const ())),
     (b"glRotated", 471, crate::Address(glRotated as *const ())),
@@ -6871,9 +6875,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 445, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 446, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1751, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1752, crate::Address(glSecondaryColorPointerEXT as *const ())),
-    (b"glSelectBuffer", 1649, crate::Address(glSelectBuffer as *const ())),
+    (b"glSecondaryColorPointer", 1752, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1753, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1650, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 593, crate::Address(glShadeModel as *const ())),
     (b"glShaderStorageBlockBinding", 1192, crate::Address(glShaderStorageBlockBinding as *const ())),
     (b"glStencilFillPathInstancedNV", 1394, crate::Address(glStencilFillPathInstancedNV as *const ())),
@@ -6940,7 +6944,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glTexCoordP3uiv", 430, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 431, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 432, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1753, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1754, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 596, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 597, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 598, crate::Address(glTexEnvi as *const ())),
@@ -7173,11 +7177,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glUniformSubroutinesuiv", 1291, crate::Address(glUniformSubroutinesuiv as *const ())),
     (b"glUniformui64NV", 1271, crate::Address(glUniformui64NV as *const ())),
     (b"glUniformui64vNV", 1272, crate::Address(glUniformui64vNV as *const ())),
-    (b"glUnmapBuffer", 1719, crate::Address(glUnmapBuffer as *const ())),
-    (b"glUnmapBufferARB", 1720, crate::Address(glUnmapBufferARB as *const ())),
-    (b"glUnmapBufferOES", 1721, crate::Address(glUnmapBufferOES as *const ())),
-    (b"glUnmapNamedBuffer", 1722, crate::Address(glUnmapNamedBuffer as *const ())),
-    (b"glUnmapNamedBufferEXT", 1698, crate::Address(glUnmapNamedBufferEXT as *const ())),
+    (b"glUnmapBuffer", 1720, crate::Address(glUnmapBuffer as *const ())),
+    (b"glUnmapBufferARB", 1721, crate::Address(glUnmapBufferARB as *const ())),
+    (b"glUnmapBufferOES", 1722, crate::Address(glUnmapBufferOES as *const ())),
+    (b"glUnmapNamedBuffer", 1723, crate::Address(glUnmapNamedBuffer as *const ())),
+    (b"glUnmapNamedBufferEXT", 1699, crate::Address(glUnmapNamedBufferEXT as *const ())),
     (b"glUseProgram", 1296, crate::Address(glUseProgram as *const ())),
     (b"glUseProgramObjectARB", 1297, crate::Address(glUseProgramObjectARB as *const ())),
     (b"glUseProgramStages", 608, crate::Address(glUseProgramStages as *const ())),
@@ -7213,9 +7217,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glVertex4iv", 21, crate::Address(glVertex4iv as *const ())),
     (b"glVertex4s", 22, crate::Address(glVertex4s as *const ())),
     (b"glVertex4sv", 23, crate::Address(glVertex4sv as *const ())),
-    (b"glVertexArrayAttribBinding", 1767, crate::Address(glVertexArrayAttribBinding as *const ())),
+    (b"glVertexArrayAttribBinding", 1768, crate::Address(glVertexArrayAttribBinding as *const ())),
     (b"glVertexArrayBindingDivisor", 1014, crate::Address(glVertexArrayBindingDivisor as *const ())),
-    (b"glVertexArrayVertexAttribBindingEXT", 1772, crate::Address(glVertexArrayVertexAttribBindingEXT as *const ())),
+    (b"glVertexArrayVertexAttribBindingEXT", 1773, crate::Address(glVertexArrayVertexAttribBindingEXT as *const ())),
     (b"glVertexArrayVertexAttribDivisorEXT", 1016, crate::Address(glVertexArrayVertexAttribDivisorEXT as *const ())),
     (b"glVertexArrayVertexBindingDivisorEXT", 1015, crate::Address(glVertexArrayVertexBindingDivisorEXT as *const ())),
     (b"glVertexAttrib1d", 263, crate::Address(glVertexAttrib1d as *const ())),
@@ -7316,7 +7320,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glVertexAttrib4uivARB", 355, crate::Address(glVertexAttrib4uivARB as *const ())),
     (b"glVertexAttrib4usv", 356, crate::Address(glVertexAttrib4usv as *const ())),
     (b"glVertexAttrib4usvARB", 357, crate::Address(glVertexAttrib4usvARB as *const ())),
-    (b"glVertexAttribBinding", 1766, crate::Address(glVertexAttribBinding as *const ())),
+    (b"glVertexAttribBinding", 1767, crate::Address(glVertexAttribBinding as *const ())),
     (b"glVertexAttribDivisor", 1008, crate::Address(glVertexAttribDivisor as *const ())),
     (b"glVertexAttribDivisorANGLE", 1009, crate::Address(glVertexAttribDivisorANGLE as *const ())),
     (b"glVertexAttribDivisorARB", 1010, crate::Address(glVertexAttribDivisorARB as *const ())),
@@ -7386,8 +7390,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glVertexAttribP3uiv", 452, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 453, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 454, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1760, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1761, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexAttribPointer", 1761, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1762, crate::Address(glVertexAttribPointerARB as *const ())),
     (b"glVertexBindingDivisor", 1013, crate::Address(glVertexBindingDivisor as *const ())),
     (b"glVertexBlendARB", 625, crate::Address(glVertexBlendARB as *const ())),
     (b"glVertexP2ui", 433, crate::Address(glVertexP2ui as *const ())),
@@ -7396,7 +7400,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glVertexP3uiv", 436, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 437, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 438, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1754, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1755, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 505, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 516, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 517, crate::Address(glViewportArrayvNV as *const ())),
@@ -7466,32 +7470,32 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1828] = [
     (b"glWindowPos4sMESA", 709, crate::Address(glWindowPos4sMESA as *const ())),
     (b"glWindowPos4svMESA", 710, crate::Address(glWindowPos4svMESA as *const ())),
     (b"glWindowRectanglesEXT", 527, crate::Address(glWindowRectanglesEXT as *const ())),
-    (b"glXBindTexImageEXT", 1781, crate::Address(glXBindTexImageEXT as *const ())),
-    (b"glXChooseFBConfig", 1774, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1775, crate::Address(glXChooseFBConfigSGIX as *const ())),
-    (b"glXChooseVisual", 1773, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCopyContext", 1789, crate::Address(glXCopyContext as *const ())),
-    (b"glXCopySubBufferMESA", 1778, crate::Address(glXCopySubBufferMESA as *const ())),
-    (b"glXCreateContext", 1785, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1787, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1788, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1786, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1791, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1790, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyGLXPbufferSGIX", 1794, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
-    (b"glXDestroyGLXPixmap", 1796, crate::Address(glXDestroyGLXPixmap as *const ())),
-    (b"glXDestroyPbuffer", 1793, crate::Address(glXDestroyPbuffer as *const ())),
-    (b"glXDestroyPixmap", 1795, crate::Address(glXDestroyPixmap as *const ())),
-    (b"glXDestroyWindow", 1792, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1797, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1798, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1783, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1782, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1784, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1776, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1777, crate::Address(glXSwapBuffersMscOML as *const ())),
-    (b"glXUseXFont", 1780, crate::Address(glXUseXFont as *const ())),
-    (b"glXWaitGL", 1779, crate::Address(glXWaitGL as *const ())),
+    (b"glXBindTexImageEXT", 1782, crate::Address(glXBindTexImageEXT as *const ())),
+    (b"glXChooseFBConfig", 1775, crate::Address(glXChooseFBConfig as *const ())),
+    (b"glXChooseFBConfigSGIX", 1776, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseVisual", 1774, crate::Address(glXChooseVisual as *const ())),
+    (b"glXCopyContext", 1790, crate::Address(glXCopyContext as *const ())),
+    (b"glXCopySubBufferMESA", 1779, crate::Address(glXCopySubBufferMESA as *const ())),
+    (b"glXCreateContext", 1786, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1788, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1789, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1787, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1792, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1791, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyGLXPbufferSGIX", 1795, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
+    (b"glXDestroyGLXPixmap", 1797, crate::Address(glXDestroyGLXPixmap as *const ())),
+    (b"glXDestroyPbuffer", 1794, crate::Address(glXDestroyPbuffer as *const ())),
+    (b"glXDestroyPixmap", 1796, crate::Address(glXDestroyPixmap as *const ())),
+    (b"glXDestroyWindow", 1793, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1798, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1799, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1784, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1783, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1785, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1777, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1778, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXUseXFont", 1781, crate::Address(glXUseXFont as *const ())),
+    (b"glXWaitGL", 1780, crate::Address(glXWaitGL as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, zeros_glVertex2d, (x: f64, y: f64) -> (), {
@@ -18277,1803 +18281,1807 @@ export! { 1442, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 1443, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, zeros_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1443, glGetFramebufferParameterivEXT, first_glGetFramebufferParameterivEXT, hook_glGetFramebufferParameterivEXT, zeros_glGetFramebufferParameterivEXT, (framebuffer: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetFramebufferParameterivEXT(framebuffer, pname, params) }
+} }
+export! { 1444, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, zeros_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 1444, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, zeros_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1445, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, zeros_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 1445, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, zeros_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1446, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, zeros_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 1446, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, zeros_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1447, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, zeros_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1447, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, zeros_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1448, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, zeros_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1448, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, zeros_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1449, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, zeros_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1449, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, zeros_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1450, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, zeros_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1450, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, zeros_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1451, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, zeros_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1451, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, zeros_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1452, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, zeros_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1452, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, zeros_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1453, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, zeros_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1453, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, zeros_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1454, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, zeros_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 1454, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, zeros_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 1455, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, zeros_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 1455, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, zeros_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 1456, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, zeros_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 1456, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, zeros_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 1457, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, zeros_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 1457, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, zeros_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 1458, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, zeros_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 1458, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, zeros_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 1459, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, zeros_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1459, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, zeros_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1460, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, zeros_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 1460, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, zeros_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1461, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, zeros_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1461, glFramebufferTexture3DOES, first_glFramebufferTexture3DOES, hook_glFramebufferTexture3DOES, zeros_glFramebufferTexture3DOES, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1462, glFramebufferTexture3DOES, first_glFramebufferTexture3DOES, hook_glFramebufferTexture3DOES, zeros_glFramebufferTexture3DOES, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DOES(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1462, glFramebufferTexture2DMultisampleEXT, first_glFramebufferTexture2DMultisampleEXT, hook_glFramebufferTexture2DMultisampleEXT, zeros_glFramebufferTexture2DMultisampleEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
+export! { 1463, glFramebufferTexture2DMultisampleEXT, first_glFramebufferTexture2DMultisampleEXT, hook_glFramebufferTexture2DMultisampleEXT, zeros_glFramebufferTexture2DMultisampleEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DMultisampleEXT(target, attachment, textarget, texture, level, samples) })
 } }
-export! { 1463, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, zeros_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1464, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, zeros_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1464, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, zeros_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1465, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, zeros_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1465, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, zeros_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1466, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, zeros_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1466, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, zeros_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1467, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, zeros_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1467, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, zeros_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1468, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, zeros_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1468, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, zeros_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1469, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, zeros_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1469, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, zeros_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1470, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, zeros_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1470, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, zeros_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1471, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, zeros_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1471, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, zeros_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1472, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, zeros_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1472, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, zeros_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1473, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, zeros_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1473, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, zeros_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1474, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, zeros_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1474, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, zeros_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1475, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, zeros_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1475, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, zeros_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1476, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, zeros_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1476, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, zeros_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1477, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, zeros_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1477, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, zeros_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1478, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, zeros_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1478, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, zeros_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1479, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, zeros_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture(framebuffer, attachment, texture, level) };
 } }
-export! { 1479, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, zeros_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1480, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, zeros_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayer(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1480, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, zeros_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1481, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, zeros_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbuffer(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1481, glNamedFramebufferTexture1DEXT, first_glNamedFramebufferTexture1DEXT, hook_glNamedFramebufferTexture1DEXT, zeros_glNamedFramebufferTexture1DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1482, glNamedFramebufferTexture1DEXT, first_glNamedFramebufferTexture1DEXT, hook_glNamedFramebufferTexture1DEXT, zeros_glNamedFramebufferTexture1DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture1DEXT(framebuffer, attachment, textarget, texture, level) };
 } }
-export! { 1482, glNamedFramebufferTexture2DEXT, first_glNamedFramebufferTexture2DEXT, hook_glNamedFramebufferTexture2DEXT, zeros_glNamedFramebufferTexture2DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1483, glNamedFramebufferTexture2DEXT, first_glNamedFramebufferTexture2DEXT, hook_glNamedFramebufferTexture2DEXT, zeros_glNamedFramebufferTexture2DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture2DEXT(framebuffer, attachment, textarget, texture, level) };
 } }
-export! { 1483, glNamedFramebufferTexture3DEXT, first_glNamedFramebufferTexture3DEXT, hook_glNamedFramebufferTexture3DEXT, zeros_glNamedFramebufferTexture3DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1484, glNamedFramebufferTexture3DEXT, first_glNamedFramebufferTexture3DEXT, hook_glNamedFramebufferTexture3DEXT, zeros_glNamedFramebufferTexture3DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture3DEXT(framebuffer, attachment, textarget, texture, level, zoffset) };
 } }
-export! { 1484, glNamedFramebufferTextureEXT, first_glNamedFramebufferTextureEXT, hook_glNamedFramebufferTextureEXT, zeros_glNamedFramebufferTextureEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1485, glNamedFramebufferTextureEXT, first_glNamedFramebufferTextureEXT, hook_glNamedFramebufferTextureEXT, zeros_glNamedFramebufferTextureEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureEXT(framebuffer, attachment, texture, level) };
 } }
-export! { 1485, glNamedFramebufferTextureFaceEXT, first_glNamedFramebufferTextureFaceEXT, hook_glNamedFramebufferTextureFaceEXT, zeros_glNamedFramebufferTextureFaceEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1486, glNamedFramebufferTextureFaceEXT, first_glNamedFramebufferTextureFaceEXT, hook_glNamedFramebufferTextureFaceEXT, zeros_glNamedFramebufferTextureFaceEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureFaceEXT(framebuffer, attachment, texture, level, face) };
 } }
-export! { 1486, glNamedFramebufferTextureLayerEXT, first_glNamedFramebufferTextureLayerEXT, hook_glNamedFramebufferTextureLayerEXT, zeros_glNamedFramebufferTextureLayerEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1487, glNamedFramebufferTextureLayerEXT, first_glNamedFramebufferTextureLayerEXT, hook_glNamedFramebufferTextureLayerEXT, zeros_glNamedFramebufferTextureLayerEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayerEXT(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1487, glNamedFramebufferRenderbufferEXT, first_glNamedFramebufferRenderbufferEXT, hook_glNamedFramebufferRenderbufferEXT, zeros_glNamedFramebufferRenderbufferEXT, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1488, glNamedFramebufferRenderbufferEXT, first_glNamedFramebufferRenderbufferEXT, hook_glNamedFramebufferRenderbufferEXT, zeros_glNamedFramebufferRenderbufferEXT, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbufferEXT(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1488, glNamedFramebufferParameteri, first_glNamedFramebufferParameteri, hook_glNamedFramebufferParameteri, zeros_glNamedFramebufferParameteri, (framebuffer: u32, pname: u32, param: i32) -> (), {
+export! { 1489, glNamedFramebufferParameteri, first_glNamedFramebufferParameteri, hook_glNamedFramebufferParameteri, zeros_glNamedFramebufferParameteri, (framebuffer: u32, pname: u32, param: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferParameteri(framebuffer, pname, param) };
 } }
-export! { 1489, glNamedFramebufferParameteriEXT, first_glNamedFramebufferParameteriEXT, hook_glNamedFramebufferParameteriEXT, zeros_glNamedFramebufferParameteriEXT, (framebuffer: u32, pname: u32, param: i32) -> (), {
+export! { 1490, glNamedFramebufferParameteriEXT, first_glNamedFramebufferParameteriEXT, hook_glNamedFramebufferParameteriEXT, zeros_glNamedFramebufferParameteriEXT, (framebuffer: u32, pname: u32, param: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferParameteriEXT(framebuffer, pname, param) };
 } }
-export! { 1490, glNamedFramebufferSampleLocationsfvARB, first_glNamedFramebufferSampleLocationsfvARB, hook_glNamedFramebufferSampleLocationsfvARB, zeros_glNamedFramebufferSampleLocationsfvARB, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1491, glNamedFramebufferSampleLocationsfvARB, first_glNamedFramebufferSampleLocationsfvARB, hook_glNamedFramebufferSampleLocationsfvARB, zeros_glNamedFramebufferSampleLocationsfvARB, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSampleLocationsfvARB(framebuffer, start, count, v) };
 } }
-export! { 1491, glNamedFramebufferSampleLocationsfvNV, first_glNamedFramebufferSampleLocationsfvNV, hook_glNamedFramebufferSampleLocationsfvNV, zeros_glNamedFramebufferSampleLocationsfvNV, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1492, glNamedFramebufferSampleLocationsfvNV, first_glNamedFramebufferSampleLocationsfvNV, hook_glNamedFramebufferSampleLocationsfvNV, zeros_glNamedFramebufferSampleLocationsfvNV, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSampleLocationsfvNV(framebuffer, start, count, v) };
 } }
-export! { 1492, glNamedFramebufferSamplePositionsfvAMD, first_glNamedFramebufferSamplePositionsfvAMD, hook_glNamedFramebufferSamplePositionsfvAMD, zeros_glNamedFramebufferSamplePositionsfvAMD, (framebuffer: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
+export! { 1493, glNamedFramebufferSamplePositionsfvAMD, first_glNamedFramebufferSamplePositionsfvAMD, hook_glNamedFramebufferSamplePositionsfvAMD, zeros_glNamedFramebufferSamplePositionsfvAMD, (framebuffer: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSamplePositionsfvAMD(framebuffer, numsamples, pixelindex, values) };
 } }
-export! { 1493, glFramebufferTextureFaceARB, first_glFramebufferTextureFaceARB, hook_glFramebufferTextureFaceARB, zeros_glFramebufferTextureFaceARB, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1494, glFramebufferTextureFaceARB, first_glFramebufferTextureFaceARB, hook_glFramebufferTextureFaceARB, zeros_glFramebufferTextureFaceARB, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureFaceARB(target, attachment, texture, level, face) })
 } }
-export! { 1494, glFramebufferTextureFaceEXT, first_glFramebufferTextureFaceEXT, hook_glFramebufferTextureFaceEXT, zeros_glFramebufferTextureFaceEXT, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1495, glFramebufferTextureFaceEXT, first_glFramebufferTextureFaceEXT, hook_glFramebufferTextureFaceEXT, zeros_glFramebufferTextureFaceEXT, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureFaceEXT(target, attachment, texture, level, face) })
 } }
-export! { 1495, glFramebufferTextureMultisampleMultiviewOVR, first_glFramebufferTextureMultisampleMultiviewOVR, hook_glFramebufferTextureMultisampleMultiviewOVR, zeros_glFramebufferTextureMultisampleMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, samples: i32, baseViewIndex: i32, numViews: i32) -> (), {
+export! { 1496, glFramebufferTextureMultisampleMultiviewOVR, first_glFramebufferTextureMultisampleMultiviewOVR, hook_glFramebufferTextureMultisampleMultiviewOVR, zeros_glFramebufferTextureMultisampleMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, samples: i32, baseViewIndex: i32, numViews: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureMultisampleMultiviewOVR(target, attachment, texture, level, samples, baseViewIndex, numViews) })
 } }
-export! { 1496, glFramebufferTextureMultiviewOVR, first_glFramebufferTextureMultiviewOVR, hook_glFramebufferTextureMultiviewOVR, zeros_glFramebufferTextureMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, baseViewIndex: i32, numViews: i32) -> (), {
+export! { 1497, glFramebufferTextureMultiviewOVR, first_glFramebufferTextureMultiviewOVR, hook_glFramebufferTextureMultiviewOVR, zeros_glFramebufferTextureMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, baseViewIndex: i32, numViews: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureMultiviewOVR(target, attachment, texture, level, baseViewIndex, numViews) })
 } }
-export! { 1497, glFramebufferTexture2DDownsampleIMG, first_glFramebufferTexture2DDownsampleIMG, hook_glFramebufferTexture2DDownsampleIMG, zeros_glFramebufferTexture2DDownsampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, xscale: i32, yscale: i32) -> (), {
+export! { 1498, glFramebufferTexture2DDownsampleIMG, first_glFramebufferTexture2DDownsampleIMG, hook_glFramebufferTexture2DDownsampleIMG, zeros_glFramebufferTexture2DDownsampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, xscale: i32, yscale: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DDownsampleIMG(target, attachment, textarget, texture, level, xscale, yscale) })
 } }
-export! { 1498, glFramebufferTexture2DMultisampleIMG, first_glFramebufferTexture2DMultisampleIMG, hook_glFramebufferTexture2DMultisampleIMG, zeros_glFramebufferTexture2DMultisampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
+export! { 1499, glFramebufferTexture2DMultisampleIMG, first_glFramebufferTexture2DMultisampleIMG, hook_glFramebufferTexture2DMultisampleIMG, zeros_glFramebufferTexture2DMultisampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DMultisampleIMG(target, attachment, textarget, texture, level, samples) })
 } }
-export! { 1499, glFramebufferTextureLayerDownsampleIMG, first_glFramebufferTextureLayerDownsampleIMG, hook_glFramebufferTextureLayerDownsampleIMG, zeros_glFramebufferTextureLayerDownsampleIMG, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32, xscale: i32, yscale: i32) -> (), {
+export! { 1500, glFramebufferTextureLayerDownsampleIMG, first_glFramebufferTextureLayerDownsampleIMG, hook_glFramebufferTextureLayerDownsampleIMG, zeros_glFramebufferTextureLayerDownsampleIMG, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32, xscale: i32, yscale: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerDownsampleIMG(target, attachment, texture, level, layer, xscale, yscale) })
 } }
-export! { 1500, glFramebufferSampleLocationsfvARB, first_glFramebufferSampleLocationsfvARB, hook_glFramebufferSampleLocationsfvARB, zeros_glFramebufferSampleLocationsfvARB, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1501, glFramebufferSampleLocationsfvARB, first_glFramebufferSampleLocationsfvARB, hook_glFramebufferSampleLocationsfvARB, zeros_glFramebufferSampleLocationsfvARB, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSampleLocationsfvARB(target, start, count, v) })
 } }
-export! { 1501, glFramebufferSampleLocationsfvNV, first_glFramebufferSampleLocationsfvNV, hook_glFramebufferSampleLocationsfvNV, zeros_glFramebufferSampleLocationsfvNV, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1502, glFramebufferSampleLocationsfvNV, first_glFramebufferSampleLocationsfvNV, hook_glFramebufferSampleLocationsfvNV, zeros_glFramebufferSampleLocationsfvNV, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSampleLocationsfvNV(target, start, count, v) })
 } }
-export! { 1502, glFramebufferSamplePositionsfvAMD, first_glFramebufferSamplePositionsfvAMD, hook_glFramebufferSamplePositionsfvAMD, zeros_glFramebufferSamplePositionsfvAMD, (target: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
+export! { 1503, glFramebufferSamplePositionsfvAMD, first_glFramebufferSamplePositionsfvAMD, hook_glFramebufferSamplePositionsfvAMD, zeros_glFramebufferSamplePositionsfvAMD, (target: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSamplePositionsfvAMD(target, numsamples, pixelindex, values) })
 } }
-export! { 1503, glFramebufferParameteriMESA, first_glFramebufferParameteriMESA, hook_glFramebufferParameteriMESA, zeros_glFramebufferParameteriMESA, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1504, glFramebufferParameteriMESA, first_glFramebufferParameteriMESA, hook_glFramebufferParameteriMESA, zeros_glFramebufferParameteriMESA, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferParameteriMESA(target, pname, param) })
 } }
-export! { 1504, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, zeros_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1505, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, zeros_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1505, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, zeros_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1506, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, zeros_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1506, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, zeros_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1507, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, zeros_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1507, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, zeros_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1508, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, zeros_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1508, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, zeros_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1509, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, zeros_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1509, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, zeros_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1510, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, zeros_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1510, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, zeros_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1511, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, zeros_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1511, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, zeros_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1512, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, zeros_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1512, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, zeros_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1513, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, zeros_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1513, glGetFramebufferParameterivMESA, first_glGetFramebufferParameterivMESA, hook_glGetFramebufferParameterivMESA, zeros_glGetFramebufferParameterivMESA, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1514, glGetFramebufferParameterivMESA, first_glGetFramebufferParameterivMESA, hook_glGetFramebufferParameterivMESA, zeros_glGetFramebufferParameterivMESA, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameterivMESA(target, pname, params) })
 } }
-export! { 1514, glGetFramebufferParameterfvAMD, first_glGetFramebufferParameterfvAMD, hook_glGetFramebufferParameterfvAMD, zeros_glGetFramebufferParameterfvAMD, (target: u32, pname: u32, numsamples: u32, pixelindex: u32, size: i32, values: Ptr) -> (), {
+export! { 1515, glGetFramebufferParameterfvAMD, first_glGetFramebufferParameterfvAMD, hook_glGetFramebufferParameterfvAMD, zeros_glGetFramebufferParameterfvAMD, (target: u32, pname: u32, numsamples: u32, pixelindex: u32, size: i32, values: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameterfvAMD(target, pname, numsamples, pixelindex, size, values) })
 } }
-export! { 1515, glFramebufferPixelLocalStorageSizeEXT, first_glFramebufferPixelLocalStorageSizeEXT, hook_glFramebufferPixelLocalStorageSizeEXT, zeros_glFramebufferPixelLocalStorageSizeEXT, (target: u32, size: i32) -> (), {
+export! { 1516, glFramebufferPixelLocalStorageSizeEXT, first_glFramebufferPixelLocalStorageSizeEXT, hook_glFramebufferPixelLocalStorageSizeEXT, zeros_glFramebufferPixelLocalStorageSizeEXT, (target: u32, size: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferPixelLocalStorageSizeEXT(target, size) })
 } }
-export! { 1516, glGetFramebufferPixelLocalStorageSizeEXT, first_glGetFramebufferPixelLocalStorageSizeEXT, hook_glGetFramebufferPixelLocalStorageSizeEXT, zeros_glGetFramebufferPixelLocalStorageSizeEXT, (target: u32) -> i32, {
+export! { 1517, glGetFramebufferPixelLocalStorageSizeEXT, first_glGetFramebufferPixelLocalStorageSizeEXT, hook_glGetFramebufferPixelLocalStorageSizeEXT, zeros_glGetFramebufferPixelLocalStorageSizeEXT, (target: u32) -> i32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferPixelLocalStorageSizeEXT(target) })
 } }
-export! { 1517, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, zeros_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1518, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, zeros_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1518, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, zeros_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1519, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, zeros_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1519, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, zeros_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1520, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, zeros_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1520, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, zeros_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1521, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, zeros_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1521, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, zeros_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1522, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, zeros_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1522, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, zeros_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1523, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, zeros_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1523, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, zeros_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1524, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, zeros_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1524, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, zeros_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1525, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, zeros_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1525, glReadPixels, first_glReadPixels, hook_glReadPixels, zeros_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1526, glReadPixels, first_glReadPixels, hook_glReadPixels, zeros_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1526, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, zeros_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1527, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, zeros_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1527, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, zeros_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1528, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, zeros_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1528, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, zeros_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1529, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, zeros_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1529, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, zeros_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1530, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, zeros_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1530, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, zeros_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1531, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, zeros_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy_named(TextureName(texture), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1531, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, zeros_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1532, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, zeros_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy_named(TextureName(texture), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1532, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, zeros_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1533, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, zeros_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy_named(TextureName(texture), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1533, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, zeros_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1534, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, zeros_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy_named(TextureName(texture), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1534, glCopyTextureSubImage1DEXT, first_glCopyTextureSubImage1DEXT, hook_glCopyTextureSubImage1DEXT, zeros_glCopyTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1535, glCopyTextureSubImage1DEXT, first_glCopyTextureSubImage1DEXT, hook_glCopyTextureSubImage1DEXT, zeros_glCopyTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy_named(TextureName(texture), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureSubImage1DEXT(texture, target, level, xoffset, x, y, width) })
 } }
-export! { 1535, glCopyTextureSubImage2DEXT, first_glCopyTextureSubImage2DEXT, hook_glCopyTextureSubImage2DEXT, zeros_glCopyTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1536, glCopyTextureSubImage2DEXT, first_glCopyTextureSubImage2DEXT, hook_glCopyTextureSubImage2DEXT, zeros_glCopyTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy_named(TextureName(texture), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureSubImage2DEXT(texture, target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1536, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, zeros_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1537, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, zeros_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy_unit(texunit, target, x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1537, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, zeros_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1538, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, zeros_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy_unit(texunit, target, x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1538, glCopyMultiTexSubImage1DEXT, first_glCopyMultiTexSubImage1DEXT, hook_glCopyMultiTexSubImage1DEXT, zeros_glCopyMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1539, glCopyMultiTexSubImage1DEXT, first_glCopyMultiTexSubImage1DEXT, hook_glCopyMultiTexSubImage1DEXT, zeros_glCopyMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy_unit(texunit, target, x, width, &mut |gl| unsafe { gl.glCopyMultiTexSubImage1DEXT(texunit, target, level, xoffset, x, y, width) })
 } }
-export! { 1539, glCopyMultiTexSubImage2DEXT, first_glCopyMultiTexSubImage2DEXT, hook_glCopyMultiTexSubImage2DEXT, zeros_glCopyMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1540, glCopyMultiTexSubImage2DEXT, first_glCopyMultiTexSubImage2DEXT, hook_glCopyMultiTexSubImage2DEXT, zeros_glCopyMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy_unit(texunit, target, x, width, &mut |gl| unsafe { gl.glCopyMultiTexSubImage2DEXT(texunit, target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1540, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, zeros_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1541, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, zeros_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1541, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, zeros_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1542, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, zeros_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1542, glCopyTexSubImage3DOES, first_glCopyTexSubImage3DOES, hook_glCopyTexSubImage3DOES, zeros_glCopyTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1543, glCopyTexSubImage3DOES, first_glCopyTexSubImage3DOES, hook_glCopyTexSubImage3DOES, zeros_glCopyTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DOES(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1543, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, zeros_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1544, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, zeros_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1544, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, zeros_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1545, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, zeros_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1545, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, zeros_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1546, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, zeros_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1546, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, zeros_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1547, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, zeros_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1547, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, zeros_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1548, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, zeros_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1548, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, zeros_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1549, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, zeros_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1549, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, zeros_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1550, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, zeros_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1550, glCopyTextureSubImage3DEXT, first_glCopyTextureSubImage3DEXT, hook_glCopyTextureSubImage3DEXT, zeros_glCopyTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1551, glCopyTextureSubImage3DEXT, first_glCopyTextureSubImage3DEXT, hook_glCopyTextureSubImage3DEXT, zeros_glCopyTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3DEXT(texture, target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1551, glCopyMultiTexSubImage3DEXT, first_glCopyMultiTexSubImage3DEXT, hook_glCopyMultiTexSubImage3DEXT, zeros_glCopyMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1552, glCopyMultiTexSubImage3DEXT, first_glCopyMultiTexSubImage3DEXT, hook_glCopyMultiTexSubImage3DEXT, zeros_glCopyMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexSubImage3DEXT(texunit, target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1552, glCopyColorSubTable, first_glCopyColorSubTable, hook_glCopyColorSubTable, zeros_glCopyColorSubTable, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1553, glCopyColorSubTable, first_glCopyColorSubTable, hook_glCopyColorSubTable, zeros_glCopyColorSubTable, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorSubTable(target, start, x, y, width) })
 } }
-export! { 1553, glCopyColorSubTableEXT, first_glCopyColorSubTableEXT, hook_glCopyColorSubTableEXT, zeros_glCopyColorSubTableEXT, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1554, glCopyColorSubTableEXT, first_glCopyColorSubTableEXT, hook_glCopyColorSubTableEXT, zeros_glCopyColorSubTableEXT, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorSubTableEXT(target, start, x, y, width) })
 } }
-export! { 1554, glReadBufferNV, first_glReadBufferNV, hook_glReadBufferNV, zeros_glReadBufferNV, (mode: u32) -> (), {
+export! { 1555, glReadBufferNV, first_glReadBufferNV, hook_glReadBufferNV, zeros_glReadBufferNV, (mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBufferNV(mode) }
 } }
-export! { 1555, glBlitFramebufferANGLE, first_glBlitFramebufferANGLE, hook_glBlitFramebufferANGLE, zeros_glBlitFramebufferANGLE, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1556, glBlitFramebufferANGLE, first_glBlitFramebufferANGLE, hook_glBlitFramebufferANGLE, zeros_glBlitFramebufferANGLE, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebufferANGLE(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1556, glBeginQueryEXT, first_glBeginQueryEXT, hook_glBeginQueryEXT, zeros_glBeginQueryEXT, (target: u32, id: u32) -> (), {
+export! { 1557, glBeginQueryEXT, first_glBeginQueryEXT, hook_glBeginQueryEXT, zeros_glBeginQueryEXT, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQueryEXT(target, id) }
 } }
-export! { 1557, glEndQueryEXT, first_glEndQueryEXT, hook_glEndQueryEXT, zeros_glEndQueryEXT, (target: u32) -> (), {
+export! { 1558, glEndQueryEXT, first_glEndQueryEXT, hook_glEndQueryEXT, zeros_glEndQueryEXT, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQueryEXT(target) }
 } }
-export! { 1558, glGetQueryivEXT, first_glGetQueryivEXT, hook_glGetQueryivEXT, zeros_glGetQueryivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1559, glGetQueryivEXT, first_glGetQueryivEXT, hook_glGetQueryivEXT, zeros_glGetQueryivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryivEXT(target, pname, params) }
 } }
-export! { 1559, glGetQueryObjectuivEXT, first_glGetQueryObjectuivEXT, hook_glGetQueryObjectuivEXT, zeros_glGetQueryObjectuivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1560, glGetQueryObjectuivEXT, first_glGetQueryObjectuivEXT, hook_glGetQueryObjectuivEXT, zeros_glGetQueryObjectuivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuivEXT(id, pname, params) }
 } }
-export! { 1560, glFinish, first_glFinish, hook_glFinish, zeros_glFinish, () -> (), {
+export! { 1561, glFinish, first_glFinish, hook_glFinish, zeros_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1561, glFlush, first_glFlush, hook_glFlush, zeros_glFlush, () -> (), {
+export! { 1562, glFlush, first_glFlush, hook_glFlush, zeros_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1562, glGetError, first_glGetError, hook_glGetError, zeros_glGetError, () -> u32, {
+export! { 1563, glGetError, first_glGetError, hook_glGetError, zeros_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1563, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, zeros_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
+export! { 1564, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, zeros_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1564, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, zeros_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
+export! { 1565, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, zeros_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1565, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, zeros_glEndConditionalRender, () -> (), {
+export! { 1566, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, zeros_glEndConditionalRender, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1566, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, zeros_glEndConditionalRenderNV, () -> (), {
+export! { 1567, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, zeros_glEndConditionalRenderNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1567, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, zeros_glEndConditionalRenderNVX, () -> (), {
+export! { 1568, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, zeros_glEndConditionalRenderNVX, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1568, glGetQueryBufferObjecti64v, first_glGetQueryBufferObjecti64v, hook_glGetQueryBufferObjecti64v, zeros_glGetQueryBufferObjecti64v, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
+export! { 1569, glGetQueryBufferObjecti64v, first_glGetQueryBufferObjecti64v, hook_glGetQueryBufferObjecti64v, zeros_glGetQueryBufferObjecti64v, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryBufferObjecti64v(id, buffer, pname, offset) }
 } }
-export! { 1569, glGetQueryBufferObjectiv, first_glGetQueryBufferObjectiv, hook_glGetQueryBufferObjectiv, zeros_glGetQueryBufferObjectiv, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
+export! { 1570, glGetQueryBufferObjectiv, first_glGetQueryBufferObjectiv, hook_glGetQueryBufferObjectiv, zeros_glGetQueryBufferObjectiv, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryBufferObjectiv(id, buffer, pname, offset) }
 } }
-export! { 1570, glGetQueryBufferObjectui64v, first_glGetQueryBufferObjectui64v, hook_glGetQueryBufferObjectui64v, zeros_glGetQueryBufferObjectui64v, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
+export! { 1571, glGetQueryBufferObjectui64v, first_glGetQueryBufferObjectui64v, hook_glGetQueryBufferObjectui64v, zeros_glGetQueryBufferObjectui64v, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryBufferObjectui64v(id, buffer, pname, offset) }
 } }
-export! { 1571, glGetQueryBufferObjectuiv, first_glGetQueryBufferObjectuiv, hook_glGetQueryBufferObjectuiv, zeros_glGetQueryBufferObjectuiv, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
+export! { 1572, glGetQueryBufferObjectuiv, first_glGetQueryBufferObjectuiv, hook_glGetQueryBufferObjectuiv, zeros_glGetQueryBufferObjectuiv, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryBufferObjectuiv(id, buffer, pname, offset) }
 } }
-export! { 1572, glBeginQueryIndexed, first_glBeginQueryIndexed, hook_glBeginQueryIndexed, zeros_glBeginQueryIndexed, (target: u32, index: u32, id: u32) -> (), {
+export! { 1573, glBeginQueryIndexed, first_glBeginQueryIndexed, hook_glBeginQueryIndexed, zeros_glBeginQueryIndexed, (target: u32, index: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQueryIndexed(target, index, id) }
 } }
-export! { 1573, glEndQueryIndexed, first_glEndQueryIndexed, hook_glEndQueryIndexed, zeros_glEndQueryIndexed, (target: u32, index: u32) -> (), {
+export! { 1574, glEndQueryIndexed, first_glEndQueryIndexed, hook_glEndQueryIndexed, zeros_glEndQueryIndexed, (target: u32, index: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQueryIndexed(target, index) }
 } }
-export! { 1574, glGetQueryIndexediv, first_glGetQueryIndexediv, hook_glGetQueryIndexediv, zeros_glGetQueryIndexediv, (target: u32, index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1575, glGetQueryIndexediv, first_glGetQueryIndexediv, hook_glGetQueryIndexediv, zeros_glGetQueryIndexediv, (target: u32, index: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryIndexediv(target, index, pname, params) }
 } }
-export! { 1575, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, zeros_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1576, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, zeros_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1576, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, zeros_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1577, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, zeros_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1577, glEndQuery, first_glEndQuery, hook_glEndQuery, zeros_glEndQuery, (target: u32) -> (), {
+export! { 1578, glEndQuery, first_glEndQuery, hook_glEndQuery, zeros_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1578, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, zeros_glEndQueryARB, (target: u32) -> (), {
+export! { 1579, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, zeros_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1579, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, zeros_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1580, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, zeros_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1580, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, zeros_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1581, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, zeros_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1581, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, zeros_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1582, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, zeros_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1582, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, zeros_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1583, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, zeros_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1583, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, zeros_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1584, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, zeros_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1584, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, zeros_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1585, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, zeros_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1585, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, zeros_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1586, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, zeros_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1586, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, zeros_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1587, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, zeros_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1587, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, zeros_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1588, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, zeros_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1588, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, zeros_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1589, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, zeros_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1589, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, zeros_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1590, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, zeros_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1590, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, zeros_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1591, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, zeros_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1591, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, zeros_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1592, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, zeros_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1592, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, zeros_glIsEnabled, (cap: u32) -> u8, {
+export! { 1593, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, zeros_glIsEnabled, (cap: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
-export! { 1593, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, zeros_glIsEnabledi, (target: u32, index: u32) -> u8, {
+export! { 1594, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, zeros_glIsEnabledi, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
-export! { 1594, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, zeros_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+export! { 1595, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, zeros_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
-export! { 1595, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, zeros_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+export! { 1596, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, zeros_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
-export! { 1596, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, zeros_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+export! { 1597, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, zeros_glIsEnablediNV, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
-export! { 1597, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, zeros_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+export! { 1598, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, zeros_glIsEnablediOES, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
-export! { 1598, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, zeros_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1599, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, zeros_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
-export! { 1599, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, zeros_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1600, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, zeros_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
-export! { 1600, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, zeros_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1601, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, zeros_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
-export! { 1601, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, zeros_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1602, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, zeros_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
-export! { 1602, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, zeros_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1603, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, zeros_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
-export! { 1603, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, zeros_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1604, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, zeros_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
-export! { 1604, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, zeros_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1605, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, zeros_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
-export! { 1605, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, zeros_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1606, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, zeros_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
-export! { 1606, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, zeros_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1607, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, zeros_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
-export! { 1607, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, zeros_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1608, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, zeros_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
-export! { 1608, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, zeros_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1609, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, zeros_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
-export! { 1609, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, zeros_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1610, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, zeros_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
-export! { 1610, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, zeros_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1611, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, zeros_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
-export! { 1611, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, zeros_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 1612, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, zeros_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
-export! { 1612, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, zeros_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1613, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, zeros_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
-export! { 1613, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, zeros_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1614, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, zeros_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
-export! { 1614, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, zeros_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1615, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, zeros_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
-export! { 1615, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, zeros_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+export! { 1616, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, zeros_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
-export! { 1616, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, zeros_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+export! { 1617, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, zeros_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
-export! { 1617, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, zeros_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+export! { 1618, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, zeros_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
-export! { 1618, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, zeros_glGetPolygonStipple, (mask: Ptr) -> (), {
+export! { 1619, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, zeros_glGetPolygonStipple, (mask: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
-export! { 1619, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, zeros_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1620, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, zeros_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
-export! { 1620, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, zeros_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1621, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, zeros_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
-export! { 1621, glDebugMessageCallback, first_glDebugMessageCallback, hook_glDebugMessageCallback, zeros_glDebugMessageCallback, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1622, glDebugMessageCallback, first_glDebugMessageCallback, hook_glDebugMessageCallback, zeros_glDebugMessageCallback, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1622, glDebugMessageCallbackARB, first_glDebugMessageCallbackARB, hook_glDebugMessageCallbackARB, zeros_glDebugMessageCallbackARB, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1623, glDebugMessageCallbackARB, first_glDebugMessageCallbackARB, hook_glDebugMessageCallbackARB, zeros_glDebugMessageCallbackARB, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1623, glDebugMessageCallbackKHR, first_glDebugMessageCallbackKHR, hook_glDebugMessageCallbackKHR, zeros_glDebugMessageCallbackKHR, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1624, glDebugMessageCallbackKHR, first_glDebugMessageCallbackKHR, hook_glDebugMessageCallbackKHR, zeros_glDebugMessageCallbackKHR, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1624, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, zeros_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+export! { 1625, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, zeros_glGetPointerv, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1625, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, zeros_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+export! { 1626, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, zeros_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1626, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, zeros_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+export! { 1627, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, zeros_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1627, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, zeros_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1628, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, zeros_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
 } }
-export! { 1628, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, zeros_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1629, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, zeros_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
 } }
-export! { 1629, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, zeros_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1630, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, zeros_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImage(target, level, img) };
 } }
-export! { 1630, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, zeros_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1631, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, zeros_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImageARB(target, level, img) };
 } }
-export! { 1631, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, zeros_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1632, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, zeros_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnCompressedTexImage(target, lod, bufSize, pixels) };
 } }
-export! { 1632, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, zeros_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1633, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, zeros_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
-export! { 1633, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, zeros_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1634, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, zeros_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
-export! { 1634, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, zeros_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1635, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, zeros_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
-export! { 1635, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, zeros_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1636, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, zeros_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
-export! { 1636, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, zeros_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1637, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, zeros_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
-export! { 1637, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, zeros_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1638, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, zeros_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
-export! { 1638, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, zeros_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1639, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, zeros_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
-export! { 1639, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, zeros_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1640, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, zeros_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
-export! { 1640, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, zeros_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1641, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, zeros_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
-export! { 1641, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, zeros_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1642, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, zeros_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
-export! { 1642, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, zeros_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1643, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, zeros_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
-export! { 1643, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, zeros_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1644, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, zeros_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
-export! { 1644, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, zeros_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1645, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, zeros_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
-export! { 1645, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, zeros_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1646, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, zeros_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
-export! { 1646, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, zeros_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1647, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, zeros_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
-export! { 1647, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, zeros_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1648, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, zeros_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
-export! { 1648, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, zeros_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+export! { 1649, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, zeros_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
-export! { 1649, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, zeros_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+export! { 1650, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, zeros_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
-export! { 1650, glGenTextures, first_glGenTextures, hook_glGenTextures, zeros_glGenTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1651, glGenTextures, first_glGenTextures, hook_glGenTextures, zeros_glGenTextures, (n: i32, textures: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
-export! { 1651, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, zeros_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1652, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, zeros_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
-export! { 1652, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, zeros_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1653, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, zeros_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
-export! { 1653, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, zeros_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1654, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, zeros_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
-export! { 1654, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, zeros_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1655, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, zeros_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1655, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, zeros_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+export! { 1656, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, zeros_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
 } }
-export! { 1656, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, zeros_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1657, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, zeros_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
 } }
-export! { 1657, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, zeros_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1658, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, zeros_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
 } }
-export! { 1658, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, zeros_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1659, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, zeros_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
 } }
-export! { 1659, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, zeros_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1660, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, zeros_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
 } }
-export! { 1660, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, zeros_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1661, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, zeros_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
 } }
-export! { 1661, glEGLImageTargetRenderbufferStorageOES, first_glEGLImageTargetRenderbufferStorageOES, hook_glEGLImageTargetRenderbufferStorageOES, zeros_glEGLImageTargetRenderbufferStorageOES, (target: u32, image: Ptr) -> (), {
+export! { 1662, glEGLImageTargetRenderbufferStorageOES, first_glEGLImageTargetRenderbufferStorageOES, hook_glEGLImageTargetRenderbufferStorageOES, zeros_glEGLImageTargetRenderbufferStorageOES, (target: u32, image: Ptr) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEGLImageTargetRenderbufferStorageOES(target, image) };
 } }
-export! { 1662, glRenderbufferStorageMultisampleANGLE, first_glRenderbufferStorageMultisampleANGLE, hook_glRenderbufferStorageMultisampleANGLE, zeros_glRenderbufferStorageMultisampleANGLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1663, glRenderbufferStorageMultisampleANGLE, first_glRenderbufferStorageMultisampleANGLE, hook_glRenderbufferStorageMultisampleANGLE, zeros_glRenderbufferStorageMultisampleANGLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleANGLE(target, samples, internalformat, width, height) };
 } }
-export! { 1663, glRenderbufferStorageMultisampleAPPLE, first_glRenderbufferStorageMultisampleAPPLE, hook_glRenderbufferStorageMultisampleAPPLE, zeros_glRenderbufferStorageMultisampleAPPLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1664, glRenderbufferStorageMultisampleAPPLE, first_glRenderbufferStorageMultisampleAPPLE, hook_glRenderbufferStorageMultisampleAPPLE, zeros_glRenderbufferStorageMultisampleAPPLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleAPPLE(target, samples, internalformat, width, height) };
 } }
-export! { 1664, glRenderbufferStorageMultisampleAdvancedAMD, first_glRenderbufferStorageMultisampleAdvancedAMD, hook_glRenderbufferStorageMultisampleAdvancedAMD, zeros_glRenderbufferStorageMultisampleAdvancedAMD, (target: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1665, glRenderbufferStorageMultisampleAdvancedAMD, first_glRenderbufferStorageMultisampleAdvancedAMD, hook_glRenderbufferStorageMultisampleAdvancedAMD, zeros_glRenderbufferStorageMultisampleAdvancedAMD, (target: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleAdvancedAMD(target, samples, storageSamples, internalformat, width, height) };
 } }
-export! { 1665, glRenderbufferStorageMultisampleCoverageNV, first_glRenderbufferStorageMultisampleCoverageNV, hook_glRenderbufferStorageMultisampleCoverageNV, zeros_glRenderbufferStorageMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1666, glRenderbufferStorageMultisampleCoverageNV, first_glRenderbufferStorageMultisampleCoverageNV, hook_glRenderbufferStorageMultisampleCoverageNV, zeros_glRenderbufferStorageMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleCoverageNV(target, coverageSamples, colorSamples, internalformat, width, height) };
 } }
-export! { 1666, glRenderbufferStorageMultisampleIMG, first_glRenderbufferStorageMultisampleIMG, hook_glRenderbufferStorageMultisampleIMG, zeros_glRenderbufferStorageMultisampleIMG, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1667, glRenderbufferStorageMultisampleIMG, first_glRenderbufferStorageMultisampleIMG, hook_glRenderbufferStorageMultisampleIMG, zeros_glRenderbufferStorageMultisampleIMG, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleIMG(target, samples, internalformat, width, height) };
 } }
-export! { 1667, glBindRenderbufferEXT, first_glBindRenderbufferEXT, hook_glBindRenderbufferEXT, zeros_glBindRenderbufferEXT, (target: u32, renderbuffer: u32) -> (), {
+export! { 1668, glBindRenderbufferEXT, first_glBindRenderbufferEXT, hook_glBindRenderbufferEXT, zeros_glBindRenderbufferEXT, (target: u32, renderbuffer: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbufferEXT(target, renderbuffer) };
 } }
-export! { 1668, glEvaluateDepthValuesARB, first_glEvaluateDepthValuesARB, hook_glEvaluateDepthValuesARB, zeros_glEvaluateDepthValuesARB, () -> (), {
+export! { 1669, glEvaluateDepthValuesARB, first_glEvaluateDepthValuesARB, hook_glEvaluateDepthValuesARB, zeros_glEvaluateDepthValuesARB, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEvaluateDepthValuesARB() };
 } }
-export! { 1669, glResolveDepthValuesNV, first_glResolveDepthValuesNV, hook_glResolveDepthValuesNV, zeros_glResolveDepthValuesNV, () -> (), {
+export! { 1670, glResolveDepthValuesNV, first_glResolveDepthValuesNV, hook_glResolveDepthValuesNV, zeros_glResolveDepthValuesNV, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glResolveDepthValuesNV() };
 } }
-export! { 1670, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, zeros_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1671, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, zeros_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1671, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, zeros_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1672, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, zeros_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1672, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, zeros_glBindBuffer, (target: u32, buffer: u32) -> (), {
+export! { 1673, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, zeros_glBindBuffer, (target: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffer(target, buffer) }
 } }
-export! { 1673, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, zeros_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+export! { 1674, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, zeros_glBindBufferARB, (target: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffer(target, buffer) }
 } }
-export! { 1674, glBindBufferBase, first_glBindBufferBase, hook_glBindBufferBase, zeros_glBindBufferBase, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1675, glBindBufferBase, first_glBindBufferBase, hook_glBindBufferBase, zeros_glBindBufferBase, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1675, glBindBufferBaseEXT, first_glBindBufferBaseEXT, hook_glBindBufferBaseEXT, zeros_glBindBufferBaseEXT, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1676, glBindBufferBaseEXT, first_glBindBufferBaseEXT, hook_glBindBufferBaseEXT, zeros_glBindBufferBaseEXT, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1676, glBindBufferBaseNV, first_glBindBufferBaseNV, hook_glBindBufferBaseNV, zeros_glBindBufferBaseNV, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1677, glBindBufferBaseNV, first_glBindBufferBaseNV, hook_glBindBufferBaseNV, zeros_glBindBufferBaseNV, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1677, glBindBufferRange, first_glBindBufferRange, hook_glBindBufferRange, zeros_glBindBufferRange, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1678, glBindBufferRange, first_glBindBufferRange, hook_glBindBufferRange, zeros_glBindBufferRange, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1678, glBindBufferRangeEXT, first_glBindBufferRangeEXT, hook_glBindBufferRangeEXT, zeros_glBindBufferRangeEXT, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1679, glBindBufferRangeEXT, first_glBindBufferRangeEXT, hook_glBindBufferRangeEXT, zeros_glBindBufferRangeEXT, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1679, glBindBufferRangeNV, first_glBindBufferRangeNV, hook_glBindBufferRangeNV, zeros_glBindBufferRangeNV, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1680, glBindBufferRangeNV, first_glBindBufferRangeNV, hook_glBindBufferRangeNV, zeros_glBindBufferRangeNV, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1680, glBindBuffersBase, first_glBindBuffersBase, hook_glBindBuffersBase, zeros_glBindBuffersBase, (target: u32, first: u32, count: i32, buffers: Ptr) -> (), {
+export! { 1681, glBindBuffersBase, first_glBindBuffersBase, hook_glBindBuffersBase, zeros_glBindBuffersBase, (target: u32, first: u32, count: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffersBase(target, first, count, buffers) }
 } }
-export! { 1681, glBindBuffersRange, first_glBindBuffersRange, hook_glBindBuffersRange, zeros_glBindBuffersRange, (target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr, sizes: Ptr) -> (), {
+export! { 1682, glBindBuffersRange, first_glBindBuffersRange, hook_glBindBuffersRange, zeros_glBindBuffersRange, (target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr, sizes: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffersRange(target, first, count, buffers, offsets, sizes) }
 } }
-export! { 1682, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, zeros_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+export! { 1683, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, zeros_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteBuffers(n, buffers) }
 } }
-export! { 1683, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, zeros_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+export! { 1684, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, zeros_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteBuffers(n, buffers) }
 } }
-export! { 1684, glBufferData, first_glBufferData, hook_glBufferData, zeros_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1685, glBufferData, first_glBufferData, hook_glBufferData, zeros_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferData(target, size, data, usage) }
 } }
-export! { 1685, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, zeros_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1686, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, zeros_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferData(target, size, data, usage) }
 } }
-export! { 1686, glNamedBufferData, first_glNamedBufferData, hook_glNamedBufferData, zeros_glNamedBufferData, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1687, glNamedBufferData, first_glNamedBufferData, hook_glNamedBufferData, zeros_glNamedBufferData, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferData(buffer, size, data, usage) }
 } }
-export! { 1687, glBufferStorage, first_glBufferStorage, hook_glBufferStorage, zeros_glBufferStorage, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1688, glBufferStorage, first_glBufferStorage, hook_glBufferStorage, zeros_glBufferStorage, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferStorage(target, size, data, flags) }
 } }
-export! { 1688, glBufferStorageEXT, first_glBufferStorageEXT, hook_glBufferStorageEXT, zeros_glBufferStorageEXT, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1689, glBufferStorageEXT, first_glBufferStorageEXT, hook_glBufferStorageEXT, zeros_glBufferStorageEXT, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferStorage(target, size, data, flags) }
 } }
-export! { 1689, glNamedBufferStorage, first_glNamedBufferStorage, hook_glNamedBufferStorage, zeros_glNamedBufferStorage, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1690, glNamedBufferStorage, first_glNamedBufferStorage, hook_glNamedBufferStorage, zeros_glNamedBufferStorage, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferStorage(buffer, size, data, flags) }
 } }
-export! { 1690, glNamedBufferStorageEXT, first_glNamedBufferStorageEXT, hook_glNamedBufferStorageEXT, zeros_glNamedBufferStorageEXT, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1691, glNamedBufferStorageEXT, first_glNamedBufferStorageEXT, hook_glNamedBufferStorageEXT, zeros_glNamedBufferStorageEXT, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferStorage(buffer, size, data, flags) }
 } }
-export! { 1691, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, zeros_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1692, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, zeros_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferSubData(target, offset, size, data) }
 } }
-export! { 1692, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, zeros_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1693, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, zeros_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferSubData(target, offset, size, data) }
 } }
-export! { 1693, glNamedBufferSubData, first_glNamedBufferSubData, hook_glNamedBufferSubData, zeros_glNamedBufferSubData, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1694, glNamedBufferSubData, first_glNamedBufferSubData, hook_glNamedBufferSubData, zeros_glNamedBufferSubData, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferSubData(buffer, offset, size, data) }
 } }
-export! { 1694, glNamedBufferSubDataEXT, first_glNamedBufferSubDataEXT, hook_glNamedBufferSubDataEXT, zeros_glNamedBufferSubDataEXT, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1695, glNamedBufferSubDataEXT, first_glNamedBufferSubDataEXT, hook_glNamedBufferSubDataEXT, zeros_glNamedBufferSubDataEXT, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferSubData(buffer, offset, size, data) }
 } }
-export! { 1695, glNamedBufferDataEXT, first_glNamedBufferDataEXT, hook_glNamedBufferDataEXT, zeros_glNamedBufferDataEXT, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1696, glNamedBufferDataEXT, first_glNamedBufferDataEXT, hook_glNamedBufferDataEXT, zeros_glNamedBufferDataEXT, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferDataEXT(buffer, size, data, usage) }
 } }
-export! { 1696, glMapNamedBufferEXT, first_glMapNamedBufferEXT, hook_glMapNamedBufferEXT, zeros_glMapNamedBufferEXT, (buffer: u32, access: u32) -> Ptr, {
+export! { 1697, glMapNamedBufferEXT, first_glMapNamedBufferEXT, hook_glMapNamedBufferEXT, zeros_glMapNamedBufferEXT, (buffer: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferEXT(buffer, access) }
 } }
-export! { 1697, glMapNamedBufferRangeEXT, first_glMapNamedBufferRangeEXT, hook_glMapNamedBufferRangeEXT, zeros_glMapNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1698, glMapNamedBufferRangeEXT, first_glMapNamedBufferRangeEXT, hook_glMapNamedBufferRangeEXT, zeros_glMapNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferRangeEXT(buffer, offset, length, access) }
 } }
-export! { 1698, glUnmapNamedBufferEXT, first_glUnmapNamedBufferEXT, hook_glUnmapNamedBufferEXT, zeros_glUnmapNamedBufferEXT, (buffer: u32) -> u8, {
+export! { 1699, glUnmapNamedBufferEXT, first_glUnmapNamedBufferEXT, hook_glUnmapNamedBufferEXT, zeros_glUnmapNamedBufferEXT, (buffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapNamedBufferEXT(buffer) }
 } }
-export! { 1699, glFlushMappedNamedBufferRangeEXT, first_glFlushMappedNamedBufferRangeEXT, hook_glFlushMappedNamedBufferRangeEXT, zeros_glFlushMappedNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1700, glFlushMappedNamedBufferRangeEXT, first_glFlushMappedNamedBufferRangeEXT, hook_glFlushMappedNamedBufferRangeEXT, zeros_glFlushMappedNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedNamedBufferRangeEXT(buffer, offset, length) }
 } }
-export! { 1700, glNamedCopyBufferSubDataEXT, first_glNamedCopyBufferSubDataEXT, hook_glNamedCopyBufferSubDataEXT, zeros_glNamedCopyBufferSubDataEXT, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1701, glNamedCopyBufferSubDataEXT, first_glNamedCopyBufferSubDataEXT, hook_glNamedCopyBufferSubDataEXT, zeros_glNamedCopyBufferSubDataEXT, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedCopyBufferSubDataEXT(readBuffer, writeBuffer, readOffset, writeOffset, size) }
 } }
-export! { 1701, glClearNamedBufferDataEXT, first_glClearNamedBufferDataEXT, hook_glClearNamedBufferDataEXT, zeros_glClearNamedBufferDataEXT, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1702, glClearNamedBufferDataEXT, first_glClearNamedBufferDataEXT, hook_glClearNamedBufferDataEXT, zeros_glClearNamedBufferDataEXT, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferDataEXT(buffer, internalformat, format, type_, data) }
 } }
-export! { 1702, glClearNamedBufferSubDataEXT, first_glClearNamedBufferSubDataEXT, hook_glClearNamedBufferSubDataEXT, zeros_glClearNamedBufferSubDataEXT, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1703, glClearNamedBufferSubDataEXT, first_glClearNamedBufferSubDataEXT, hook_glClearNamedBufferSubDataEXT, zeros_glClearNamedBufferSubDataEXT, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferSubDataEXT(buffer, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1703, glCopyBufferSubData, first_glCopyBufferSubData, hook_glCopyBufferSubData, zeros_glCopyBufferSubData, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1704, glCopyBufferSubData, first_glCopyBufferSubData, hook_glCopyBufferSubData, zeros_glCopyBufferSubData, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyBufferSubData(readTarget, writeTarget, readOffset, writeOffset, size) }
 } }
-export! { 1704, glCopyBufferSubDataNV, first_glCopyBufferSubDataNV, hook_glCopyBufferSubDataNV, zeros_glCopyBufferSubDataNV, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1705, glCopyBufferSubDataNV, first_glCopyBufferSubDataNV, hook_glCopyBufferSubDataNV, zeros_glCopyBufferSubDataNV, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyBufferSubData(readTarget, writeTarget, readOffset, writeOffset, size) }
 } }
-export! { 1705, glCopyNamedBufferSubData, first_glCopyNamedBufferSubData, hook_glCopyNamedBufferSubData, zeros_glCopyNamedBufferSubData, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1706, glCopyNamedBufferSubData, first_glCopyNamedBufferSubData, hook_glCopyNamedBufferSubData, zeros_glCopyNamedBufferSubData, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyNamedBufferSubData(readBuffer, writeBuffer, readOffset, writeOffset, size) }
 } }
-export! { 1706, glInvalidateBufferData, first_glInvalidateBufferData, hook_glInvalidateBufferData, zeros_glInvalidateBufferData, (buffer: u32) -> (), {
+export! { 1707, glInvalidateBufferData, first_glInvalidateBufferData, hook_glInvalidateBufferData, zeros_glInvalidateBufferData, (buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glInvalidateBufferData(buffer) }
 } }
-export! { 1707, glInvalidateBufferSubData, first_glInvalidateBufferSubData, hook_glInvalidateBufferSubData, zeros_glInvalidateBufferSubData, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1708, glInvalidateBufferSubData, first_glInvalidateBufferSubData, hook_glInvalidateBufferSubData, zeros_glInvalidateBufferSubData, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glInvalidateBufferSubData(buffer, offset, length) }
 } }
-export! { 1708, glClearBufferData, first_glClearBufferData, hook_glClearBufferData, zeros_glClearBufferData, (target: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1709, glClearBufferData, first_glClearBufferData, hook_glClearBufferData, zeros_glClearBufferData, (target: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferData(target, internalformat, format, type_, data) }
 } }
-export! { 1709, glClearBufferSubData, first_glClearBufferSubData, hook_glClearBufferSubData, zeros_glClearBufferSubData, (target: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1710, glClearBufferSubData, first_glClearBufferSubData, hook_glClearBufferSubData, zeros_glClearBufferSubData, (target: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferSubData(target, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1710, glClearNamedBufferData, first_glClearNamedBufferData, hook_glClearNamedBufferData, zeros_glClearNamedBufferData, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1711, glClearNamedBufferData, first_glClearNamedBufferData, hook_glClearNamedBufferData, zeros_glClearNamedBufferData, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferData(buffer, internalformat, format, type_, data) }
 } }
-export! { 1711, glClearNamedBufferSubData, first_glClearNamedBufferSubData, hook_glClearNamedBufferSubData, zeros_glClearNamedBufferSubData, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1712, glClearNamedBufferSubData, first_glClearNamedBufferSubData, hook_glClearNamedBufferSubData, zeros_glClearNamedBufferSubData, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferSubData(buffer, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1712, glMapBuffer, first_glMapBuffer, hook_glMapBuffer, zeros_glMapBuffer, (target: u32, access: u32) -> Ptr, {
+export! { 1713, glMapBuffer, first_glMapBuffer, hook_glMapBuffer, zeros_glMapBuffer, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1713, glMapBufferARB, first_glMapBufferARB, hook_glMapBufferARB, zeros_glMapBufferARB, (target: u32, access: u32) -> Ptr, {
+export! { 1714, glMapBufferARB, first_glMapBufferARB, hook_glMapBufferARB, zeros_glMapBufferARB, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1714, glMapBufferOES, first_glMapBufferOES, hook_glMapBufferOES, zeros_glMapBufferOES, (target: u32, access: u32) -> Ptr, {
+export! { 1715, glMapBufferOES, first_glMapBufferOES, hook_glMapBufferOES, zeros_glMapBufferOES, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1715, glMapNamedBuffer, first_glMapNamedBuffer, hook_glMapNamedBuffer, zeros_glMapNamedBuffer, (buffer: u32, access: u32) -> Ptr, {
+export! { 1716, glMapNamedBuffer, first_glMapNamedBuffer, hook_glMapNamedBuffer, zeros_glMapNamedBuffer, (buffer: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBuffer(buffer, access) }
 } }
-export! { 1716, glMapBufferRange, first_glMapBufferRange, hook_glMapBufferRange, zeros_glMapBufferRange, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1717, glMapBufferRange, first_glMapBufferRange, hook_glMapBufferRange, zeros_glMapBufferRange, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBufferRange(target, offset, length, access) }
 } }
-export! { 1717, glMapBufferRangeEXT, first_glMapBufferRangeEXT, hook_glMapBufferRangeEXT, zeros_glMapBufferRangeEXT, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1718, glMapBufferRangeEXT, first_glMapBufferRangeEXT, hook_glMapBufferRangeEXT, zeros_glMapBufferRangeEXT, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBufferRange(target, offset, length, access) }
 } }
-export! { 1718, glMapNamedBufferRange, first_glMapNamedBufferRange, hook_glMapNamedBufferRange, zeros_glMapNamedBufferRange, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1719, glMapNamedBufferRange, first_glMapNamedBufferRange, hook_glMapNamedBufferRange, zeros_glMapNamedBufferRange, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferRange(buffer, offset, length, access) }
 } }
-export! { 1719, glUnmapBuffer, first_glUnmapBuffer, hook_glUnmapBuffer, zeros_glUnmapBuffer, (target: u32) -> u8, {
+export! { 1720, glUnmapBuffer, first_glUnmapBuffer, hook_glUnmapBuffer, zeros_glUnmapBuffer, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1720, glUnmapBufferARB, first_glUnmapBufferARB, hook_glUnmapBufferARB, zeros_glUnmapBufferARB, (target: u32) -> u8, {
+export! { 1721, glUnmapBufferARB, first_glUnmapBufferARB, hook_glUnmapBufferARB, zeros_glUnmapBufferARB, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1721, glUnmapBufferOES, first_glUnmapBufferOES, hook_glUnmapBufferOES, zeros_glUnmapBufferOES, (target: u32) -> u8, {
+export! { 1722, glUnmapBufferOES, first_glUnmapBufferOES, hook_glUnmapBufferOES, zeros_glUnmapBufferOES, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1722, glUnmapNamedBuffer, first_glUnmapNamedBuffer, hook_glUnmapNamedBuffer, zeros_glUnmapNamedBuffer, (buffer: u32) -> u8, {
+export! { 1723, glUnmapNamedBuffer, first_glUnmapNamedBuffer, hook_glUnmapNamedBuffer, zeros_glUnmapNamedBuffer, (buffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapNamedBuffer(buffer) }
 } }
-export! { 1723, glFlushMappedBufferRange, first_glFlushMappedBufferRange, hook_glFlushMappedBufferRange, zeros_glFlushMappedBufferRange, (target: u32, offset: isize, length: isize) -> (), {
+export! { 1724, glFlushMappedBufferRange, first_glFlushMappedBufferRange, hook_glFlushMappedBufferRange, zeros_glFlushMappedBufferRange, (target: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, length) }
 } }
-export! { 1724, glFlushMappedBufferRangeAPPLE, first_glFlushMappedBufferRangeAPPLE, hook_glFlushMappedBufferRangeAPPLE, zeros_glFlushMappedBufferRangeAPPLE, (target: u32, offset: isize, size: isize) -> (), {
+export! { 1725, glFlushMappedBufferRangeAPPLE, first_glFlushMappedBufferRangeAPPLE, hook_glFlushMappedBufferRangeAPPLE, zeros_glFlushMappedBufferRangeAPPLE, (target: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, size) }
 } }
-export! { 1725, glFlushMappedBufferRangeEXT, first_glFlushMappedBufferRangeEXT, hook_glFlushMappedBufferRangeEXT, zeros_glFlushMappedBufferRangeEXT, (target: u32, offset: isize, length: isize) -> (), {
+export! { 1726, glFlushMappedBufferRangeEXT, first_glFlushMappedBufferRangeEXT, hook_glFlushMappedBufferRangeEXT, zeros_glFlushMappedBufferRangeEXT, (target: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, length) }
 } }
-export! { 1726, glFlushMappedNamedBufferRange, first_glFlushMappedNamedBufferRange, hook_glFlushMappedNamedBufferRange, zeros_glFlushMappedNamedBufferRange, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1727, glFlushMappedNamedBufferRange, first_glFlushMappedNamedBufferRange, hook_glFlushMappedNamedBufferRange, zeros_glFlushMappedNamedBufferRange, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedNamedBufferRange(buffer, offset, length) }
 } }
-export! { 1727, glMemoryBarrier, first_glMemoryBarrier, hook_glMemoryBarrier, zeros_glMemoryBarrier, (barriers: u32) -> (), {
+export! { 1728, glMemoryBarrier, first_glMemoryBarrier, hook_glMemoryBarrier, zeros_glMemoryBarrier, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrier(barriers) }
 } }
-export! { 1728, glMemoryBarrierEXT, first_glMemoryBarrierEXT, hook_glMemoryBarrierEXT, zeros_glMemoryBarrierEXT, (barriers: u32) -> (), {
+export! { 1729, glMemoryBarrierEXT, first_glMemoryBarrierEXT, hook_glMemoryBarrierEXT, zeros_glMemoryBarrierEXT, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrier(barriers) }
 } }
-export! { 1729, glMemoryBarrierByRegion, first_glMemoryBarrierByRegion, hook_glMemoryBarrierByRegion, zeros_glMemoryBarrierByRegion, (barriers: u32) -> (), {
+export! { 1730, glMemoryBarrierByRegion, first_glMemoryBarrierByRegion, hook_glMemoryBarrierByRegion, zeros_glMemoryBarrierByRegion, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrierByRegion(barriers) }
 } }
-export! { 1730, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, zeros_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1731, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, zeros_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1731, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, zeros_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1732, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, zeros_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1732, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, zeros_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1733, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, zeros_glPushClientAttrib, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1733, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, zeros_glPopClientAttrib, () -> (), {
+export! { 1734, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, zeros_glPopClientAttrib, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1734, glClientAttribDefaultEXT, first_glClientAttribDefaultEXT, hook_glClientAttribDefaultEXT, zeros_glClientAttribDefaultEXT, (mask: u32) -> (), {
+export! { 1735, glClientAttribDefaultEXT, first_glClientAttribDefaultEXT, hook_glClientAttribDefaultEXT, zeros_glClientAttribDefaultEXT, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientAttribDefaultEXT(mask) };
 } }
-export! { 1735, glPushClientAttribDefaultEXT, first_glPushClientAttribDefaultEXT, hook_glPushClientAttribDefaultEXT, zeros_glPushClientAttribDefaultEXT, (mask: u32) -> (), {
+export! { 1736, glPushClientAttribDefaultEXT, first_glPushClientAttribDefaultEXT, hook_glPushClientAttribDefaultEXT, zeros_glPushClientAttribDefaultEXT, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttribDefaultEXT(mask) };
 } }
-export! { 1736, glBindVertexArray, first_glBindVertexArray, hook_glBindVertexArray, zeros_glBindVertexArray, (array: u32) -> (), {
+export! { 1737, glBindVertexArray, first_glBindVertexArray, hook_glBindVertexArray, zeros_glBindVertexArray, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindVertexArray(array) };
 } }
-export! { 1737, glBindVertexArrayOES, first_glBindVertexArrayOES, hook_glBindVertexArrayOES, zeros_glBindVertexArrayOES, (array: u32) -> (), {
+export! { 1738, glBindVertexArrayOES, first_glBindVertexArrayOES, hook_glBindVertexArrayOES, zeros_glBindVertexArrayOES, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindVertexArrayOES(array) };
 } }
-export! { 1738, glDeleteVertexArrays, first_glDeleteVertexArrays, hook_glDeleteVertexArrays, zeros_glDeleteVertexArrays, (n: i32, arrays: Ptr) -> (), {
+export! { 1739, glDeleteVertexArrays, first_glDeleteVertexArrays, hook_glDeleteVertexArrays, zeros_glDeleteVertexArrays, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArrays(n, arrays) };
 } }
-export! { 1739, glDeleteVertexArraysAPPLE, first_glDeleteVertexArraysAPPLE, hook_glDeleteVertexArraysAPPLE, zeros_glDeleteVertexArraysAPPLE, (n: i32, arrays: Ptr) -> (), {
+export! { 1740, glDeleteVertexArraysAPPLE, first_glDeleteVertexArraysAPPLE, hook_glDeleteVertexArraysAPPLE, zeros_glDeleteVertexArraysAPPLE, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArraysAPPLE(n, arrays) };
 } }
-export! { 1740, glDeleteVertexArraysOES, first_glDeleteVertexArraysOES, hook_glDeleteVertexArraysOES, zeros_glDeleteVertexArraysOES, (n: i32, arrays: Ptr) -> (), {
+export! { 1741, glDeleteVertexArraysOES, first_glDeleteVertexArraysOES, hook_glDeleteVertexArraysOES, zeros_glDeleteVertexArraysOES, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArraysOES(n, arrays) };
 } }
-export! { 1741, glBindSampler, first_glBindSampler, hook_glBindSampler, zeros_glBindSampler, (unit: u32, sampler: u32) -> (), {
+export! { 1742, glBindSampler, first_glBindSampler, hook_glBindSampler, zeros_glBindSampler, (unit: u32, sampler: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindSampler(unit, sampler) };
 } }
-export! { 1742, glBindSamplers, first_glBindSamplers, hook_glBindSamplers, zeros_glBindSamplers, (first: u32, count: i32, samplers: Ptr) -> (), {
+export! { 1743, glBindSamplers, first_glBindSamplers, hook_glBindSamplers, zeros_glBindSamplers, (first: u32, count: i32, samplers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindSamplers(first, count, samplers) };
 } }
-export! { 1743, glDeleteSamplers, first_glDeleteSamplers, hook_glDeleteSamplers, zeros_glDeleteSamplers, (count: i32, samplers: Ptr) -> (), {
+export! { 1744, glDeleteSamplers, first_glDeleteSamplers, hook_glDeleteSamplers, zeros_glDeleteSamplers, (count: i32, samplers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteSamplers(count, samplers) };
 } }
-export! { 1744, glDeleteProgramPipelines, first_glDeleteProgramPipelines, hook_glDeleteProgramPipelines, zeros_glDeleteProgramPipelines, (n: i32, pipelines: Ptr) -> (), {
+export! { 1745, glDeleteProgramPipelines, first_glDeleteProgramPipelines, hook_glDeleteProgramPipelines, zeros_glDeleteProgramPipelines, (n: i32, pipelines: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteProgramPipelines(n, pipelines) };
 } }
-export! { 1745, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, zeros_glEnableClientState, (array: u32) -> (), {
+export! { 1746, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, zeros_glEnableClientState, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1746, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, zeros_glDisableClientState, (array: u32) -> (), {
+export! { 1747, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, zeros_glDisableClientState, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1747, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, zeros_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1748, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, zeros_glClientActiveTexture, (texture: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1748, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, zeros_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1749, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, zeros_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1749, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, zeros_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1750, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, zeros_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1750, glColorPointer, first_glColorPointer, hook_glColorPointer, zeros_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1751, glColorPointer, first_glColorPointer, hook_glColorPointer, zeros_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1751, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, zeros_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1752, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, zeros_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1752, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, zeros_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1753, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, zeros_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1753, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, zeros_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1754, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, zeros_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1754, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, zeros_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1755, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, zeros_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1755, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, zeros_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1756, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, zeros_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1756, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, zeros_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1757, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, zeros_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1757, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, zeros_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1758, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, zeros_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1758, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, zeros_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1759, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, zeros_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1759, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, zeros_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1760, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, zeros_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1760, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, zeros_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1761, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, zeros_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1761, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, zeros_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1762, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, zeros_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1762, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, zeros_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1763, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, zeros_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1763, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, zeros_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1764, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, zeros_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1764, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, zeros_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1765, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, zeros_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1765, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, zeros_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1766, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, zeros_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1766, glVertexAttribBinding, first_glVertexAttribBinding, hook_glVertexAttribBinding, zeros_glVertexAttribBinding, (attribindex: u32, bindingindex: u32) -> (), {
+export! { 1767, glVertexAttribBinding, first_glVertexAttribBinding, hook_glVertexAttribBinding, zeros_glVertexAttribBinding, (attribindex: u32, bindingindex: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribBinding(attribindex, bindingindex) };
 } }
-export! { 1767, glVertexArrayAttribBinding, first_glVertexArrayAttribBinding, hook_glVertexArrayAttribBinding, zeros_glVertexArrayAttribBinding, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
+export! { 1768, glVertexArrayAttribBinding, first_glVertexArrayAttribBinding, hook_glVertexArrayAttribBinding, zeros_glVertexArrayAttribBinding, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayAttribBinding(vaobj, attribindex, bindingindex) };
 } }
-export! { 1768, glDisableVertexArrayAttrib, first_glDisableVertexArrayAttrib, hook_glDisableVertexArrayAttrib, zeros_glDisableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
+export! { 1769, glDisableVertexArrayAttrib, first_glDisableVertexArrayAttrib, hook_glDisableVertexArrayAttrib, zeros_glDisableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexArrayAttrib(vaobj, index) };
 } }
-export! { 1769, glDisableVertexArrayAttribEXT, first_glDisableVertexArrayAttribEXT, hook_glDisableVertexArrayAttribEXT, zeros_glDisableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
+export! { 1770, glDisableVertexArrayAttribEXT, first_glDisableVertexArrayAttribEXT, hook_glDisableVertexArrayAttribEXT, zeros_glDisableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexArrayAttribEXT(vaobj, index) };
 } }
-export! { 1770, glEnableVertexArrayAttrib, first_glEnableVertexArrayAttrib, hook_glEnableVertexArrayAttrib, zeros_glEnableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
+export! { 1771, glEnableVertexArrayAttrib, first_glEnableVertexArrayAttrib, hook_glEnableVertexArrayAttrib, zeros_glEnableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexArrayAttrib(vaobj, index) };
 } }
-export! { 1771, glEnableVertexArrayAttribEXT, first_glEnableVertexArrayAttribEXT, hook_glEnableVertexArrayAttribEXT, zeros_glEnableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
+export! { 1772, glEnableVertexArrayAttribEXT, first_glEnableVertexArrayAttribEXT, hook_glEnableVertexArrayAttribEXT, zeros_glEnableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexArrayAttribEXT(vaobj, index) };
 } }
-export! { 1772, glVertexArrayVertexAttribBindingEXT, first_glVertexArrayVertexAttribBindingEXT, hook_glVertexArrayVertexAttribBindingEXT, zeros_glVertexArrayVertexAttribBindingEXT, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
+export! { 1773, glVertexArrayVertexAttribBindingEXT, first_glVertexArrayVertexAttribBindingEXT, hook_glVertexArrayVertexAttribBindingEXT, zeros_glVertexArrayVertexAttribBindingEXT, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayVertexAttribBindingEXT(vaobj, attribindex, bindingindex) };
 } }
-export! { 1773, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, zeros_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
+export! { 1774, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, zeros_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseVisual(dpy, screen, attribs) }
 } }
-export! { 1774, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, zeros_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1775, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, zeros_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1775, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1776, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1776, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1777, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1777, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1778, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1778, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1779, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopySubBufferMESA(dpy, drawable, x, y, width, height) }
 } }
-export! { 1779, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
+export! { 1780, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXWaitGL() }
 } }
-export! { 1780, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
+export! { 1781, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXUseXFont(font, first, count, base) }
 } }
-export! { 1781, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
+export! { 1782, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXBindTexImageEXT(dpy, drawable, buffer, attribs) }
 } }
-export! { 1782, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1783, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1783, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1784, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1784, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1785, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1785, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1786, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1786, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1787, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1787, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1788, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1788, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1789, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1789, glXCopyContext, first_glXCopyContext, hook_glXCopyContext, zeros_glXCopyContext, (dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) -> (), {
+export! { 1790, glXCopyContext, first_glXCopyContext, hook_glXCopyContext, zeros_glXCopyContext, (dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopyContext(dpy, src, dst, mask) }
 } }
-export! { 1790, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1791, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1791, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1792, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1792, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1793, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1793, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1794, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPbuffer(dpy, pbuf) }
 } }
-export! { 1794, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1795, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPbufferSGIX(dpy, pbuf) }
 } }
-export! { 1795, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1796, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPixmap(dpy, pixmap) }
 } }
-export! { 1796, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1797, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPixmap(dpy, pixmap) }
 } }
-export! { 1797, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1798, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1798, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1799, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1800, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1801, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1801, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1802, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1802, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1803, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1803, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
+export! { 1804, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglPostSubBufferNV(dpy, surface, x, y, width, height) }
 } }
-export! { 1804, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1805, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegionNOK(dpy, surface, numRects, rects) }
 } }
-export! { 1805, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1806, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegion2NOK(dpy, surface, numRects, rects) }
 } }
-export! { 1806, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
+export! { 1807, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCopyBuffers(dpy, surface, target) }
 } }
-export! { 1807, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
+export! { 1808, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitGL() }
 } }
-export! { 1808, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
+export! { 1809, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitClient() }
 } }
-export! { 1809, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
+export! { 1810, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglBindTexImage(dpy, surface, buffer) }
 } }
-export! { 1810, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1811, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1811, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1812, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1812, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1813, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1813, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
+export! { 1814, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1814, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1815, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1815, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1816, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1816, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1817, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1817, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1818, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1818, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1819, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1819, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1820, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1820, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1821, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1821, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
+export! { 1822, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglTerminate(dpy) }
 } }
-export! { 1822, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1823, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1827, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1828, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1828, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1829, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1829, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1830, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1830, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1831, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1831, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1832, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1832, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1833, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

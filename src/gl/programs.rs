@@ -179,37 +179,8 @@ impl Gl {
         if !self.tells_outputs() {
             return Vec::new();
         }
-        let ask = |name| {
-            let mut v = 0i32;
-            // SAFETY: one integer.
-            unsafe {
-                self.real.glGetProgramInterfaceiv(
-                    program.0,
-                    c::PROGRAM_OUTPUT,
-                    name,
-                    (&raw mut v).cast(),
-                )
-            };
-            v.max(0)
-        };
-        let (count, longest) = (ask(c::ACTIVE_RESOURCES), ask(c::MAX_NAME_LENGTH));
-        let mut buffer = vec![0u8; longest.max(1) as usize];
-        let one = |at| {
-            let mut got = 0i32;
-            // SAFETY: a buffer of the length given, and one integer.
-            unsafe {
-                self.real.glGetProgramResourceName(
-                    program.0,
-                    c::PROGRAM_OUTPUT,
-                    at,
-                    buffer.len() as i32,
-                    (&raw mut got).cast(),
-                    buffer.as_mut_ptr().cast(),
-                )
-            };
-            CString::new(buffer.get(..got.max(0) as usize)?).ok()
-        };
-        (0..count as u32).filter_map(one).collect()
+        let names = self.resource_names(program, c::PROGRAM_OUTPUT).into_iter();
+        names.filter_map(|name| CString::new(name).ok()).collect()
     }
 
     /// glUniformBlockBinding

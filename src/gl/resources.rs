@@ -24,6 +24,28 @@ pub struct BoundRange {
     pub size: Option<usize>,
 }
 
+impl BoundRange {
+    /// A whole buffer.
+    #[must_use]
+    pub fn whole(buffer: BufferName) -> Self {
+        BoundRange {
+            buffer,
+            start: 0,
+            size: None,
+        }
+    }
+
+    /// So many bytes of a buffer.
+    #[must_use]
+    pub fn part(buffer: BufferName, start: usize, size: usize) -> Self {
+        BoundRange {
+            buffer,
+            start,
+            size: Some(size),
+        }
+    }
+}
+
 impl Gl {
     /// Whether the context has storage blocks and tells of them.
     pub fn tells_storage_blocks(&self) -> bool {
@@ -60,12 +82,18 @@ impl Gl {
         v.max(0) as u32
     }
 
-    /// The names of a program's storage blocks, by index; an array of blocks has one for each element, such as `name[2]`.
-    pub fn storage_blocks(&self, program: ProgramName) -> Vec<String> {
-        let kind = c::SHADER_STORAGE_BLOCK;
+    /// The binding points of the resources of a kind that a program has, by index.
+    fn resource_bindings(&self, program: ProgramName, kind: u32) -> Vec<u32> {
+        let count = self.resources(program, kind, c::ACTIVE_RESOURCES);
+        let bindings = (0..count).map(|at| self.resource_binding(program, kind, at));
+        bindings.collect()
+    }
+
+    /// The names of the resources of a kind that a program has, by index.
+    pub(super) fn resource_names(&self, program: ProgramName, kind: u32) -> Vec<Vec<u8>> {
         let longest = self.resources(program, kind, c::MAX_NAME_LENGTH);
-        let mut buffer = vec![0u8; longest.max(1) as usize];
-        let mut one = |at| {
+        let one = |at| {
+            let mut name = vec![0u8; longest.max(1) as usize];
             let mut got = 0i32;
             // SAFETY: a buffer of the length given, and one integer.
             unsafe {
@@ -73,34 +101,35 @@ impl Gl {
                     program.0,
                     kind,
                     at,
-                    buffer.len() as i32,
+                    name.len() as i32,
                     (&raw mut got).cast(),
-                    buffer.as_mut_ptr().cast(),
+                    name.as_mut_ptr().cast(),
                 )
             };
-            let name = buffer.get(..got.max(0) as usize).unwrap_or_default();
-            String::from_utf8_lossy(name).into_owned()
+            name.truncate(got.max(0) as usize);
+            name
         };
         let count = self.resources(program, kind, c::ACTIVE_RESOURCES);
-        (0..count).map(&mut one).collect()
+        (0..count).map(one).collect()
+    }
+
+    /// The names of a program's storage blocks, by index; an array of blocks has one for each element, such as `name[2]`.
+    pub fn storage_blocks(&self, program: ProgramName) -> Vec<String> {
+        let names = self.resource_names(program, c::SHADER_STORAGE_BLOCK);
+        let text = |name: &Vec<u8>| String::from_utf8_lossy(name).into_owned();
+        names.iter().map(text).collect()
     }
 
     /// The binding points of a program's storage blocks, by index.
     pub fn storage_bindings(&self, program: ProgramName) -> Vec<u32> {
         shadow::storage_bindings(program.0, || {
-            let kind = c::SHADER_STORAGE_BLOCK;
-            let count = self.resources(program, kind, c::ACTIVE_RESOURCES);
-            let bindings = (0..count).map(|at| self.resource_binding(program, kind, at));
-            bindings.collect()
+            self.resource_bindings(program, c::SHADER_STORAGE_BLOCK)
         })
     }
 
     /// The binding points of a program's atomic counters.
     pub fn counter_bindings(&self, program: ProgramName) -> Vec<u32> {
-        let kind = c::ATOMIC_COUNTER_BUFFER;
-        let count = self.resources(program, kind, c::ACTIVE_RESOURCES);
-        let bindings = (0..count).map(|at| self.resource_binding(program, kind, at));
-        bindings.collect()
+        self.resource_bindings(program, c::ATOMIC_COUNTER_BUFFER)
     }
 
     /// glShaderStorageBlockBinding

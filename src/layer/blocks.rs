@@ -47,6 +47,11 @@ impl Blocks {
         self.bound.get(&target).copied().unwrap_or_default()
     }
 
+    /// The driver has told what is bound at a target.
+    pub(super) fn set_bound(&mut self, target: u32, buffer: BufferName) {
+        self.bound.insert(target, buffer);
+    }
+
     /// The buffer and byte where a uniform of a block lies.
     fn place(
         &mut self,
@@ -121,7 +126,7 @@ impl Layer {
             return;
         }
         let before = self.blocks.bound.insert(target, buffer).unwrap_or_default();
-        self.memory.binds_alone(target);
+        self.write_bindings.binds_alone(target);
         match target {
             c::UNIFORM_BUFFER => self.buffers().follow(buffer),
             // Pixels and results of queries are written while a buffer is bound there.
@@ -149,7 +154,8 @@ impl Layer {
             c::SHADER_STORAGE_BUFFER | c::ATOMIC_COUNTER_BUFFER | c::TRANSFORM_FEEDBACK_BUFFER => {
                 self.buffers().bound_to_be_written(buffer);
                 if target != c::TRANSFORM_FEEDBACK_BUFFER {
-                    self.memory.binds(BindingPoint { target, index }, range);
+                    self.write_bindings
+                        .binds(BindingPoint { target, index }, range);
                 }
             }
             _ => {}
@@ -207,7 +213,7 @@ impl Layer {
         self.blocks
             .points
             .retain(|_, (bound, _)| !names.contains(bound));
-        self.memory.deleted(names);
+        self.write_bindings.deleted(names);
         block_changes();
     }
 

@@ -204,7 +204,7 @@ impl Layer {
     /// Writes the own view's images back to the program's textures, before those are read or written in another way than by drawing.
     pub fn write_back_textures(&mut self, gl: &Gl) {
         self.state.keep_errors(gl);
-        if self.memory.has_images() {
+        if self.write_bindings.has_images() {
             gl.finish_writes_to_textures();
         }
         self.targets.offscreen.write_back(gl);
@@ -220,7 +220,7 @@ impl Layer {
     /// glDeleteTextures.
     pub fn deleted_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
         self.targets.offscreen.deleted_textures(gl, textures);
-        self.memory.deleted_textures(textures);
+        self.write_bindings.deleted_textures(textures);
     }
 
     /// glDeleteRenderbuffers.

@@ -39,7 +39,7 @@ impl Layer {
         gl.use_program(self.state.in_use.program);
         gl.enable(c::SCISSOR_TEST);
         self.state.rectangles.put(gl);
-        self.put_memory(gl);
+        self.put_write_bindings(gl);
     }
 
     /// Copies the program's own view to the true framebuffer 0, unless that is another drawable's. The scissor test must be off.

@@ -2,7 +2,7 @@
 
 use super::Layer;
 use super::draw::{Decided, Request};
-use super::memory::Redirection;
+use super::side_effects::Redirection;
 use crate::atlas::Surface;
 use crate::draw::{Current, enter_own, others};
 use crate::gl::{Gl, ImageUnit, ListName, consts as c};

@@ -229,6 +229,28 @@ impl Layer {
         }
     }
 
+    /// glReadBuffer for framebuffer 0 with a name that the layer does not know: the driver decides. Mesa takes GL_FRONT_AND_BACK in contexts with fixed function.
+    pub fn other_read_buffer(&mut self, gl: &Gl, buffer: u32, call: &mut dyn FnMut()) {
+        let (default, read) = (
+            self.state.window.buffers.default_draw,
+            self.state.framebuffers.read,
+        );
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
+        call();
+        let taken = gl.get_integer(c::READ_BUFFER) as u32 == buffer;
+        if taken && buffer != default {
+            gl.read_buffer(default);
+        }
+        match read {
+            FramebufferName::ZERO => self.bind_draw(gl, false, true),
+            read => gl.bind_framebuffer(c::READ_FRAMEBUFFER, read),
+        }
+        if taken {
+            self.state.framebuffers.read_buffer = buffer;
+            self.apply_buffers(gl);
+        }
+    }
+
     /// glReadBuffer for framebuffer 0; `None` as for [`Layer::draw_buffers`].
     pub fn read_buffer(&mut self, gl: &Gl, buffer: u32) -> Option<()> {
         let f = &mut self.state.framebuffers;
@@ -400,7 +422,6 @@ impl Layer {
         let f = &self.state.framebuffers;
         let zero = f.draw.is_zero();
         let es = self.state.window.buffers.es;
-        let buffer = |i: usize| i64::from(f.draw_buffers.get(i).copied().unwrap_or(c::NONE));
         match (name, &self.state.list) {
             (c::LIST_INDEX, Some(list)) => return Some(list.list.0.into()),
             (c::LIST_MODE, Some(list)) => return Some(list.mode.into()),
@@ -412,13 +433,11 @@ impl Layer {
         let reads = self.reads_views() || !self.is_plain();
         match name {
             c::READ_FRAMEBUFFER_BINDING if reads => Some(f.read.0.into()),
-            c::READ_BUFFER if reads && f.read.is_zero() => Some(f.read_buffer.into()),
+            c::READ_BUFFER if reads && f.read.is_zero() => self.buffer_of_zero(name),
             _ if self.is_plain() => None,
             c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.0.into()),
-            c::DRAW_BUFFER if zero && !es => Some(buffer(0)),
-            c::DRAW_BUFFER0..=c::DRAW_BUFFER15 if zero => {
-                Some(buffer((name - c::DRAW_BUFFER0) as usize))
-            }
+            c::DRAW_BUFFER if zero && !es => self.buffer_of_zero(name),
+            c::DRAW_BUFFER0..=c::DRAW_BUFFER15 if zero => self.buffer_of_zero(name),
             c::ACCUM_RED_BITS..=c::ACCUM_ALPHA_BITS if zero && !es => {
                 let at = (name - c::ACCUM_RED_BITS) as usize;
                 let bits = self.state.window.accumulation.get(at);
@@ -429,6 +448,23 @@ impl Layer {
             }
             _ => None,
         }
+    }
+
+    /// A draw or read buffer of framebuffer 0, whatever is bound. None for other names, and where framebuffer 0 is the true one.
+    pub fn answer_of_zero(&self, name: u32) -> Option<i64> {
+        self.buffer_of_zero(name).filter(|_| !self.is_plain())
+    }
+
+    fn buffer_of_zero(&self, name: u32) -> Option<i64> {
+        let f = &self.state.framebuffers;
+        let drawn = |i: usize| f.draw_buffers.get(i).copied().unwrap_or(c::NONE);
+        let buffer = match name {
+            c::READ_BUFFER => f.read_buffer,
+            c::DRAW_BUFFER => drawn(0),
+            c::DRAW_BUFFER0..=c::DRAW_BUFFER15 => drawn((name - c::DRAW_BUFFER0) as usize),
+            _ => return None,
+        };
+        Some(buffer.into())
     }
 
     /// Runs a call with viewport and scissor set for a view's tile, where tiles lie beside each other or have other samples than the window's

@@ -24,7 +24,6 @@ mod framebuffer;
 mod frames;
 mod immediate;
 mod lists;
-mod memory;
 mod mono;
 mod neutral;
 mod occlusion;
@@ -41,6 +40,7 @@ mod recordings;
 mod sampling;
 mod session;
 mod share_group;
+mod side_effects;
 pub mod support;
 mod synthesis;
 mod targets;
@@ -73,10 +73,10 @@ use canvas::Canvases;
 use diagnostics::Diagnostics;
 use fit::make_atlas;
 use frame::Frame;
-use memory::Memory;
 use recordings::Recordings;
 use session::Session;
 pub use share_group::Member;
+use side_effects::WriteBindings;
 use std::sync::Arc;
 use support::Support;
 use targets::Targets;
@@ -116,7 +116,7 @@ pub struct Layer {
     frame: Frame,
     canvases: Canvases,
     blocks: Blocks,
-    memory: Memory,
+    write_bindings: WriteBindings,
     queries: queries::Queries,
     diagnostics: Diagnostics,
 }
@@ -192,7 +192,7 @@ impl Layer {
             frame: Frame::default(),
             canvases: Canvases::new(drawable.id),
             blocks: Blocks::default(),
-            memory: Memory::default(),
+            write_bindings: WriteBindings::default(),
             queries: queries::Queries::default(),
             diagnostics: Diagnostics::new(report),
         });

@@ -26,7 +26,10 @@ impl Layer {
             lists.orphans.buffers.extend(buffer);
             lists.orphans.fences.extend(fence);
         }
-        lists.orphans.buffers.extend(self.memory.take_buffers());
+        lists
+            .orphans
+            .buffers
+            .extend(self.write_bindings.take_buffers());
         let programs = self
             .targets
             .interleaver

@@ -74,7 +74,7 @@ pub(super) struct ProgramRecord {
     distorting: Option<Result<Arc<Variant>, NoVariant>>,
     matrices: Matrices,
     samplers: Samplers,
-    effects: Arc<SideEffects>,
+    effects: SideEffects,
     /// [`uniform_change`] when the samplers were last read, and their texture units with the targets.
     units: (u64, Vec<(u32, u32)>),
     /// Its matrices that unproject depths, with their locations. Before them: [`uniform_change`] and the aspect ratio that they were found
@@ -101,7 +101,7 @@ impl ProgramRecord {
             how,
             matrices,
             samplers,
-            effects: Arc::new(effects),
+            effects,
             units: (0, Vec::new()),
             unprojections: (0, 0.0, Vec::new()),
             camera: CameraSearch {
@@ -323,9 +323,8 @@ impl OwnVariants {
     }
 
     /// Where a program writes to memory; none for a program without a record.
-    pub(super) fn effects(&self, program: ProgramName) -> Option<Arc<SideEffects>> {
-        let known = self.known.get(&program);
-        known.map(|known| known.effects.clone())
+    pub(super) fn effects(&self, program: ProgramName) -> Option<&SideEffects> {
+        self.known.get(&program).map(|known| &known.effects)
     }
 
     /// The projection of the camera of a program with a variant, column-major: `Some(None)` where no camera is found, `None` for a program

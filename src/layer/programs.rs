@@ -156,7 +156,7 @@ impl Layer {
         let units = self.variants.own.image_units(gl, program);
         let images = units.into_iter();
         images
-            .filter_map(|unit| self.memory.image(gl, unit))
+            .filter_map(|unit| self.write_bindings.image(gl, unit))
             .collect()
     }
 

@@ -330,7 +330,7 @@ impl Layer {
         self.queries.asked(query)
     }
 
-    /// Whether a result of this query that goes to a buffer is to be written by [`Layer::result_to_buffer`].
+    /// Whether our queries hold a part of the result of this query, so that [`Layer::result_to_buffer`] has to write it to buffers.
     pub fn continues_query(&self, query: QueryName) -> bool {
         self.queries.is_continued(query)
     }
@@ -340,7 +340,8 @@ impl Layer {
         !self.blocks.bound_at(c::QUERY_BUFFER).is_zero()
     }
 
-    /// A result of a query goes to a buffer; `call` is the program's own, with another name where it must not be left out.
+    /// A result of a query goes to a buffer. `call` makes the program's own call with the name of a value: QUERY_RESULT in the place of
+    /// QUERY_RESULT_NO_WAIT, so that the driver writes something which can be added to.
     pub fn result_to_buffer(
         &mut self,
         gl: &Gl,
@@ -367,8 +368,7 @@ impl Layer {
         gl.bind_buffer(c::QUERY_BUFFER, bound);
         if let Some(answer) = answer {
             let whole = answer.with(part).min(place.most);
-            let targets = [c::COPY_READ_BUFFER, c::COPY_WRITE_BUFFER];
-            let before = targets.map(|target| BufferName(gl.get_integer(target) as u32));
+            let before = self.copy_bindings(gl, &[]);
             let (all, half) = (whole.to_ne_bytes(), (whole as u32).to_ne_bytes());
             let bytes = if place.bytes == all.len() {
                 &all[..]
@@ -381,7 +381,7 @@ impl Layer {
             gl.buffer_sub_data(c::COPY_READ_BUFFER, 0, bytes);
             gl.bind_buffer(c::COPY_WRITE_BUFFER, buffer);
             gl.copy_buffer(0, place.at, bytes.len());
-            for (target, buffer) in targets.into_iter().zip(before) {
+            for (target, buffer) in before {
                 gl.bind_buffer(target, buffer);
             }
         }

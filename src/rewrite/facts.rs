@@ -1,6 +1,6 @@
 //! Features that a source uses, found by its tokens. Names in macros and in all branches of `#if` count as used.
 
-use super::memory::MemoryWrites;
+use super::memory_writes::MemoryWrites;
 use super::scan::{Kind, Scan};
 use super::version::Version;
 

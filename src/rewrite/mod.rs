@@ -26,7 +26,7 @@ mod error;
 mod facts;
 mod fragment;
 mod instance;
-mod memory;
+mod memory_writes;
 mod names;
 mod outputs;
 mod position;
@@ -39,7 +39,7 @@ mod version;
 pub use crate::fixed::VertexLayer;
 pub use error::Refusal;
 pub use facts::{Facts, Matrix};
-pub use memory::MemoryWrites;
+pub use memory_writes::MemoryWrites;
 pub use names::{Names, Uniform};
 pub use version::Version;
 

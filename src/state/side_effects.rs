@@ -19,13 +19,12 @@ pub struct SideEffects {
 
 impl SideEffects {
     /// Whatever is bound may be written.
-    pub fn anything() -> Self {
-        SideEffects {
-            everything: true,
-            images: true,
-            ..SideEffects::default()
-        }
-    }
+    pub const ANYTHING: SideEffects = SideEffects {
+        everything: true,
+        images: true,
+        blocks: Vec::new(),
+        counters: Vec::new(),
+    };
 
     /// Those of a program that is linked from these sources; none where they are not known.
     pub fn of(gl: &Gl, program: ProgramName, sources: Option<&[ShaderSource]>) -> Self {
@@ -58,7 +57,7 @@ impl SideEffects {
                     },
                 }
             }
-            _ => SideEffects::anything(),
+            _ => SideEffects::ANYTHING,
         }
     }
 
@@ -85,5 +84,38 @@ impl SideEffects {
         points.sort_unstable_by_key(|point| (point.target, point.index));
         points.dedup();
         points
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gl::fake::Fake;
+    use crate::rewrite::Stage;
+
+    fn of(source: &str) -> SideEffects {
+        let shader = ShaderSource {
+            kind: c::FRAGMENT_SHADER,
+            stage: Stage::Fragment,
+            source: source.into(),
+        };
+        let fake = Fake::new();
+        SideEffects::of(&fake.gl(), ProgramName(1), Some(&[shader]))
+    }
+
+    #[test]
+    fn what_is_not_known_may_write_anything() {
+        let fake = Fake::new();
+        let unknown = SideEffects::of(&fake.gl(), ProgramName(1), None);
+        assert_eq!(unknown, SideEffects::ANYTHING);
+        // SPIR-V has no source.
+        assert_eq!(of(""), SideEffects::ANYTHING);
+        let hidden = "#version 430\n#define OUT buffer\nOUT B { int a; };\nvoid main() { a = 1; }";
+        assert_eq!(of(hidden), SideEffects::ANYTHING);
+        assert!(
+            of("#version 430\nout vec4 colour; void main() { colour = vec4(1.0); }").is_empty()
+        );
+        let stores = "#version 430\nvoid main() { imageStore(image, ivec2(0), vec4(1.0)); }";
+        assert!(of(stores).images && !of(stores).everything);
     }
 }

@@ -5,8 +5,12 @@
  *   restart                    glPrimitiveRestartNV between glBegin and glEnd
  *   image subimage multi       a texture that was drawn to is written by its name or its unit (GL_EXT_direct_state_access)
  *   copied mipmap nvcopied     so it is by copies from the window, as mipmaps, by GL_NV_copy_image
+ *   corecopied unitcopied      so it is by glCopyTextureSubImage2D, and by its unit; unitlist: in a display list, which leaves the active unit alone
+ *   unitmipmap                 mipmaps by its unit
+ *   esblock                    a fragment shader of OpenGL ES counts in a storage block
  *   attached renderbuffer      a framebuffer gets another image by its name (GL_EXT_direct_state_access)
  *   named                      framebuffer 0 by its name
+ *   readbuffers                its read buffers, also by its name
  *   buffers                    glDrawBuffersNV in OpenGL ES
  *   windowpos                  glWindowPos4fMESA
  *   long double                uniforms of 64 bits, set by commands of extensions
@@ -179,6 +183,9 @@ static void written(void)
         yellow[i] = i % 4 == 2 ? 0 : 255;
     glBindTexture(GL_TEXTURE_2D, other);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, yellow);
+    glActiveTexture(GL_TEXTURE3);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, name);
     clear(0, 0, 0);
     bar(1);
@@ -194,12 +201,36 @@ static void written(void)
         CALL(PFNGLCOPYIMAGESUBDATANVPROC, "glCopyImageSubDataNV")(other, GL_TEXTURE_2D, 0, 0, 0, 0, name, GL_TEXTURE_2D, 0, 0, 0, 0, WIDTH, HEIGHT, 1);
     else if (is("mipmap"))
         CALL(PFNGLGENERATETEXTUREMIPMAPEXTPROC, "glGenerateTextureMipmapEXT")(name, GL_TEXTURE_2D);
+    else if (is("unitmipmap"))
+        CALL(PFNGLGENERATEMULTITEXMIPMAPEXTPROC, "glGenerateMultiTexMipmapEXT")(GL_TEXTURE3, GL_TEXTURE_2D);
+    if (is("corecopied") || is("unitcopied") || is("unitlist")) {
+        PFNGLCOPYMULTITEXSUBIMAGE2DEXTPROC copy = CALL(PFNGLCOPYMULTITEXSUBIMAGE2DEXTPROC, "glCopyMultiTexSubImage2DEXT");
+        clear(0, 0, 0);
+        bar(0);
+        if (is("corecopied"))
+            glCopyTextureSubImage2D(name, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
+        else if (is("unitcopied"))
+            copy(GL_TEXTURE3, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
+        else {
+            GLint active;
+            glNewList(1, GL_COMPILE);
+            copy(GL_TEXTURE3, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
+            glEndList();
+            glActiveTexture(GL_TEXTURE5);
+            glCallList(1);
+            glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
+            printf("unit %d\n", active - GL_TEXTURE0);
+            glActiveTexture(GL_TEXTURE0);
+        }
+    }
     if (is("copied")) {
         clear(0, 0, 0);
         bar(0);
         CALL(PFNGLCOPYTEXTURESUBIMAGE2DEXTPROC, "glCopyTextureSubImage2DEXT")(name, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
     }
-    show(name, is("mipmap") ? 2 : 0);
+    /* What a list has copied is no matter of this mode. */
+    if (!is("unitlist"))
+        show(name, is("mipmap") || is("unitmipmap") ? 2 : 0);
     glDeleteFramebuffers(1, &framebuffer);
 }
 
@@ -248,6 +279,30 @@ static void named(void)
     glInvalidateNamedFramebufferData(0, 1, &colour);
     clear(0, 1, 0);
     tell("cleared");
+}
+
+static void read_buffers(void)
+{
+    static const GLenum all[] = {GL_FRONT, GL_LEFT, GL_FRONT_AND_BACK, GL_RIGHT, GL_NONE, GL_FRONT_AND_BACK, GL_BACK};
+    PFNGLFRAMEBUFFERREADBUFFEREXTPROC by_name = CALL(PFNGLFRAMEBUFFERREADBUFFEREXTPROC, "glFramebufferReadBufferEXT");
+    PFNGLGETFRAMEBUFFERPARAMETERIVEXTPROC get = CALL(PFNGLGETFRAMEBUFFERPARAMETERIVEXTPROC, "glGetFramebufferParameterivEXT");
+    for (int way = 0; way < 3; way++)
+        for (unsigned i = 0; i < sizeof all / sizeof *all; i++) {
+            GLint bound = 0, named[2] = {0};
+            if (way == 0)
+                glReadBuffer(all[i]);
+            else if (way == 1)
+                glNamedFramebufferReadBuffer(0, all[i]);
+            else
+                by_name(0, all[i]);
+            GLenum error = glGetError();
+            glGetIntegerv(GL_READ_BUFFER, &bound);
+            get(0, GL_READ_BUFFER, &named[0]);
+            get(0, GL_DRAW_BUFFER, &named[1]);
+            printf("0x%x: 0x%x 0x%x 0x%x, error 0x%x 0x%x\n", all[i], bound, named[0], named[1], error, glGetError());
+        }
+    bar(0);
+    tell("drawn");
 }
 
 static void window_position(void)
@@ -379,15 +434,37 @@ static void buffers(void)
     tell("cleared");
 }
 
+static void block(void)
+{
+    static const char *const places = "#version 310 es\nin vec2 place; void main() { gl_Position = vec4(place * 0.5, 0.0, 1.0); }";
+    static const char *const counts = "#version 310 es\nprecision highp float; layout(std430, binding = 1) buffer Sum { uint sum; }; out vec4 shown;\n"
+                                      "void main() { atomicAdd(sum, 1u); shown = vec4(1.0, 0.0, 0.0, 1.0); }";
+    static const GLuint zero;
+    GLuint buffer;
+    glGenBuffers(1, &buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffer);
+    glBufferData(GL_SHADER_STORAGE_BUFFER, sizeof zero, &zero, GL_DYNAMIC_COPY);
+    glUseProgram(linked(places, counts, PLACE));
+    for (int draw = 0; draw < 2; draw++) {
+        quad(PLACE);
+        tell("drawn");
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        const GLuint *sum = glMapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, sizeof zero, GL_MAP_READ_BIT);
+        printf("sum %u, ", sum ? *sum : 0);
+        glUnmapBuffer(GL_SHADER_STORAGE_BUFFER);
+        printf("error 0x%x\n", glGetError());
+    }
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2 || !open_surface())
         return 2;
     mode = argv[1];
-    if (is("buffers") ? !es() : !new_context(EGL_NO_CONTEXT))
+    if (is("buffers") || is("esblock") ? !es() : !new_context(EGL_NO_CONTEXT))
         return 2;
     clear(1, 1, 1);
-    if (!is("buffers")) {
+    if (!is("buffers") && !is("esblock")) {
         scene = in_use(vertex, fragment);
         shown = in_use(whole, picture);
         glUseProgram(scene);
@@ -396,14 +473,19 @@ int main(int argc, char **argv)
         arrays();
     else if (is("restart"))
         restart();
-    else if (is("image") || is("subimage") || is("multi") || is("copied") || is("nvcopied") || is("mipmap"))
+    else if (is("image") || is("subimage") || is("multi") || is("copied") || is("nvcopied") || is("mipmap") || is("corecopied") ||
+             is("unitcopied") || is("unitlist") || is("unitmipmap"))
         written();
     else if (is("attached") || is("renderbuffer"))
         attaches();
     else if (is("named"))
         named();
+    else if (is("readbuffers"))
+        read_buffers();
     else if (is("buffers"))
         buffers();
+    else if (is("esblock"))
+        block();
     else if (is("windowpos"))
         window_position();
     else if (is("long") || is("double"))

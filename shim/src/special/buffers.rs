@@ -54,11 +54,7 @@ pub(crate) unsafe fn glBindBuffer(target: u32, buffer: u32) {
 pub(crate) unsafe fn glBindBufferBase(target: u32, index: u32, buffer: u32) {
     // SAFETY: the program's own call.
     unsafe { real().glBindBufferBase(target, index, buffer) };
-    let range = BoundRange {
-        buffer: BufferName(buffer),
-        start: 0,
-        size: None,
-    };
+    let range = BoundRange::whole(BufferName(buffer));
     peek(|l| l.binds_buffer_at(target, index, range, true));
 }
 
@@ -71,16 +67,20 @@ pub(crate) unsafe fn glBindBufferRange(
 ) {
     // SAFETY: the program's own call.
     unsafe { real().glBindBufferRange(target, index, buffer, offset, size) };
-    let range = BoundRange {
-        buffer: BufferName(buffer),
-        start: usize::try_from(offset).unwrap_or(0),
-        // Without a size the driver refuses it, as it refuses a place before the beginning.
-        size: Some(usize::try_from(size).unwrap_or(0))
-            .filter(|_| offset >= 0)
-            .or(Some(0)),
-    };
+    let range = part(buffer, offset, size);
     peek(|l| l.binds_buffer_at(target, index, range, true));
 }
+
+/// A part of a buffer as the program gives it. One that begins before the buffer, which the driver refuses, has no bytes, as others that it refuses.
+fn part(buffer: u32, offset: isize, size: isize) -> BoundRange {
+    let start = usize::try_from(offset);
+    let size = usize::try_from(size).unwrap_or(0);
+    let size = if start.is_ok() { size } else { 0 };
+    BoundRange::part(BufferName(buffer), start.unwrap_or(0), size)
+}
+
+/// Binding points that every driver has at a target with binding points.
+const FEW: u32 = 8;
 
 /// Notes the buffers that several binding points get.
 ///
@@ -95,7 +95,7 @@ unsafe fn bound_to_many(
 ) {
     for at in 0..usize::try_from(count).unwrap_or(0) {
         // SAFETY: forwarded.
-        let (buffer, [start, size]) = unsafe {
+        let (buffer, bytes) = unsafe {
             let buffer =
                 (!buffers.is_null()).then(|| buffers.cast::<u32>().add(at).read_unaligned());
             let bytes = [offsets, sizes].map(|bytes: Ptr| {
@@ -103,16 +103,11 @@ unsafe fn bound_to_many(
             });
             (buffer.unwrap_or(0), bytes)
         };
-        let bytes = |given: isize| usize::try_from(given).unwrap_or(0);
-        let range = BoundRange {
-            buffer: BufferName(buffer),
-            start: start.map_or(0, bytes),
-            size: match first.saturating_add(count.max(0) as u32) {
-                // The driver may refuse the call as a whole.
-                9.. => Some(0),
-                _ if start.is_some_and(|start| start < 0) => Some(0),
-                _ => size.map(bytes).filter(|_| buffer != 0),
-            },
+        let range = match bytes {
+            // The driver may refuse the call as a whole.
+            _ if first.saturating_add(count.max(0) as u32) > FEW => part(buffer, 0, 0),
+            [Some(offset), Some(size)] if buffer != 0 => part(buffer, offset, size),
+            _ => BoundRange::whole(BufferName(buffer)),
         };
         peek(|l| l.binds_buffer_at(target, first.saturating_add(at as u32), range, false));
     }

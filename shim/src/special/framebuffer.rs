@@ -1,6 +1,6 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
-use crate::context::{enter, instead, instead_at, real};
+use crate::context::{enter, instead, instead_at, peek, real};
 use crate::hooks::{Object, before_uncompiled, compile, if_split, named, write_back};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{FramebufferName, Gl, Ptr, RenderbufferName, TextureName, consts as c};
@@ -135,6 +135,18 @@ fn choose(
     });
 }
 
+/// As [`choose`], for the read buffer.
+fn choose_read(zero: impl Fn(&Layer) -> bool, name: u32, call: &mut dyn FnMut()) {
+    instead(call, |gl, l, call| {
+        if !zero(l) {
+            l.attachments_changed();
+            call();
+        } else if l.read_buffer(gl, name).is_none() {
+            l.other_read_buffer(gl, name, call);
+        }
+    });
+}
+
 /// As [`choose`], for the draw buffers of the bound framebuffer. `several` is true for glDrawBuffers.
 fn choose_draw(names: Option<&[u32]>, several: bool, call: &mut dyn FnMut()) {
     instead(call, |gl, l, call| {
@@ -211,10 +223,9 @@ pub(crate) unsafe fn glReadBuffer(src: u32) {
         // SAFETY: compiled into the program's list.
         return unsafe { real().glReadBuffer(src) };
     }
-    choose(
+    choose_read(
         Layer::reads_from_zero,
-        |gl, l| l.read_buffer(gl, src),
-        c::READ_FRAMEBUFFER,
+        src,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glReadBuffer(src) },
     );
@@ -265,23 +276,35 @@ pub(crate) unsafe fn glFramebufferDrawBuffersEXT(framebuffer: u32, n: i32, bufs:
 }
 
 pub(crate) unsafe fn glNamedFramebufferReadBuffer(framebuffer: u32, src: u32) {
-    choose(
+    choose_read(
         |_| framebuffer == 0,
-        |gl, l| l.read_buffer(gl, src),
-        0,
+        src,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glNamedFramebufferReadBuffer(framebuffer, src) },
     );
 }
 
 pub(crate) unsafe fn glFramebufferReadBufferEXT(framebuffer: u32, mode: u32) {
-    choose(
+    choose_read(
         |_| framebuffer == 0,
-        |gl, l| l.read_buffer(gl, mode),
-        0,
+        mode,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glFramebufferReadBufferEXT(framebuffer, mode) },
     );
+}
+
+pub(crate) unsafe fn glGetFramebufferParameterivEXT(framebuffer: u32, pname: u32, params: Ptr) {
+    before_uncompiled();
+    // SAFETY: the program's own call.
+    unsafe { real().glGetFramebufferParameterivEXT(framebuffer, pname, params) };
+    let answer = match framebuffer {
+        0 => peek(|l| l.answer_of_zero(pname)).flatten(),
+        _ => None,
+    };
+    if let (Some(buffer), false) = (answer, params.is_null()) {
+        // SAFETY: the driver has written one value of this name there.
+        unsafe { params.cast::<i32>().write_unaligned(buffer as i32) };
+    }
 }
 
 pub(crate) unsafe fn glBlitFramebufferANGLE(

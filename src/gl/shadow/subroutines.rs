@@ -30,6 +30,16 @@ pub(in crate::gl) fn subroutines_of(program: u32) -> Vec<(u32, Vec<u32>)> {
 }
 
 impl Subroutines {
+    /// A stage of a program has so many uniforms and subroutines.
+    #[cfg(test)]
+    pub(super) fn has(&mut self, program: u32, stage: u32, numbers: [u32; 2]) {
+        *self = Subroutines {
+            program,
+            chosen: Vec::new(),
+            numbers: vec![(stage, numbers)],
+        };
+    }
+
     /// A program gets another executable.
     pub(super) fn relinked(&mut self, program: u32) {
         if self.program == program {

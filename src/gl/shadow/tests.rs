@@ -259,6 +259,55 @@ fn attributes_belong_to_the_vertex_array_object() {
     });
 }
 
+/// The driver forgets subroutines when another program is used; those of a call that it has refused, or only compiled, were never chosen.
+#[test]
+fn subroutines_are_those_that_the_driver_has_taken() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    let choose = |indices: &[u32]| {
+        let (count, all) = (indices.len() as i32, indices.as_ptr() as _);
+        // SAFETY: so many indices.
+        unsafe {
+            fake.real()
+                .glUniformSubroutinesuiv(c::FRAGMENT_SHADER, count, all)
+        };
+    };
+    let chosen = || {
+        let chosen = subroutines_of(3);
+        chosen
+            .into_iter()
+            .map(|(_, indices)| indices)
+            .collect::<Vec<_>>()
+    };
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.use_program(ProgramName(3));
+        let mut inner = shadow.shadow.borrow_mut();
+        inner.answered(Key::Value(c::CURRENT_PROGRAM), [3, 0, 0, 0]);
+        inner.subroutines.has(3, c::FRAGMENT_SHADER, [2, 4]);
+        drop(inner);
+        choose(&[1, 3]);
+        assert_eq!(chosen(), [[1, 3]]);
+        choose(&[1, 4]);
+        choose(&[1]);
+        gl.new_list(crate::gl::ListName(5), c::COMPILE);
+        choose(&[0, 0]);
+        gl.end_list();
+        assert_eq!(chosen(), [[1, 3]]);
+        fake.forget();
+        gl.use_program(ProgramName(3));
+        assert_eq!(fake.count("glUniformSubroutinesuiv"), 1);
+        gl.use_program(ProgramName(4));
+        assert_eq!(
+            fake.count("glUniformSubroutinesuiv"),
+            1,
+            "not of another program"
+        );
+        forget_subroutines();
+        assert!(chosen().is_empty());
+    });
+}
+
 #[test]
 fn another_context_may_have_changed_it() {
     let fake = Fake::new().window(64, 32);

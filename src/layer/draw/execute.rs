@@ -1,8 +1,8 @@
 //! Execute: sends one [`Draw`] to the driver by the method that was decided, or by replay where that method turns out to be impossible.
 
 use super::super::Layer;
-use super::super::memory::Redirection;
 use super::super::own_variants::{Entered, VariantUse};
+use super::super::side_effects::Redirection;
 use super::super::targets::Targets;
 use super::{Draw, Images, Send};
 use crate::atlas::{Surface, Tiles};

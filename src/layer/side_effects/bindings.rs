@@ -5,7 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Buffers and images that are bound for shaders to write to, and the buffers of other views.
 #[derive(Debug, Default)]
-pub(in crate::layer) struct Memory {
+pub(in crate::layer) struct WriteBindings {
     /// All binding points that the program has used; none where the driver has to be asked what is bound there.
     pub(super) points: FxHashMap<BindingPoint, Option<BoundRange>>,
     /// Buffers that the driver has bound before.
@@ -22,7 +22,7 @@ pub(in crate::layer) struct Memory {
     pub(super) refused: FxHashSet<TextureName>,
 }
 
-impl Memory {
+impl WriteBindings {
     /// The program binds a range of a buffer. What the driver may refuse is asked about when it is needed.
     pub(in crate::layer) fn binds(&mut self, point: BindingPoint, range: BoundRange) {
         let points = match point.target {
@@ -96,38 +96,34 @@ mod tests {
         index: 3,
     };
 
-    fn part(buffer: u32, start: usize, size: Option<usize>) -> BoundRange {
-        BoundRange {
-            buffer: BufferName(buffer),
-            start,
-            size,
-        }
-    }
-
     /// What a driver may refuse is asked about, once.
     #[test]
     fn bindings_are_known_once_the_driver_has_taken_the_buffer() {
-        let (fake, mut memory) = (Fake::new(), Memory::default());
+        let (fake, mut memory) = (Fake::new(), WriteBindings::default());
         let gl = fake.gl();
-        let asked = |memory: &mut Memory| {
+        let asked = |memory: &mut WriteBindings| {
             fake.forget();
             memory.range(&gl, POINT);
             fake.count("glGet*") > 0
         };
-        memory.binds(POINT, part(7, 0, None));
+        memory.binds(POINT, BoundRange::whole(BufferName(7)));
         assert!(asked(&mut memory), "the driver may have no buffer 7");
         assert!(!asked(&mut memory));
         memory.confirmed.insert(BufferName(7));
-        memory.binds(POINT, part(7, 512, Some(64)));
+        memory.binds(POINT, BoundRange::part(BufferName(7), 512, 64));
         assert!(!asked(&mut memory));
-        for refused in [part(7, 4, Some(64)), part(7, 0, Some(0)), part(8, 0, None)] {
+        for refused in [
+            BoundRange::part(BufferName(7), 4, 64),
+            BoundRange::part(BufferName(7), 0, 0),
+            BoundRange::whole(BufferName(8)),
+        ] {
             memory.binds(POINT, refused);
             assert!(asked(&mut memory), "{refused:?}");
         }
-        memory.binds(POINT, part(7, 0, None));
+        memory.binds(POINT, BoundRange::whole(BufferName(7)));
         memory.deleted(&[BufferName(7)]);
         assert!(asked(&mut memory), "it is unbound");
-        memory.binds(POINT, part(0, 0, None));
+        memory.binds(POINT, BoundRange::whole(BufferName(0)));
         assert!(!asked(&mut memory));
     }
 }

@@ -61,17 +61,16 @@ impl Redirection {
         self.away = true;
         gl.finish_writes_to_buffers();
         for buffer in &self.buffers {
-            let whole = BoundRange {
-                buffer: buffer.scratch,
-                start: 0,
-                size: (!buffer.scratch.is_zero()).then_some(buffer.bytes),
+            let range = match buffer.scratch {
+                BufferName::ZERO => BoundRange::whole(BufferName::ZERO),
+                scratch => BoundRange::part(scratch, 0, buffer.bytes),
             };
             if !buffer.scratch.is_zero() {
                 gl.bind_buffer(c::COPY_READ_BUFFER, buffer.range.buffer);
                 gl.bind_buffer(c::COPY_WRITE_BUFFER, buffer.scratch);
                 gl.copy_buffer(buffer.range.start, 0, buffer.bytes);
             }
-            gl.bind_range(buffer.point, &whole);
+            gl.bind_range(buffer.point, &range);
         }
     }
 
@@ -98,14 +97,6 @@ mod tests {
         index: 3,
     };
 
-    fn part(buffer: u32, start: usize, size: Option<usize>) -> BoundRange {
-        BoundRange {
-            buffer: BufferName(buffer),
-            start,
-            size,
-        }
-    }
-
     #[test]
     fn other_views_write_to_copies() {
         let fake = Fake::new();
@@ -113,7 +104,7 @@ mod tests {
         let mut redirection = Redirection {
             buffers: vec![Redirected {
                 point: POINT,
-                range: part(7, 256, Some(64)),
+                range: BoundRange::part(BufferName(7), 256, 64),
                 bytes: 64,
                 scratch: BufferName(9),
             }],

@@ -3,10 +3,10 @@
 //! A draw of another view has copies of the buffers in the place of those that it writes to, which begin with the same contents and are
 //! forgotten after it, and textures of its own in the place of images, which it keeps, as those that it draws to.
 
-mod bound;
+mod bindings;
 mod redirection;
 
-pub(super) use bound::Memory;
+pub(super) use bindings::WriteBindings;
 pub(super) use redirection::Redirection;
 
 use super::{Layer, keep_bindings};
@@ -23,12 +23,13 @@ const PIPELINE_UNITS: u32 = 8;
 
 impl Layer {
     /// Where the shaders that are in use write to; none where that is nowhere.
-    fn side_effects(&self) -> Option<Arc<SideEffects>> {
+    fn side_effects(&self) -> Option<&SideEffects> {
+        static ANYTHING: SideEffects = SideEffects::ANYTHING;
         let in_use = &self.state.in_use;
         let effects = match (in_use.program, in_use.pipeline) {
             (ProgramName::ZERO, 0) => return None,
             // Nothing is known of a program pipeline.
-            (ProgramName::ZERO, _) => Some(Arc::new(SideEffects::anything())),
+            (ProgramName::ZERO, _) => Some(&ANYTHING),
             (program, _) => self.variants.own.effects(program),
         };
         effects.filter(|effects| !effects.is_empty())
@@ -37,7 +38,7 @@ impl Layer {
     /// Textures are about to be bound to so many image units, counted from 0.
     pub fn images_change(&mut self, first: u32, count: i32) {
         let end = first.saturating_add(count.max(0) as u32);
-        let images = &mut self.memory.images;
+        let images = &mut self.write_bindings.images;
         images.retain(|unit, _| !(first..end).contains(unit));
     }
 
@@ -60,11 +61,8 @@ impl Layer {
         }
         let images: Arc<[ImageUnit]> = match program {
             ProgramName::ZERO if stores => self.pipeline_images(gl).into(),
-            _ => {
-                let units = self.variants.own.image_units(gl, program).into_iter();
-                let images = units.filter_map(|unit| self.memory.image(gl, unit));
-                images.collect()
-            }
+            ProgramName::ZERO => return Arc::default(),
+            program => self.images_of(gl, program).into(),
         };
         for image in images.iter().filter(|image| stores && image.is_written()) {
             self.split_image(gl, image.texture);
@@ -79,14 +77,14 @@ impl Layer {
         }
         let units = 0..PIPELINE_UNITS;
         units
-            .filter_map(|unit| self.memory.image(gl, unit))
+            .filter_map(|unit| self.write_bindings.image(gl, unit))
             .collect()
     }
 
     /// Gives each view a texture of its own.
     pub(in crate::layer) fn split_image(&mut self, gl: &Gl, name: TextureName) {
         let split = self.targets.offscreen.has(Object::Texture(name));
-        if split || self.memory.refused.contains(&name) {
+        if split || self.write_bindings.refused.contains(&name) {
             return;
         }
         self.state.keep_errors(gl);
@@ -99,7 +97,7 @@ impl Layer {
         } else if made {
             return;
         }
-        self.memory.refused.insert(name);
+        self.write_bindings.refused.insert(name);
     }
 
     /// Where the draw of each view writes to.
@@ -108,7 +106,7 @@ impl Layer {
         if effects.is_none() && units.is_empty() {
             return Redirection::default();
         }
-        let effects = effects.unwrap_or_default();
+        let effects = effects.cloned().unwrap_or_default();
         let offscreen = &mut self.targets.offscreen;
         let mut images = Vec::new();
         for image in units {
@@ -122,10 +120,12 @@ impl Layer {
             }
         }
         let points = match effects.everything {
-            true => self.memory.points.keys().copied().collect(),
+            true => self.write_bindings.points.keys().copied().collect(),
             false => effects.points(gl, self.state.in_use.program),
         };
-        let ranges = points.into_iter().map(|p| (p, self.memory.range(gl, p)));
+        let ranges = points
+            .into_iter()
+            .map(|p| (p, self.write_bindings.range(gl, p)));
         let ranges = ranges.filter(|(_, range)| !range.buffer.is_zero());
         let ranges: Vec<(BindingPoint, BoundRange)> = ranges.collect();
         let mut redirection = Redirection {
@@ -146,20 +146,20 @@ impl Layer {
                 scratch,
             });
         }
-        // The size of a buffer and the store of another one may have been asked for by these.
+        // The targets of copies have had other buffers, to ask for sizes and to make stores.
         redirection.away = true;
         redirection
     }
 
     /// A fault has interrupted a draw: binds what the program has bound. Raises errors on a context that lacks some of the targets.
-    pub(in crate::layer) fn put_memory(&mut self, gl: &Gl) {
-        for image in self.memory.images.values().flatten() {
+    pub(in crate::layer) fn put_write_bindings(&mut self, gl: &Gl) {
+        for image in self.write_bindings.images.values().flatten() {
             gl.bind_image(image, image.texture);
         }
-        if self.memory.scratch.is_empty() {
+        if self.write_bindings.scratch.is_empty() {
             return;
         }
-        for (&point, range) in &self.memory.points {
+        for (&point, range) in &self.write_bindings.points {
             range.iter().for_each(|range| gl.bind_range(point, range));
         }
         for target in [
@@ -172,8 +172,8 @@ impl Layer {
         }
     }
 
-    /// What the program has bound at the targets that a redirection uses.
-    fn copy_bindings(
+    /// What the program has bound at the targets of copies between buffers, and at those of `ranges`.
+    pub(in crate::layer) fn copy_bindings(
         &mut self,
         gl: &Gl,
         ranges: &[(BindingPoint, BoundRange)],
@@ -184,14 +184,16 @@ impl Layer {
         targets.dedup();
         let bound = targets.into_iter().map(|target| {
             let known = self.blocks.bound_at(target);
-            let sure = !self.memory.doubtful.contains(&target)
-                && (known.is_zero() || self.memory.confirmed.contains(&known));
+            let sure = !self.write_bindings.doubtful.contains(&target)
+                && (known.is_zero() || self.write_bindings.confirmed.contains(&known));
             if sure {
                 return (target, known);
             }
             let binding = crate::gl::buffer_binding(target).unwrap_or(target);
             let buffer = BufferName(gl.get_integer(binding) as u32);
-            self.memory.confirmed.insert(buffer);
+            self.write_bindings.confirmed.insert(buffer);
+            self.write_bindings.doubtful.remove(&target);
+            self.blocks.set_bound(target, buffer);
             (target, buffer)
         });
         bound.collect()
@@ -200,13 +202,13 @@ impl Layer {
     /// The bytes of a range, up to the end of its buffer.
     fn bytes_of(&mut self, gl: &Gl, range: &BoundRange) -> usize {
         let now = store_change();
-        let known = self.memory.sizes.get(&range.buffer);
+        let known = self.write_bindings.sizes.get(&range.buffer);
         let whole = match known {
             Some(&(then, size)) if then == now => size,
             _ => {
                 gl.bind_buffer(c::COPY_READ_BUFFER, range.buffer);
                 let size = gl.buffer_size(c::COPY_READ_BUFFER);
-                self.memory.sizes.insert(range.buffer, (now, size));
+                self.write_bindings.sizes.insert(range.buffer, (now, size));
                 size
             }
         };
@@ -219,7 +221,7 @@ impl Layer {
         if bytes == 0 {
             return BufferName::ZERO;
         }
-        let all = &mut self.memory.scratch;
+        let all = &mut self.write_bindings.scratch;
         while all.len() <= at {
             all.push((gl.gen_buffer(), 0));
         }
@@ -234,5 +236,33 @@ impl Layer {
             }
         }
         all[at].0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::bench::Bench;
+    use super::*;
+
+    /// A command that the driver may refuse is asked about once, not by each draw.
+    #[test]
+    fn what_is_bound_is_asked_once() {
+        let mut bench = Bench::new(&[]);
+        let point = BindingPoint {
+            target: c::SHADER_STORAGE_BUFFER,
+            index: 3,
+        };
+        let range = BoundRange::whole(BufferName(7));
+        bench
+            .layer
+            .binds_buffer_at(point.target, point.index, range, true);
+        let asked = |bench: &mut Bench| {
+            bench.fake.forget();
+            bench.layer.copy_bindings(&bench.gl, &[(point, range)]);
+            bench.fake.count("glGet*")
+        };
+        assert_eq!([asked(&mut bench), asked(&mut bench)], [1, 0]);
+        bench.layer.binds_buffer(c::COPY_READ_BUFFER, BufferName(8));
+        assert_eq!([asked(&mut bench), asked(&mut bench)], [1, 0]);
     }
 }

@@ -16,7 +16,7 @@ pub struct MemoryWrites {
     pub counters: bool,
     /// It stores to images.
     pub images: bool,
-    /// A macro declares storage blocks.
+    /// Macros declare storage blocks, so it cannot be told which are written.
     pub unclear: bool,
 }
 
