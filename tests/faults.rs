@@ -185,19 +185,33 @@ fn the_connection_to_the_x_server_is_lost() {
         drop(screen);
         let output = child.wait_with_output().expect("it ends");
         let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-        (output.status.code(), stderr)
+        assert_ne!(output.status.code(), Some(124), "it hangs: {stderr}");
+        (output.status, stderr)
     };
-    let (expected, said) = run(bare("timeout"));
-    assert!(
-        expected.is_some_and(|code| code != 124),
-        "{expected:?}: {said}"
-    );
     for output in ["panel", "view"] {
         let options = [("VIEWS", "5"), ("OUTPUT", output)];
-        let (code, stderr) = run(layered("timeout", &options));
-        assert_eq!(code, expected, "{output}: {stderr}");
-        said_once(&stderr, output);
+        let as_bare = || {
+            let (expected, _) = run(bare("timeout"));
+            let (status, stderr) = run(layered("timeout", &options));
+            said_once(&stderr, output);
+            (status == expected).then_some(()).ok_or(stderr)
+        };
+        // Xlib ends the program with status 1, but Mesa's driver may meet the lost connection first: then, seldom, a signal ends it.
+        let tries = first_success(5, as_bare);
+        assert!(tries.is_ok(), "{output}: {tries:?}");
     }
+}
+
+/// The first success of `times` tries, or what each said.
+fn first_success(times: u32, attempt: impl Fn() -> Result<(), String>) -> Result<(), Vec<String>> {
+    let mut said = Vec::new();
+    for _ in 0..times {
+        match attempt() {
+            Ok(()) => return Ok(()),
+            Err(text) => said.push(text),
+        }
+    }
+    Err(said)
 }
 
 #[test]
