@@ -1,11 +1,12 @@
 /* The frame is copied to textures and drawn over itself: a trail of earlier frames by glCopyTexImage2D, water that mirrors the picture so far
- * by glCopyTexSubImage2D, and an inset by glCopyPixels. */
+ * by glCopyTexSubImage2D, and an inset by glCopyPixels. With --listed, display lists copy to the textures. */
 #include "demo.h"
 #include <stddef.h>
 
-DEMO_NO_OPTIONS;
+static int listed;
+const struct demo_option demo_options[] = {{"--listed", "display lists copy to the textures", &listed, 0}, {0}};
 
-static GLuint trail, water;
+static GLuint trail, water, copies; /* copies: a list for each texture */
 static int size_w, size_h; /* powers of two that hold the picture */
 
 void demo_setup(void)
@@ -70,6 +71,27 @@ static void scene(double t)
     }
 }
 
+static void copy_trail(void)
+{
+    glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, demo_x, demo_y, size_w, size_h, 0);
+}
+
+static void copy_water(void)
+{
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, demo_x, demo_y, demo_width, demo_height);
+}
+
+static void compile(void)
+{
+    copies = glGenLists(2);
+    glNewList(copies, GL_COMPILE);
+    copy_trail();
+    glEndList();
+    glNewList(copies + 1, GL_COMPILE);
+    copy_water();
+    glEndList();
+}
+
 void demo_frame(int frame)
 {
     int w = demo_width, h = demo_height;
@@ -86,12 +108,20 @@ void demo_frame(int frame)
         glDisable(GL_BLEND);
     }
     glBindTexture(GL_TEXTURE_2D, trail);
-    glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, demo_x, demo_y, size_w, size_h, 0);
+    if (listed && !copies)
+        compile();
+    if (listed)
+        glCallList(copies);
+    else
+        copy_trail();
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 
     glBindTexture(GL_TEXTURE_2D, water);
-    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, demo_x, demo_y, w, h);
+    if (listed)
+        glCallList(copies + 1);
+    else
+        copy_water();
     glColor4d(0.47, 0.63, 0.83, 1.0);
     rect(0, 0, w, h / 3, h / 3 + h / 3, h / 3);
     glDisable(GL_TEXTURE_2D);

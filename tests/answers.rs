@@ -356,21 +356,34 @@ fn draws_in_several_primitive_modes_are_in_every_view() {
     }
 }
 
+/// The modes of unhooked.c in which a texture is written that was drawn to.
+const WRITES: [&str; 11] = [
+    "image",
+    "subimage",
+    "bound",
+    "multi",
+    "copied",
+    "boundcopied",
+    "corecopied",
+    "unitcopied",
+    "mipmap",
+    "unitmipmap",
+    "nvcopied",
+];
+
 #[test]
-fn textures_that_are_written_by_their_names_show_what_was_written() {
-    for mode in [
-        "image",
-        "subimage",
-        "multi",
-        "copied",
-        "corecopied",
-        "unitcopied",
-        "unitlist",
-        "mipmap",
-        "unitmipmap",
-        "nvcopied",
-    ] {
+fn textures_that_are_written_show_what_was_written() {
+    for mode in WRITES {
         alike("unhooked", &[mode], 1);
+    }
+}
+
+#[test]
+fn textures_that_display_lists_write_show_what_was_written() {
+    for mode in WRITES {
+        for listed in ["list", "execute"] {
+            alike("unhooked", &[mode, listed], 1);
+        }
     }
 }
 

@@ -513,7 +513,7 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_depth passes_samples passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
+    glx: gears lists echo echo_listed blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_depth passes_samples passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
     egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_depth passes_samples passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
     osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_depth passes_samples passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
 }

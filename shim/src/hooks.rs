@@ -11,7 +11,7 @@ use manyview_core::gl::consts::{
     BLEND, DEPTH_TEST, FRAMEBUFFER_SRGB, POLYGON_STIPPLE, SCISSOR_TEST, STENCIL_TEST, TEXTURE_2D,
 };
 use manyview_core::state::Run;
-pub(crate) use manyview_core::state::{Command, Touch};
+pub(crate) use manyview_core::state::{Command, TextureAt, Touch};
 
 /// Classes of draws, as `commands.list` names them.
 #[derive(Clone, Copy)]
@@ -63,22 +63,19 @@ pub(crate) fn if_split(f: impl FnOnce(&Gl, &mut Layer)) {
     }
 }
 
-/// Before a command that writes to the texture bound at `target`.
+/// Before a command that writes to a texture and that display lists compile.
 #[inline]
-pub(crate) fn texture(target: u32) {
-    list_only();
-    if_split(|gl, l| l.texture_written(gl, target));
+pub(crate) fn texture(to: TextureAt) {
+    if context::peek(|l| l.compiles() || l.has_copies()) == Some(true) {
+        enter(|gl, l| l.texture_written(gl, to));
+    }
 }
 
-/// Before a command that writes to the texture bound at `target` of a unit.
+/// Before a command that writes to the texture bound at `target` and that no display list compiles.
 #[inline]
-pub(crate) fn unit_texture(unit: u32, target: u32) {
-    list_only();
-    if_split(|gl, l| {
-        if !l.compiles() {
-            l.with_unit(gl, unit, |l| l.texture_written(gl, target));
-        }
-    });
+pub(crate) fn texture_now(target: u32) {
+    before_uncompiled();
+    if_split(|gl, l| l.bound_texture_written(gl, target));
 }
 
 /// Before a command that writes to a texture or renderbuffer, which it names.
@@ -142,36 +139,32 @@ pub(crate) fn compute(call: &mut dyn FnMut(&'static Real)) {
     instead(&mut || call(real()), |gl, l, call| l.compute(gl, call));
 }
 
-/// A copy from the read framebuffer to the texture bound at `target`; `x` and `width` are its columns in pixels.
-pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
-    instead(&mut || call(real()), |gl, l, call| {
-        l.copy_texture(gl, target, x, width, call);
-    });
-}
-
-/// A copy from the read framebuffer to the texture bound at `target` of a unit; `x` and `width` are its columns in pixels.
-pub(crate) fn copy_unit(
-    unit: u32,
-    target: u32,
+/// A copy from the read framebuffer to a texture, which the call gets by its name; `x` and `width` are the columns in pixels.
+pub(crate) fn copy(
+    to: TextureAt,
     x: i32,
     width: i32,
-    call: &mut dyn FnMut(&'static Real),
+    call: &mut dyn FnMut(&'static Real, TextureName),
 ) {
-    instead(&mut || call(real()), |gl, l, call| {
-        l.with_unit(gl, unit, |l| l.copy_texture(gl, target, x, width, call));
+    let name = match to {
+        TextureAt::Named(texture) => texture,
+        _ => TextureName::ZERO,
+    };
+    context::instead_at(name, &mut |name| call(real(), name), |gl, l, each| {
+        l.copy_texture(gl, to, [x, width], each);
     });
 }
 
-/// A copy from the read framebuffer to a texture, which the call gets by its name.
-pub(crate) fn copy_named(
+/// The same for a command that names its texture and that no display list compiles.
+pub(crate) fn copy_now(
     texture: TextureName,
     x: i32,
     width: i32,
     call: &mut dyn FnMut(&'static Real, TextureName),
 ) {
-    let call = &mut |name| call(real(), name);
-    context::instead_at(texture, call, |gl, l, each| {
-        l.copy_named_texture(gl, texture, x, width, each);
+    before_uncompiled();
+    context::instead_at(texture, &mut |name| call(real(), name), |gl, l, each| {
+        l.copy_texture_now(gl, texture, [x, width], each);
     });
 }
 

@@ -862,144 +862,144 @@ pub mod slot {
     pub const glCompressedTexSubImage2DARB: usize = 851;
     pub const glCompressedTexSubImage3D: usize = 852;
     pub const glCompressedTexSubImage3DARB: usize = 853;
-    pub const glTexImage2DMultisample: usize = 854;
-    pub const glTexImage3DMultisample: usize = 855;
-    pub const glTexStorage1D: usize = 856;
-    pub const glTexStorage1DEXT: usize = 857;
-    pub const glTexStorage2D: usize = 858;
-    pub const glTexStorage2DEXT: usize = 859;
-    pub const glTexStorage3D: usize = 860;
-    pub const glTexStorage3DEXT: usize = 861;
-    pub const glTexStorage2DMultisample: usize = 862;
-    pub const glTexStorage3DMultisample: usize = 863;
-    pub const glTexStorage3DMultisampleOES: usize = 864;
-    pub const glTexImage3DOES: usize = 865;
-    pub const glTexSubImage3DOES: usize = 866;
-    pub const glCompressedTexImage3DOES: usize = 867;
-    pub const glCompressedTexSubImage3DOES: usize = 868;
-    pub const glEGLImageTargetTexture2DOES: usize = 869;
-    pub const glTextureSubImage1D: usize = 870;
-    pub const glTextureSubImage2D: usize = 871;
-    pub const glTextureSubImage3D: usize = 872;
-    pub const glCompressedTextureSubImage1D: usize = 873;
-    pub const glCompressedTextureSubImage2D: usize = 874;
-    pub const glCompressedTextureSubImage3D: usize = 875;
-    pub const glTextureStorage1D: usize = 876;
-    pub const glTextureStorage2D: usize = 877;
-    pub const glTextureStorage3D: usize = 878;
-    pub const glTextureStorage2DMultisample: usize = 879;
-    pub const glTextureStorage3DMultisample: usize = 880;
-    pub const glClearTexImage: usize = 881;
-    pub const glClearTexImageEXT: usize = 882;
-    pub const glClearTexSubImage: usize = 883;
-    pub const glClearTexSubImageEXT: usize = 884;
-    pub const glNamedRenderbufferStorage: usize = 885;
-    pub const glNamedRenderbufferStorageMultisample: usize = 886;
-    pub const glNamedRenderbufferStorageEXT: usize = 887;
-    pub const glNamedRenderbufferStorageMultisampleAdvancedAMD: usize = 888;
-    pub const glNamedRenderbufferStorageMultisampleCoverageEXT: usize = 889;
-    pub const glNamedRenderbufferStorageMultisampleEXT: usize = 890;
-    pub const glTextureImage1DEXT: usize = 891;
-    pub const glTextureImage2DEXT: usize = 892;
-    pub const glTextureImage3DEXT: usize = 893;
-    pub const glTextureSubImage1DEXT: usize = 894;
-    pub const glTextureSubImage2DEXT: usize = 895;
-    pub const glTextureSubImage3DEXT: usize = 896;
-    pub const glCompressedTextureImage1DEXT: usize = 897;
-    pub const glCompressedTextureImage2DEXT: usize = 898;
-    pub const glCompressedTextureImage3DEXT: usize = 899;
-    pub const glCompressedTextureSubImage1DEXT: usize = 900;
-    pub const glCompressedTextureSubImage2DEXT: usize = 901;
-    pub const glCompressedTextureSubImage3DEXT: usize = 902;
-    pub const glTextureStorage1DEXT: usize = 903;
-    pub const glTextureStorage2DEXT: usize = 904;
-    pub const glTextureStorage3DEXT: usize = 905;
-    pub const glTextureStorage2DMultisampleEXT: usize = 906;
-    pub const glTextureStorage3DMultisampleEXT: usize = 907;
-    pub const glTextureStorageMem1DEXT: usize = 908;
-    pub const glTextureStorageMem2DEXT: usize = 909;
-    pub const glTextureStorageMem3DEXT: usize = 910;
-    pub const glTextureStorageMem2DMultisampleEXT: usize = 911;
-    pub const glTextureStorageMem3DMultisampleEXT: usize = 912;
-    pub const glTextureImage2DMultisampleCoverageNV: usize = 913;
-    pub const glTextureImage2DMultisampleNV: usize = 914;
-    pub const glTextureImage3DMultisampleCoverageNV: usize = 915;
-    pub const glTextureImage3DMultisampleNV: usize = 916;
-    pub const glTexturePageCommitmentEXT: usize = 917;
-    pub const glTexturePageCommitmentMemNV: usize = 918;
-    pub const glInvalidateTexImage: usize = 919;
-    pub const glInvalidateTexSubImage: usize = 920;
-    pub const glTextureRenderbufferEXT: usize = 921;
-    pub const glEGLImageTargetTextureStorageEXT: usize = 922;
-    pub const glTextureStorageSparseAMD: usize = 923;
-    pub const glTexStorageMem1DEXT: usize = 924;
-    pub const glTexStorageMem2DEXT: usize = 925;
-    pub const glTexStorageMem3DEXT: usize = 926;
-    pub const glTexStorageMem2DMultisampleEXT: usize = 927;
-    pub const glTexStorageMem3DMultisampleEXT: usize = 928;
-    pub const glTexImage2DMultisampleCoverageNV: usize = 929;
-    pub const glTexImage3DMultisampleCoverageNV: usize = 930;
-    pub const glTexPageCommitmentARB: usize = 931;
-    pub const glTexPageCommitmentEXT: usize = 932;
-    pub const glTexPageCommitmentMemNV: usize = 933;
-    pub const glEGLImageTargetTexStorageEXT: usize = 934;
-    pub const glTexStorageAttribs2DEXT: usize = 935;
-    pub const glTexStorageAttribs3DEXT: usize = 936;
-    pub const glTexRenderbufferNV: usize = 937;
-    pub const glTexStorageSparseAMD: usize = 938;
-    pub const glTexParameterf: usize = 939;
-    pub const glTexParameterfv: usize = 940;
-    pub const glTexParameteri: usize = 941;
-    pub const glTexParameteriv: usize = 942;
-    pub const glTexParameterIiv: usize = 943;
-    pub const glTexParameterIivEXT: usize = 944;
-    pub const glTexParameterIivOES: usize = 945;
-    pub const glTexParameterIuiv: usize = 946;
-    pub const glTexParameterIuivEXT: usize = 947;
-    pub const glTexParameterIuivOES: usize = 948;
-    pub const glTextureParameterf: usize = 949;
-    pub const glTextureParameterfv: usize = 950;
-    pub const glTextureParameteri: usize = 951;
-    pub const glTextureParameteriv: usize = 952;
-    pub const glTextureParameterIiv: usize = 953;
-    pub const glTextureParameterIuiv: usize = 954;
-    pub const glTextureParameterfEXT: usize = 955;
-    pub const glTextureParameterfvEXT: usize = 956;
-    pub const glTextureParameteriEXT: usize = 957;
-    pub const glTextureParameterivEXT: usize = 958;
-    pub const glTextureParameterIivEXT: usize = 959;
-    pub const glTextureParameterIuivEXT: usize = 960;
-    pub const glMultiTexParameterfEXT: usize = 961;
-    pub const glMultiTexParameterfvEXT: usize = 962;
-    pub const glMultiTexParameteriEXT: usize = 963;
-    pub const glMultiTexParameterivEXT: usize = 964;
-    pub const glMultiTexParameterIivEXT: usize = 965;
-    pub const glMultiTexParameterIuivEXT: usize = 966;
-    pub const glGenerateMipmap: usize = 967;
-    pub const glGenerateMipmapEXT: usize = 968;
-    pub const glGenerateTextureMipmap: usize = 969;
-    pub const glCreateTextures: usize = 970;
-    pub const glTextureView: usize = 971;
-    pub const glTextureViewEXT: usize = 972;
-    pub const glTextureViewOES: usize = 973;
-    pub const glCopyImageSubData: usize = 974;
-    pub const glCopyImageSubDataEXT: usize = 975;
-    pub const glCopyImageSubDataOES: usize = 976;
-    pub const glCopyImageSubDataNV: usize = 977;
-    pub const glGenerateTextureMipmapEXT: usize = 978;
-    pub const glGenerateMultiTexMipmapEXT: usize = 979;
-    pub const glCompressedMultiTexImage1DEXT: usize = 980;
-    pub const glCompressedMultiTexImage2DEXT: usize = 981;
-    pub const glCompressedMultiTexImage3DEXT: usize = 982;
-    pub const glCompressedMultiTexSubImage1DEXT: usize = 983;
-    pub const glCompressedMultiTexSubImage2DEXT: usize = 984;
-    pub const glCompressedMultiTexSubImage3DEXT: usize = 985;
-    pub const glMultiTexImage1DEXT: usize = 986;
-    pub const glMultiTexImage2DEXT: usize = 987;
-    pub const glMultiTexImage3DEXT: usize = 988;
-    pub const glMultiTexSubImage1DEXT: usize = 989;
-    pub const glMultiTexSubImage2DEXT: usize = 990;
-    pub const glMultiTexSubImage3DEXT: usize = 991;
+    pub const glTextureImage1DEXT: usize = 854;
+    pub const glTextureImage2DEXT: usize = 855;
+    pub const glTextureImage3DEXT: usize = 856;
+    pub const glTextureSubImage1DEXT: usize = 857;
+    pub const glTextureSubImage2DEXT: usize = 858;
+    pub const glTextureSubImage3DEXT: usize = 859;
+    pub const glCompressedTextureImage1DEXT: usize = 860;
+    pub const glCompressedTextureImage2DEXT: usize = 861;
+    pub const glCompressedTextureImage3DEXT: usize = 862;
+    pub const glCompressedTextureSubImage1DEXT: usize = 863;
+    pub const glCompressedTextureSubImage2DEXT: usize = 864;
+    pub const glCompressedTextureSubImage3DEXT: usize = 865;
+    pub const glCompressedMultiTexImage1DEXT: usize = 866;
+    pub const glCompressedMultiTexImage2DEXT: usize = 867;
+    pub const glCompressedMultiTexImage3DEXT: usize = 868;
+    pub const glCompressedMultiTexSubImage1DEXT: usize = 869;
+    pub const glCompressedMultiTexSubImage2DEXT: usize = 870;
+    pub const glCompressedMultiTexSubImage3DEXT: usize = 871;
+    pub const glMultiTexImage1DEXT: usize = 872;
+    pub const glMultiTexImage2DEXT: usize = 873;
+    pub const glMultiTexImage3DEXT: usize = 874;
+    pub const glMultiTexSubImage1DEXT: usize = 875;
+    pub const glMultiTexSubImage2DEXT: usize = 876;
+    pub const glMultiTexSubImage3DEXT: usize = 877;
+    pub const glTexImage2DMultisample: usize = 878;
+    pub const glTexImage3DMultisample: usize = 879;
+    pub const glTexStorage1D: usize = 880;
+    pub const glTexStorage1DEXT: usize = 881;
+    pub const glTexStorage2D: usize = 882;
+    pub const glTexStorage2DEXT: usize = 883;
+    pub const glTexStorage3D: usize = 884;
+    pub const glTexStorage3DEXT: usize = 885;
+    pub const glTexStorage2DMultisample: usize = 886;
+    pub const glTexStorage3DMultisample: usize = 887;
+    pub const glTexStorage3DMultisampleOES: usize = 888;
+    pub const glTexImage3DOES: usize = 889;
+    pub const glTexSubImage3DOES: usize = 890;
+    pub const glCompressedTexImage3DOES: usize = 891;
+    pub const glCompressedTexSubImage3DOES: usize = 892;
+    pub const glEGLImageTargetTexture2DOES: usize = 893;
+    pub const glTextureSubImage1D: usize = 894;
+    pub const glTextureSubImage2D: usize = 895;
+    pub const glTextureSubImage3D: usize = 896;
+    pub const glCompressedTextureSubImage1D: usize = 897;
+    pub const glCompressedTextureSubImage2D: usize = 898;
+    pub const glCompressedTextureSubImage3D: usize = 899;
+    pub const glTextureStorage1D: usize = 900;
+    pub const glTextureStorage2D: usize = 901;
+    pub const glTextureStorage3D: usize = 902;
+    pub const glTextureStorage2DMultisample: usize = 903;
+    pub const glTextureStorage3DMultisample: usize = 904;
+    pub const glClearTexImage: usize = 905;
+    pub const glClearTexImageEXT: usize = 906;
+    pub const glClearTexSubImage: usize = 907;
+    pub const glClearTexSubImageEXT: usize = 908;
+    pub const glNamedRenderbufferStorage: usize = 909;
+    pub const glNamedRenderbufferStorageMultisample: usize = 910;
+    pub const glNamedRenderbufferStorageEXT: usize = 911;
+    pub const glNamedRenderbufferStorageMultisampleAdvancedAMD: usize = 912;
+    pub const glNamedRenderbufferStorageMultisampleCoverageEXT: usize = 913;
+    pub const glNamedRenderbufferStorageMultisampleEXT: usize = 914;
+    pub const glTextureStorage1DEXT: usize = 915;
+    pub const glTextureStorage2DEXT: usize = 916;
+    pub const glTextureStorage3DEXT: usize = 917;
+    pub const glTextureStorage2DMultisampleEXT: usize = 918;
+    pub const glTextureStorage3DMultisampleEXT: usize = 919;
+    pub const glTextureStorageMem1DEXT: usize = 920;
+    pub const glTextureStorageMem2DEXT: usize = 921;
+    pub const glTextureStorageMem3DEXT: usize = 922;
+    pub const glTextureStorageMem2DMultisampleEXT: usize = 923;
+    pub const glTextureStorageMem3DMultisampleEXT: usize = 924;
+    pub const glTextureImage2DMultisampleCoverageNV: usize = 925;
+    pub const glTextureImage2DMultisampleNV: usize = 926;
+    pub const glTextureImage3DMultisampleCoverageNV: usize = 927;
+    pub const glTextureImage3DMultisampleNV: usize = 928;
+    pub const glTexturePageCommitmentEXT: usize = 929;
+    pub const glTexturePageCommitmentMemNV: usize = 930;
+    pub const glInvalidateTexImage: usize = 931;
+    pub const glInvalidateTexSubImage: usize = 932;
+    pub const glTextureRenderbufferEXT: usize = 933;
+    pub const glEGLImageTargetTextureStorageEXT: usize = 934;
+    pub const glTextureStorageSparseAMD: usize = 935;
+    pub const glTexStorageMem1DEXT: usize = 936;
+    pub const glTexStorageMem2DEXT: usize = 937;
+    pub const glTexStorageMem3DEXT: usize = 938;
+    pub const glTexStorageMem2DMultisampleEXT: usize = 939;
+    pub const glTexStorageMem3DMultisampleEXT: usize = 940;
+    pub const glTexImage2DMultisampleCoverageNV: usize = 941;
+    pub const glTexImage3DMultisampleCoverageNV: usize = 942;
+    pub const glTexPageCommitmentARB: usize = 943;
+    pub const glTexPageCommitmentEXT: usize = 944;
+    pub const glTexPageCommitmentMemNV: usize = 945;
+    pub const glEGLImageTargetTexStorageEXT: usize = 946;
+    pub const glTexStorageAttribs2DEXT: usize = 947;
+    pub const glTexStorageAttribs3DEXT: usize = 948;
+    pub const glTexRenderbufferNV: usize = 949;
+    pub const glTexStorageSparseAMD: usize = 950;
+    pub const glTexParameterf: usize = 951;
+    pub const glTexParameterfv: usize = 952;
+    pub const glTexParameteri: usize = 953;
+    pub const glTexParameteriv: usize = 954;
+    pub const glTexParameterIiv: usize = 955;
+    pub const glTexParameterIivEXT: usize = 956;
+    pub const glTexParameterIivOES: usize = 957;
+    pub const glTexParameterIuiv: usize = 958;
+    pub const glTexParameterIuivEXT: usize = 959;
+    pub const glTexParameterIuivOES: usize = 960;
+    pub const glTextureParameterf: usize = 961;
+    pub const glTextureParameterfv: usize = 962;
+    pub const glTextureParameteri: usize = 963;
+    pub const glTextureParameteriv: usize = 964;
+    pub const glTextureParameterIiv: usize = 965;
+    pub const glTextureParameterIuiv: usize = 966;
+    pub const glTextureParameterfEXT: usize = 967;
+    pub const glTextureParameterfvEXT: usize = 968;
+    pub const glTextureParameteriEXT: usize = 969;
+    pub const glTextureParameterivEXT: usize = 970;
+    pub const glTextureParameterIivEXT: usize = 971;
+    pub const glTextureParameterIuivEXT: usize = 972;
+    pub const glMultiTexParameterfEXT: usize = 973;
+    pub const glMultiTexParameterfvEXT: usize = 974;
+    pub const glMultiTexParameteriEXT: usize = 975;
+    pub const glMultiTexParameterivEXT: usize = 976;
+    pub const glMultiTexParameterIivEXT: usize = 977;
+    pub const glMultiTexParameterIuivEXT: usize = 978;
+    pub const glGenerateMipmap: usize = 979;
+    pub const glGenerateMipmapEXT: usize = 980;
+    pub const glGenerateTextureMipmap: usize = 981;
+    pub const glCreateTextures: usize = 982;
+    pub const glTextureView: usize = 983;
+    pub const glTextureViewEXT: usize = 984;
+    pub const glTextureViewOES: usize = 985;
+    pub const glCopyImageSubData: usize = 986;
+    pub const glCopyImageSubDataEXT: usize = 987;
+    pub const glCopyImageSubDataOES: usize = 988;
+    pub const glCopyImageSubDataNV: usize = 989;
+    pub const glGenerateTextureMipmapEXT: usize = 990;
+    pub const glGenerateMultiTexMipmapEXT: usize = 991;
     pub const glGetTextureImage: usize = 992;
     pub const glGetTextureSubImage: usize = 993;
     pub const glGetCompressedTextureImage: usize = 994;
@@ -2748,6 +2748,30 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glCompressedTexSubImage2DARB",
     c"glCompressedTexSubImage3D",
     c"glCompressedTexSubImage3DARB",
+    c"glTextureImage1DEXT",
+    c"glTextureImage2DEXT",
+    c"glTextureImage3DEXT",
+    c"glTextureSubImage1DEXT",
+    c"glTextureSubImage2DEXT",
+    c"glTextureSubImage3DEXT",
+    c"glCompressedTextureImage1DEXT",
+    c"glCompressedTextureImage2DEXT",
+    c"glCompressedTextureImage3DEXT",
+    c"glCompressedTextureSubImage1DEXT",
+    c"glCompressedTextureSubImage2DEXT",
+    c"glCompressedTextureSubImage3DEXT",
+    c"glCompressedMultiTexImage1DEXT",
+    c"glCompressedMultiTexImage2DEXT",
+    c"glCompressedMultiTexImage3DEXT",
+    c"glCompressedMultiTexSubImage1DEXT",
+    c"glCompressedMultiTexSubImage2DEXT",
+    c"glCompressedMultiTexSubImage3DEXT",
+    c"glMultiTexImage1DEXT",
+    c"glMultiTexImage2DEXT",
+    c"glMultiTexImage3DEXT",
+    c"glMultiTexSubImage1DEXT",
+    c"glMultiTexSubImage2DEXT",
+    c"glMultiTexSubImage3DEXT",
     c"glTexImage2DMultisample",
     c"glTexImage3DMultisample",
     c"glTexStorage1D",
@@ -2785,18 +2809,6 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glNamedRenderbufferStorageMultisampleAdvancedAMD",
     c"glNamedRenderbufferStorageMultisampleCoverageEXT",
     c"glNamedRenderbufferStorageMultisampleEXT",
-    c"glTextureImage1DEXT",
-    c"glTextureImage2DEXT",
-    c"glTextureImage3DEXT",
-    c"glTextureSubImage1DEXT",
-    c"glTextureSubImage2DEXT",
-    c"glTextureSubImage3DEXT",
-    c"glCompressedTextureImage1DEXT",
-    c"glCompressedTextureImage2DEXT",
-    c"glCompressedTextureImage3DEXT",
-    c"glCompressedTextureSubImage1DEXT",
-    c"glCompressedTextureSubImage2DEXT",
-    c"glCompressedTextureSubImage3DEXT",
     c"glTextureStorage1DEXT",
     c"glTextureStorage2DEXT",
     c"glTextureStorage3DEXT",
@@ -2874,18 +2886,6 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glCopyImageSubDataNV",
     c"glGenerateTextureMipmapEXT",
     c"glGenerateMultiTexMipmapEXT",
-    c"glCompressedMultiTexImage1DEXT",
-    c"glCompressedMultiTexImage2DEXT",
-    c"glCompressedMultiTexImage3DEXT",
-    c"glCompressedMultiTexSubImage1DEXT",
-    c"glCompressedMultiTexSubImage2DEXT",
-    c"glCompressedMultiTexSubImage3DEXT",
-    c"glMultiTexImage1DEXT",
-    c"glMultiTexImage2DEXT",
-    c"glMultiTexImage3DEXT",
-    c"glMultiTexSubImage1DEXT",
-    c"glMultiTexSubImage2DEXT",
-    c"glMultiTexSubImage3DEXT",
     c"glGetTextureImage",
     c"glGetTextureSubImage",
     c"glGetCompressedTextureImage",
@@ -4633,6 +4633,30 @@ real_functions! {
     glCompressedTexSubImage2DARB(target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr);
     glCompressedTexSubImage3D(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr);
     glCompressedTexSubImage3DARB(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr);
+    glTextureImage1DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureImage2DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureImage3DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureSubImage1DEXT(texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureSubImage2DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
+    glTextureSubImage3DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr);
+    glCompressedTextureImage1DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedTextureImage2DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedTextureImage3DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedTextureSubImage1DEXT(texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr);
+    glCompressedTextureSubImage2DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr);
+    glCompressedTextureSubImage3DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr);
+    glCompressedMultiTexImage1DEXT(texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedMultiTexImage2DEXT(texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedMultiTexImage3DEXT(texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr);
+    glCompressedMultiTexSubImage1DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr);
+    glCompressedMultiTexSubImage2DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr);
+    glCompressedMultiTexSubImage3DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr);
+    glMultiTexImage1DEXT(texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glMultiTexImage2DEXT(texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glMultiTexImage3DEXT(texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glMultiTexSubImage1DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr);
+    glMultiTexSubImage2DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
+    glMultiTexSubImage3DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr);
     glTexImage2DMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8);
     glTexImage3DMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8);
     glTexStorage1D(target: u32, levels: i32, internalformat: u32, width: i32);
@@ -4670,18 +4694,6 @@ real_functions! {
     glNamedRenderbufferStorageMultisampleAdvancedAMD(renderbuffer: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32);
     glNamedRenderbufferStorageMultisampleCoverageEXT(renderbuffer: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32);
     glNamedRenderbufferStorageMultisampleEXT(renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32);
-    glTextureImage1DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
-    glTextureImage2DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
-    glTextureImage3DEXT(texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
-    glTextureSubImage1DEXT(texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr);
-    glTextureSubImage2DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
-    glTextureSubImage3DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr);
-    glCompressedTextureImage1DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr);
-    glCompressedTextureImage2DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr);
-    glCompressedTextureImage3DEXT(texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr);
-    glCompressedTextureSubImage1DEXT(texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr);
-    glCompressedTextureSubImage2DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr);
-    glCompressedTextureSubImage3DEXT(texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr);
     glTextureStorage1DEXT(texture: u32, target: u32, levels: i32, internalformat: u32, width: i32);
     glTextureStorage2DEXT(texture: u32, target: u32, levels: i32, internalformat: u32, width: i32, height: i32);
     glTextureStorage3DEXT(texture: u32, target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32);
@@ -4759,18 +4771,6 @@ real_functions! {
     glCopyImageSubDataNV(srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, width: i32, height: i32, depth: i32);
     glGenerateTextureMipmapEXT(texture: u32, target: u32);
     glGenerateMultiTexMipmapEXT(texunit: u32, target: u32);
-    glCompressedMultiTexImage1DEXT(texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr);
-    glCompressedMultiTexImage2DEXT(texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr);
-    glCompressedMultiTexImage3DEXT(texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr);
-    glCompressedMultiTexSubImage1DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr);
-    glCompressedMultiTexSubImage2DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr);
-    glCompressedMultiTexSubImage3DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr);
-    glMultiTexImage1DEXT(texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
-    glMultiTexImage2DEXT(texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
-    glMultiTexImage3DEXT(texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
-    glMultiTexSubImage1DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr);
-    glMultiTexSubImage2DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
-    glMultiTexSubImage3DEXT(texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr);
     glGetTextureImage(texture: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr);
     glGetTextureSubImage(texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr);
     glGetCompressedTextureImage(texture: u32, level: i32, bufSize: i32, pixels: Ptr);

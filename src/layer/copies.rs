@@ -6,46 +6,77 @@
 use super::reading::Reading;
 use super::{Layer, keep_bindings};
 use crate::gl::{FramebufferName, Gl, Object, RenderbufferName, TextureName, consts as c};
+use crate::state::{Command, Run, TextureAt, TextureWrite, Touch};
 use crate::view::ViewIndex;
 
-/// The texture that a copy writes to.
-#[derive(Clone, Copy, Debug)]
-enum CopyTo {
-    /// It is bound at this target of the active unit.
-    Bound(u32),
-    Named(TextureName),
-}
-
 impl Layer {
-    /// glCopyTexImage* and glCopyTexSubImage*: copies from each view into its own texture. `x` and `width` are the columns in pixels.
+    /// glCopyTexImage* and glCopyTexSubImage*: copies from each view into its own texture. `call` gets the name of the texture, which matters
+    /// to a command that names it. `x` and `width` are the columns in pixels.
     pub fn copy_texture(
         &mut self,
         gl: &Gl,
-        target: u32,
-        x: i32,
-        width: i32,
-        call: &mut dyn FnMut(),
+        to: TextureAt,
+        [x, width]: [i32; 2],
+        call: &mut dyn FnMut(TextureName),
     ) {
-        let to = CopyTo::Bound(target);
-        self.copy_from_views(gl, to, x, width, &mut |_| call());
+        if self.compiles() {
+            let copied = Some([x, width]);
+            self.compile_texture(gl, TextureWrite { to, copied });
+            return call(match to {
+                TextureAt::Named(texture) => texture,
+                _ => TextureName::ZERO,
+            });
+        }
+        match to {
+            TextureAt::Unit(unit, target) => self.with_unit(gl, unit, |layer| {
+                layer.copy_from_views(gl, TextureAt::Bound(target), x, width, call);
+            }),
+            to => self.copy_from_views(gl, to, x, width, call),
+        }
     }
 
-    /// The same for a command that names its texture; `call` gets the name.
-    pub fn copy_named_texture(
+    /// As [`Layer::copy_texture`], for a command that no display list compiles and that names its texture.
+    pub fn copy_texture_now(
         &mut self,
         gl: &Gl,
         texture: TextureName,
-        x: i32,
-        width: i32,
+        [x, width]: [i32; 2],
         call: &mut dyn FnMut(TextureName),
     ) {
-        self.copy_from_views(gl, CopyTo::Named(texture), x, width, call);
+        self.outside_list(gl, |layer| {
+            layer.copy_from_views(gl, TextureAt::Named(texture), x, width, call);
+        });
+    }
+
+    fn compile_texture(&mut self, gl: &Gl, write: TextureWrite) {
+        self.compile(gl, Command::Of(Run::Texture(write)), Touch::NONE);
+    }
+
+    /// Executes a command of a display list that writes to a texture.
+    pub(super) fn listed_texture(
+        &mut self,
+        gl: &Gl,
+        TextureWrite { to, copied }: TextureWrite,
+        call: &mut dyn FnMut(),
+    ) {
+        match (copied, to) {
+            (Some([x, width]), TextureAt::Named(_)) => {
+                // The list writes to the texture of that name alone.
+                self.texture_written(gl, to);
+                self.read(gl, x, width, call);
+            }
+            (Some(columns), to) => self.copy_texture(gl, to, columns, &mut |_| call()),
+            (None, to) => {
+                self.texture_written(gl, to);
+                call();
+            }
+        }
     }
 
     fn copy_from_views(
         &mut self,
         gl: &Gl,
-        to: CopyTo,
+        to: TextureAt,
         x: i32,
         width: i32,
         call: &mut dyn FnMut(TextureName),
@@ -61,11 +92,11 @@ impl Layer {
             _ => self.targets.offscreen.is_split(gl, from),
         };
         let texture = match to {
-            CopyTo::Bound(target) => self.bound_texture(gl, target),
-            CopyTo::Named(texture) => texture,
+            TextureAt::Bound(target) | TextureAt::Unit(_, target) => self.bound_texture(gl, target),
+            TextureAt::Named(texture) => texture,
         };
         let own_call = &mut || call(texture);
-        if self.compiles() || !differs || texture.is_zero() {
+        if !differs || texture.is_zero() {
             return self.read(gl, x, width, own_call);
         }
         self.leave_mono(gl);
@@ -76,8 +107,10 @@ impl Layer {
         let split = keep_bindings(gl, || {
             let (offscreen, names) = (&mut self.targets.offscreen, &mut self.targets.names);
             match to {
-                CopyTo::Bound(target) => offscreen.split_texture(gl, names, (target, texture)),
-                CopyTo::Named(texture) => offscreen.split_named(gl, names, texture),
+                TextureAt::Named(texture) => offscreen.split_named(gl, names, texture),
+                TextureAt::Bound(target) | TextureAt::Unit(_, target) => {
+                    offscreen.split_texture(gl, names, (target, texture))
+                }
             }
         });
         self.drain_own_errors(gl);
@@ -93,7 +126,7 @@ impl Layer {
     fn copy_other_views(
         &mut self,
         gl: &Gl,
-        to: CopyTo,
+        to: TextureAt,
         texture: TextureName,
         call: &mut dyn FnMut(TextureName),
     ) {
@@ -114,13 +147,13 @@ impl Layer {
                         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
                     }
                 }
-                if let CopyTo::Bound(target) = to {
+                if let TextureAt::Bound(target) = to {
                     gl.bind_texture(target, name);
                 }
                 call(name);
             }
         }
-        if let CopyTo::Bound(target) = to {
+        if let TextureAt::Bound(target) = to {
             gl.bind_texture(target, texture);
         }
         self.targets.offscreen.written(texture);
@@ -129,18 +162,19 @@ impl Layer {
     }
 
     /// Runs `work` for a command on the textures of a unit, GL_TEXTURE0 and so on, which is the active one meanwhile.
-    pub fn with_unit<R>(&mut self, gl: &Gl, unit: u32, work: impl FnOnce(&mut Self) -> R) -> R {
-        let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
-        // The driver refuses others. A list gets the program's command alone.
-        let other = unit != active && unit.wrapping_sub(c::TEXTURE0) < 32 && !self.compiles();
-        if other {
-            gl.active_texture(unit);
-        }
-        let done = work(self);
-        if other {
-            gl.active_texture(active);
-        }
-        done
+    pub fn with_unit(&mut self, gl: &Gl, unit: u32, work: impl FnOnce(&mut Self)) {
+        self.outside_list(gl, |layer| {
+            let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+            // The driver refuses others.
+            let other = unit != active && unit.wrapping_sub(c::TEXTURE0) < 32;
+            if other {
+                gl.active_texture(unit);
+            }
+            work(layer);
+            if other {
+                gl.active_texture(active);
+            }
+        });
     }
 
     /// Whether what is read from framebuffer 0 may differ between the views.
@@ -170,12 +204,15 @@ impl Layer {
         self.mipmaps_of(gl, texture, &mut |name| {
             gl.bind_texture(target, name);
             call();
+            gl.bind_texture(target, texture);
         });
-        gl.bind_texture(target, texture);
     }
 
     /// The same for a command that names its texture.
     pub fn mipmaps_of(&mut self, gl: &Gl, texture: TextureName, call: &mut dyn FnMut(TextureName)) {
+        if self.compiles() {
+            return self.outside_list(gl, |layer| layer.mipmaps_of(gl, texture, call));
+        }
         self.state.keep_errors(gl);
         for name in self.targets.offscreen.views(texture) {
             if name != texture {
@@ -186,8 +223,23 @@ impl Layer {
         self.drain_own_errors(gl);
     }
 
-    /// The program changes the image of the texture that is bound: all views see the same again.
-    pub fn texture_written(&mut self, gl: &Gl, target: u32) {
+    /// Before a command that changes the image of a texture: all views see the same again. A display list does that where it is called.
+    pub fn texture_written(&mut self, gl: &Gl, to: TextureAt) {
+        if self.compiles() {
+            let copied = None;
+            return self.compile_texture(gl, TextureWrite { to, copied });
+        }
+        match to {
+            TextureAt::Named(texture) => self.written(gl, Object::Texture(texture)),
+            TextureAt::Unit(unit, target) => self.with_unit(gl, unit, |layer| {
+                layer.texture_written(gl, TextureAt::Bound(target));
+            }),
+            TextureAt::Bound(target) => self.bound_texture_written(gl, target),
+        }
+    }
+
+    /// As [`Layer::texture_written`], for a command on the texture that is bound, which no display list compiles.
+    pub fn bound_texture_written(&mut self, gl: &Gl, target: u32) {
         if let Some(texture) = self.targets.offscreen.bound_at(gl, target) {
             self.written(gl, Object::Texture(texture));
         }
@@ -203,6 +255,9 @@ impl Layer {
 
     /// Writes the own view's images back to the program's textures, before those are read or written in another way than by drawing.
     pub fn write_back_textures(&mut self, gl: &Gl) {
+        if self.compiles() {
+            return self.outside_list(gl, |layer| layer.write_back_textures(gl));
+        }
         self.state.keep_errors(gl);
         if self.write_bindings.has_images() {
             gl.finish_writes_to_textures();

@@ -310,6 +310,9 @@ impl Layer {
                     self.blit(gl, scaled, &mut |from, to| gl.blit(arguments, from, to));
                 }
             }
+            Run::Texture(write) => {
+                self.listed_texture(gl, write, &mut || gl.call_list(segment.name));
+            }
             Run::ClearAll => {
                 let mask = segment.names.first().copied().unwrap_or(0);
                 self.clear(gl, mask, &mut || gl.call_list(segment.name));
@@ -452,6 +455,7 @@ impl Layer {
             | Run::List(_)
             | Run::Lists
             | Run::Blit
+            | Run::Texture(_)
             | Run::ClearAll
             | Run::Accum
             | Run::BeginQuery(..)

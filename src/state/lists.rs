@@ -5,7 +5,7 @@
 //! list, a context without a layer, selection) thus executes the whole list.
 
 use super::Shaders;
-use super::{Effect, Immediate, Touch};
+use super::{Effect, Immediate, TextureWrite, Touch};
 use crate::gl::{
     BufferName, Fence, FramebufferName, ListName, ProgramName, QueryName, TextureName, consts as c,
 };
@@ -43,6 +43,8 @@ pub enum Run {
     Lists,
     /// glBlitFramebuffer: its arguments are in [`Segment::names`].
     Blit,
+    /// A command that writes to a texture.
+    Texture(TextureWrite),
     /// glBeginQuery of a target and a query.
     BeginQuery(u32, QueryName),
     /// glEndQuery of a target.
@@ -59,6 +61,7 @@ impl Run {
                 | Run::DrawBuffers
                 | Run::ReadBuffer(_)
                 | Run::Blit
+                | Run::Texture(_)
                 | Run::ClearAll
                 | Run::Accum
                 | Run::BeginQuery(..)

@@ -10,6 +10,7 @@ mod neutral;
 mod rectangles;
 mod shaders;
 mod side_effects;
+mod texture_writes;
 mod uniform_buffers;
 
 pub use classification::ClassificationState;
@@ -22,6 +23,7 @@ pub use shaders::{
     Linked, Matrices, Samplers, ShaderSource, Shaders, link_change, sources, uniform_change,
     uniform_changes,
 };
+pub use texture_writes::{TextureAt, TextureWrite};
 
 pub use side_effects::SideEffects;
 pub use uniform_buffers::{

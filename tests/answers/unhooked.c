@@ -5,7 +5,9 @@
  *   restart                    glPrimitiveRestartNV between glBegin and glEnd
  *   image subimage multi       a texture that was drawn to is written by its name or its unit (GL_EXT_direct_state_access)
  *   copied mipmap nvcopied     so it is by copies from the window, as mipmaps, by GL_NV_copy_image
- *   corecopied unitcopied      so it is by glCopyTextureSubImage2D, and by its unit; unitlist: in a display list, which leaves the active unit alone
+ *   corecopied unitcopied      so it is by glCopyTextureSubImage2D, and by its unit
+ *   bound boundcopied          so it is where it is bound
+ *   (these with list, execute  by a display list, of GL_COMPILE or GL_COMPILE_AND_EXECUTE)
  *   unitmipmap                 mipmaps by its unit
  *   esblock                    a fragment shader of OpenGL ES counts in a storage block
  *   attached renderbuffer      a framebuffer gets another image by its name (GL_EXT_direct_state_access)
@@ -36,6 +38,8 @@ static const char *const picture = "#version 150\nuniform sampler2D image; unifo
                                    "void main() { shown = textureLod(image, where, level); }";
 
 static const char *mode;
+/* How a display list is compiled that writes; 0 without one. */
+static GLenum listed;
 static GLuint scene, shown;
 
 static int is(const char *name)
@@ -179,6 +183,7 @@ static void written(void)
 {
     GLuint name = texture(), other = texture();
     GLuint framebuffer = framebuffer_of(name);
+    int copies = is("copied") || is("corecopied") || is("unitcopied") || is("boundcopied");
     for (int i = 0; i < WIDTH * HEIGHT * 4; i++)
         yellow[i] = i % 4 == 2 ? 0 : 255;
     glBindTexture(GL_TEXTURE_2D, other);
@@ -191,46 +196,43 @@ static void written(void)
     bar(1);
     tell("the scene");
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    if (copies) {
+        clear(0, 0, 0);
+        bar(0);
+    }
+    if (listed)
+        glNewList(1, listed);
     if (is("image"))
         CALL(PFNGLTEXTUREIMAGE2DEXTPROC, "glTextureImage2DEXT")(name, GL_TEXTURE_2D, 0, GL_RGBA8, WIDTH, HEIGHT, 0, GL_RGBA, GL_UNSIGNED_BYTE, yellow);
     else if (is("subimage"))
         CALL(PFNGLTEXTURESUBIMAGE2DEXTPROC, "glTextureSubImage2DEXT")(name, GL_TEXTURE_2D, 0, 0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, yellow);
+    else if (is("bound"))
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, yellow);
     else if (is("multi"))
-        CALL(PFNGLMULTITEXSUBIMAGE2DEXTPROC, "glMultiTexSubImage2DEXT")(GL_TEXTURE0, GL_TEXTURE_2D, 0, 0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, yellow);
+        CALL(PFNGLMULTITEXSUBIMAGE2DEXTPROC, "glMultiTexSubImage2DEXT")(GL_TEXTURE3, GL_TEXTURE_2D, 0, 0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, yellow);
     else if (is("nvcopied"))
         CALL(PFNGLCOPYIMAGESUBDATANVPROC, "glCopyImageSubDataNV")(other, GL_TEXTURE_2D, 0, 0, 0, 0, name, GL_TEXTURE_2D, 0, 0, 0, 0, WIDTH, HEIGHT, 1);
     else if (is("mipmap"))
         CALL(PFNGLGENERATETEXTUREMIPMAPEXTPROC, "glGenerateTextureMipmapEXT")(name, GL_TEXTURE_2D);
     else if (is("unitmipmap"))
         CALL(PFNGLGENERATEMULTITEXMIPMAPEXTPROC, "glGenerateMultiTexMipmapEXT")(GL_TEXTURE3, GL_TEXTURE_2D);
-    if (is("corecopied") || is("unitcopied") || is("unitlist")) {
-        PFNGLCOPYMULTITEXSUBIMAGE2DEXTPROC copy = CALL(PFNGLCOPYMULTITEXSUBIMAGE2DEXTPROC, "glCopyMultiTexSubImage2DEXT");
-        clear(0, 0, 0);
-        bar(0);
-        if (is("corecopied"))
-            glCopyTextureSubImage2D(name, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
-        else if (is("unitcopied"))
-            copy(GL_TEXTURE3, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
-        else {
-            GLint active;
-            glNewList(1, GL_COMPILE);
-            copy(GL_TEXTURE3, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
-            glEndList();
-            glActiveTexture(GL_TEXTURE5);
-            glCallList(1);
-            glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
-            printf("unit %d\n", active - GL_TEXTURE0);
-            glActiveTexture(GL_TEXTURE0);
-        }
-    }
-    if (is("copied")) {
-        clear(0, 0, 0);
-        bar(0);
+    else if (is("boundcopied"))
+        glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
+    else if (is("corecopied"))
+        glCopyTextureSubImage2D(name, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
+    else if (is("unitcopied"))
+        CALL(PFNGLCOPYMULTITEXSUBIMAGE2DEXTPROC, "glCopyMultiTexSubImage2DEXT")(GL_TEXTURE3, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
+    else
         CALL(PFNGLCOPYTEXTURESUBIMAGE2DEXTPROC, "glCopyTextureSubImage2DEXT")(name, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
+    if (listed) {
+        GLint active;
+        glEndList();
+        if (listed == GL_COMPILE)
+            glCallList(1);
+        glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
+        printf("unit %d\n", active - GL_TEXTURE0);
     }
-    /* What a list has copied is no matter of this mode. */
-    if (!is("unitlist"))
-        show(name, is("mipmap") || is("unitmipmap") ? 2 : 0);
+    show(name, is("mipmap") || is("unitmipmap") ? 2 : 0);
     glDeleteFramebuffers(1, &framebuffer);
 }
 
@@ -461,6 +463,8 @@ int main(int argc, char **argv)
     if (argc < 2 || !open_surface())
         return 2;
     mode = argv[1];
+    if (argc > 2)
+        listed = strcmp(argv[2], "list") ? GL_COMPILE_AND_EXECUTE : GL_COMPILE;
     if (is("buffers") || is("esblock") ? !es() : !new_context(EGL_NO_CONTEXT))
         return 2;
     clear(1, 1, 1);
@@ -474,7 +478,7 @@ int main(int argc, char **argv)
     else if (is("restart"))
         restart();
     else if (is("image") || is("subimage") || is("multi") || is("copied") || is("nvcopied") || is("mipmap") || is("corecopied") ||
-             is("unitcopied") || is("unitlist") || is("unitmipmap"))
+             is("unitcopied") || is("unitmipmap") || is("bound") || is("boundcopied"))
         written();
     else if (is("attached") || is("renderbuffer"))
         attaches();

@@ -88,6 +88,7 @@ pub(crate) fn scene(name: &str) -> Scene {
             scene("passes", arguments, 2)
         }
         "crowd" => scene("crowd", &["--multi"], 2),
+        "echo_listed" => scene("echo", &["--listed"], 2),
         "crowd_indirect" => {
             let arguments = &["--indirect", "--pulled", "--persistent"];
             scene("crowd", arguments, 2)

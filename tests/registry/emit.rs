@@ -184,7 +184,7 @@ pub fn entry(commands: &[Command]) -> String {
         .filter(|(_, c)| c.class != "call")
         .collect();
     let mut o = String::from(HEAD);
-    o.push_str("use crate::hooks::{self, Command, Kind, Object, Place, Touch, imm};\nuse crate::{special, switch};\nuse core::ffi::c_ulong;\nuse core::sync::atomic::{AtomicPtr, Ordering::Relaxed};\nuse manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};\nuse manyview_core::state::Effect;\n\n");
+    o.push_str("use crate::hooks::{self, Command, Kind, Object, Place, TextureAt, Touch, imm};\nuse crate::{special, switch};\nuse core::ffi::c_ulong;\nuse core::sync::atomic::{AtomicPtr, Ordering::Relaxed};\nuse manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};\nuse manyview_core::state::Effect;\n\n");
     o.push_str("/// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.\n");
     writeln!(
         o,
@@ -291,7 +291,7 @@ pub fn entry(commands: &[Command]) -> String {
                 )
                 .unwrap();
             }
-            "matrix" | "cap" | "list_only" | "before_uncompiled" | "uniform" | "texture" | "texture_parameter" | "divide" | "images" | "write_back" | "storage" | "named" | "unit_texture" | "attached" => {
+            "matrix" | "cap" | "list_only" | "before_uncompiled" | "uniform" | "texture" | "texture_now" | "texture_parameter" | "divide" | "images" | "write_back" | "storage" | "named" | "attached" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
                     "list_only" | "before_uncompiled" | "uniform" | "texture_parameter" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
@@ -299,8 +299,8 @@ pub fn entry(commands: &[Command]) -> String {
                         true => format!("images({}, count)", c.params[0].name),
                         false => format!("images({}, 1)", c.params[0].name),
                     },
-                    "texture" => "texture(target)".into(),
-                    "unit_texture" => "unit_texture(texunit, target)".into(),
+                    "texture" => format!("texture({})", texture_at(arg)),
+                    "texture_now" => "texture_now(target)".into(),
                     "named" => format!("named(Object::{arg}({arg}Name({})))", c.params[0].name),
                     _ => {
                         let hook = if c.params.len() > 1 { "cap_indexed" } else { "cap" };
@@ -315,9 +315,11 @@ pub fn entry(commands: &[Command]) -> String {
             }
             "draw" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::draw(Kind::{arg}, &mut |gl| {call})").unwrap(),
             "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(x, width, &mut |gl| {call})").unwrap(),
-            "copy" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::copy(target, x, width, &mut |gl| {call})").unwrap(),
-            "copy_unit" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::copy_unit(texunit, target, x, width, &mut |gl| {call})").unwrap(),
-            "copy_named" => writeln!(o, "    // SAFETY: the program's own call, also on a texture of ours.\n    hooks::copy_named(TextureName(texture), x, width, &mut |gl, TextureName(texture)| {call})").unwrap(),
+            "copy" => {
+                let name = if arg == "Named" { "TextureName(texture)" } else { "_" };
+                writeln!(o, "    // SAFETY: the program's own call, also on a texture of ours.\n    hooks::copy({}, x, width, &mut |gl, {name}| {call})", texture_at(arg)).unwrap();
+            }
+            "copy_now" => writeln!(o, "    // SAFETY: the program's own call, also on a texture of ours.\n    hooks::copy_now(TextureName(texture), x, width, &mut |gl, TextureName(texture)| {call})").unwrap(),
             "now" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read_now(x, width, &mut |gl| {call})").unwrap(),
             "compute" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::compute(&mut |gl| {call})").unwrap(),
             "mipmap" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::mipmap(target, &mut |gl| {call})").unwrap(),
@@ -330,4 +332,14 @@ pub fn entry(commands: &[Command]) -> String {
         o.push_str("} }\n");
     }
     o
+}
+
+/// How a command of the classes `texture` and `copy` tells its texture.
+fn texture_at(arg: &str) -> &'static str {
+    match arg {
+        "" => "TextureAt::Bound(target)",
+        "Unit" => "TextureAt::Unit(texunit, target)",
+        "Named" => "TextureAt::Named(TextureName(texture))",
+        other => panic!("unknown texture {other}"),
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::context::{draws_to, frame, guarded, is_drawn, real, show_finished};
 use crate::drawable::Drawable;
-use crate::hooks::texture;
+use crate::hooks::texture_now;
 use crate::provider::Provider;
 use core::ffi::c_ulong;
 use manyview_core::gl::{Ptr, Real, consts as c};
@@ -93,7 +93,7 @@ fn becomes_texture(drawable: Drawable) {
     }
     [c::TEXTURE_2D, c::TEXTURE_RECTANGLE]
         .into_iter()
-        .for_each(texture);
+        .for_each(texture_now);
 }
 
 pub(crate) unsafe fn glXBindTexImageEXT(dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) {
