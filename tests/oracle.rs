@@ -488,6 +488,14 @@ fn short(api: &str) -> &'static [u32] {
     }
 }
 
+/// The strategies of `make test`: the draws that they send are the same on every API, so GLX has all and the others have one.
+fn strategies(api: &str) -> &'static [&'static str] {
+    match api {
+        "glx" => &STRATEGIES,
+        _ => &STRATEGIES[..1],
+    }
+}
+
 const ALL: [u32; 6] = [1, 2, 5, 8, 9, 17];
 
 macro_rules! oracle {
@@ -496,7 +504,7 @@ macro_rules! oracle {
             $(
                 #[test]
                 fn $scene() {
-                    super::check(stringify!($scene), stringify!($api), super::short(stringify!($api)), &super::STRATEGIES);
+                    super::check(stringify!($scene), stringify!($api), super::short(stringify!($api)), super::strategies(stringify!($api)));
                 }
             )*
             mod long {
