@@ -36,7 +36,7 @@ NOT_32 := a_captured_picture_replaces_no_other_file capture_says_that_there_is_n
 # Tests that `check-shadow` runs: those that preload the layer into programs of this project and compare what these get.
 TESTS_SHADOW := answers cases conditions drawables front oracle passes quad random shaded
 # Tests that `sanitize` runs: random calls, programs with threads, hosts of plugins, rare commands.
-TESTS_SANITIZED := random harm hosts answers
+TESTS_SANITIZED := random harm hosts drawables answers
 # Packages of test-full only.
 FULL_PACKAGES := valgrind
 # Drivers of test-drivers that are not Mesa's own software renderers: lavapipe, under zink.
@@ -184,8 +184,9 @@ measured: packages build demos ## take the tables of docs/measured.md again (a q
 mutants: rust ## do the unit tests see changes of the path of a draw? MUTANTS=6/10 (needs cargo-mutants; an hour)
 	@sh scripts/mutants.sh $(MUTANTS) $(TARGET)/mutants
 
-sanitize: packages build demos ## run tests with a library that the sanitizer of addresses watches (needs nightly); target/sanitize
-	@sh scripts/sanitize.sh $(TARGET)/sanitize $(TESTS_SANITIZED)
+sanitize: packages build demos ## run tests with a library that sanitizers of addresses and of threads watch (needs nightly); target/sanitize
+	@sh scripts/sanitize.sh address $(TARGET)/sanitize/address $(TESTS_SANITIZED)
+	@sh scripts/sanitize.sh thread $(TARGET)/sanitize/thread $(TESTS_SANITIZED)
 
 fuzz: rust ## feed random files, requests and shaders to what reads them, each kind for FUZZ_SECONDS=600 (needs cargo-fuzz); target/fuzz
 	@sh scripts/fuzz.sh $(FUZZ_SECONDS) $(TARGET)/fuzz

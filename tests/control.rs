@@ -12,7 +12,7 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::time::Duration;
-use support::{Compiled, Screen, bare, compiled, extent, layered, library, own_screen, rgb, run};
+use support::{Compiled, Screen, bare, compiled, extent, layered, own_screen, preloaded, rgb, run};
 
 /// Cameras far enough apart for a visible disparity in 96 pixels.
 const CAMERAS: [(&str, &str); 2] = [("SEPARATION", "0.03"), ("CONVERGENCE", "8")];
@@ -154,7 +154,7 @@ fn quad_goes_and_comes_back_where_the_window_has_stereo() {
     };
     let (first, beside) = (shown("view:0"), shown("half-sbs"));
     let driver = compiled("stereo", Compiled::Library, &["-ldl"]);
-    let preload = format!("{}:{}", library().display(), driver.display());
+    let preload = format!("{}:{}", preloaded(), driver.display());
     let with = [&base[..], &[("CONTROL", "1"), ("OUTPUT", "quad")]].concat();
     let mut command = layered(stays(), &with);
     let folder = tempfile::tempdir().expect("a folder");

@@ -7,7 +7,7 @@ mod support;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{Compiled, Screen, bare, built, layered, library, own_screen, succeed};
+use support::{Compiled, Screen, bare, built, layered, own_screen, preloaded, succeed};
 
 fn source(name: &str) -> PathBuf {
     Path::new("tests/drawables").join(name).with_extension("c")
@@ -66,7 +66,7 @@ fn same(modes: &[&str]) {
 fn same_before(behind: &str, modes: &[&str], variables: &[(&str, &str)]) {
     let source = source(behind);
     let behind = built(behind, &[source.as_path()], Compiled::Library, &["-ldl"]);
-    let both = format!("{}:{}", library().display(), behind.display());
+    let both = format!("{}:{}", preloaded(), behind.display());
     let options = [("VIEWS", "3"), ("OUTPUT", "view:1")];
     let (screen, program) = (own_screen(), program());
     for mode in modes {
@@ -265,7 +265,7 @@ fn views_are_smaller_where_those_do_not_fit() {
     let options = [("VIEWS", "3"), ("OUTPUT", "view:1")];
     let source = source("refuses");
     let behind = built("refuses", &[source.as_path()], Compiled::Library, &["-ldl"]);
-    let both = format!("{}:{}", library().display(), behind.display());
+    let both = format!("{}:{}", preloaded(), behind.display());
     for mode in ["grows", "larger", "at-once"] {
         let [expected, _] = run(&screen, bare("timeout"), &program, mode);
         let mut command = layered("timeout", &options);

@@ -8,7 +8,7 @@ mod support;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{Compiled, Screen, bare, built, demo, layered, library, own_screen, rgb};
+use support::{Compiled, Screen, bare, built, demo, layered, own_screen, preloaded, rgb};
 
 /// More objects than any strategy makes.
 const MOST: u32 = 400;
@@ -91,7 +91,7 @@ impl Faults {
         let out = self.folder.path().join("failed");
         let options = [("VIEWS", "5"), ("OUTPUT", "panel"), ("STRATEGY", strategy)];
         let mut command = layered("timeout", &options);
-        let both = format!("{}:{}", library().display(), self.behind.display());
+        let both = format!("{}:{}", preloaded(), self.behind.display());
         command
             .env("LD_PRELOAD", both)
             .env(variable, number.to_string())
@@ -158,7 +158,7 @@ fn the_context_is_lost() {
     assert_eq!(code, Some(3), "the program sees it: {expected}");
     for strategy in ["replay"].into_iter().chain(OTHERS) {
         let options = [("VIEWS", "5"), ("OUTPUT", "panel"), ("STRATEGY", strategy)];
-        let both = format!("{}:{behind}", library().display());
+        let both = format!("{}:{behind}", preloaded());
         let (code, stderr) = run(layered("timeout", &options), &both);
         assert_eq!(
             (code, without_ours(&stderr)),
