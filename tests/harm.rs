@@ -168,6 +168,12 @@ fn a_thread_is_cancelled_in_a_call() {
 }
 
 #[test]
+fn threads_draw_at_the_same_time() {
+    let together = windowed("together.c", &["-lpthread"]);
+    same(&together, &["4", "40"], &[]);
+}
+
+#[test]
 fn a_thread_ends_in_the_debug_callback() {
     same(&threads(), &["exit"], &[]);
 }

@@ -154,7 +154,7 @@ impl Layer {
         }
         gl.end_list();
         let unused = self.session.group.lists().define(list.list, body);
-        unused.into_iter().for_each(|name| gl.delete_list(name));
+        unused.into_iter().for_each(|name| self.drop_list(gl, name));
     }
 
     /// Whether a display list is one of ours.
@@ -166,33 +166,46 @@ impl Layer {
     /// After the driver's glGenLists, which has returned `first`: returns the first of the names that the driver would have chosen if ours
     /// did not exist.
     pub fn generated_lists(&mut self, gl: &Gl, first: ListName, count: u32) -> ListName {
-        let free = self.session.group.lists().free(count);
-        let mut names = first;
-        // The lock is not held here, because the run that ends may ask for a name.
-        if let Some(free) = free.filter(|&free| free != first) {
-            self.outside_list(gl, |_| {
+        let between = self.state.list.as_ref().is_some_and(|list| list.between);
+        let names = {
+            let mut lists = self.session.group.lists();
+            if between {
+                lists.generated(first, count);
+                return first;
+            }
+            let names = lists.claim(first, count);
+            // Another thread may have claimed those that the driver has chosen.
+            if names == first {
+                return first;
+            }
+            let unclaimed = lists.unclaimed(first, count);
+            if unclaimed.len() == count as usize {
                 gl.delete_lists(first, count);
-                names = free;
-                for name in free.0..free.0 + count {
-                    gl.new_list(ListName(name), c::COMPILE);
-                    gl.end_list();
-                }
-            });
-        }
-        self.session.group.lists().generated(names, count);
+            } else {
+                unclaimed.into_iter().for_each(|name| gl.delete_list(name));
+            }
+            names
+        };
+        // The lock is not held here, because the run that ends may ask for a name.
+        self.outside_list(gl, |_| {
+            for name in names.0..names.0 + count {
+                gl.new_list(ListName(name), c::COMPILE);
+                gl.end_list();
+            }
+        });
         names
     }
 
     /// After the driver has filled lists with a bitmap each (glXUseXFont), also while the program compiles another list.
     pub fn bitmap_lists(&mut self, gl: &Gl, first: ListName, count: u32) {
         let unused = self.session.group.lists().bitmaps(first, count);
-        unused.into_iter().for_each(|name| gl.delete_list(name));
+        unused.into_iter().for_each(|name| self.drop_list(gl, name));
     }
 
     /// After the driver's glDeleteLists.
     pub fn deleted_lists(&mut self, gl: &Gl, first: ListName, count: u32) {
         let unused = self.session.group.lists().delete(first, count);
-        unused.into_iter().for_each(|name| gl.delete_list(name));
+        unused.into_iter().for_each(|name| self.drop_list(gl, name));
     }
 
     /// glCallList and glCallLists outside of lists. `lists` has the names where they are known; `call` is the driver's own call.

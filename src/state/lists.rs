@@ -143,6 +143,8 @@ pub struct Lists {
     pub shaders: Shaders,
     bodies: HashMap<ListName, Body>,
     spare: Vec<ListName>,
+    /// Bodies of lists that are deleted or have others now, which a thread may still be calling.
+    replaced: Vec<Body>,
     next: u32,
     highest: u32,
 }
@@ -159,6 +161,7 @@ impl Default for Lists {
             shaders: Shaders::default(),
             bodies: HashMap::new(),
             spare: Vec::new(),
+            replaced: Vec::new(),
             next: TOP,
             highest: 0,
         }
@@ -221,6 +224,21 @@ impl Lists {
         fits(first)
     }
 
+    /// Gives the program names for glGenLists, in the place of those from `first` on, which the driver has chosen. Nobody else gets them.
+    pub fn claim(&mut self, first: ListName, count: u32) -> ListName {
+        let names = self.free(count).unwrap_or(first);
+        self.generated(names, count);
+        names
+    }
+
+    /// Those of some names that the program does not have.
+    pub fn unclaimed(&self, first: ListName, count: u32) -> Vec<ListName> {
+        let names = (first.0..first.0.saturating_add(count)).map(ListName);
+        names
+            .filter(|name| !self.bodies.contains_key(name))
+            .collect()
+    }
+
     /// Notes names that the program has got from glGenLists; their lists are empty.
     pub fn generated(&mut self, first: ListName, count: u32) {
         let last = first.0.saturating_add(count - 1);
@@ -272,11 +290,16 @@ impl Lists {
             .collect()
     }
 
+    /// Returns the names of the runs that nothing calls any more. Another thread may be calling the list that is redefined: its runs are kept
+    /// until a later call.
     fn release(&mut self, body: Option<Body>) -> Vec<ListName> {
-        let runs = body.iter().flat_map(|body| body.iter());
-        let names: Vec<ListName> = runs.filter(|s| !s.borrowed).map(|s| s.name).collect();
-        self.spare.extend(&names);
-        names
+        self.replaced.extend(body.filter(|body| !body.is_empty()));
+        let unused = self
+            .replaced
+            .extract_if(.., |body| Arc::strong_count(body) == 1);
+        let unused: Vec<Body> = unused.collect();
+        let runs = unused.iter().flat_map(|body| body.iter());
+        runs.filter(|s| !s.borrowed).map(|s| s.name).collect()
     }
 }
 

@@ -134,9 +134,34 @@ fn names_come_from_the_top_and_are_used_again() {
     let a = lists.name(|n| taken.contains(&n));
     taken.push(a);
     assert_eq!(a, ListName(0xBFFF_FFFE));
-    let body: Body = [fresh(a)].into();
-    assert!(lists.define(ListName(5), body.clone()).is_empty());
+    assert!(lists.define(ListName(5), [fresh(a)].into()).is_empty());
     assert_eq!(lists.delete(ListName(0), u32::MAX), [a]);
     assert!(lists.body(ListName(5)).is_none());
+    // Nobody gets the name before the driver has deleted its list.
+    assert_ne!(lists.name(|_| false), a);
+    lists.spare(a);
     assert_eq!(lists.name(|_| false), a);
+}
+
+/// Another thread may be calling a list while this one compiles it again or deletes it.
+#[test]
+fn runs_are_kept_while_they_are_called() {
+    let mut lists = Lists::default();
+    let body = |name| -> Body { [fresh(ListName(name))].into() };
+    lists.define(ListName(5), body(100));
+    let called = lists.body(ListName(5));
+    assert_eq!(lists.define(ListName(5), body(101)), []);
+    assert_eq!(lists.delete(ListName(5), 1), [ListName(101)]);
+    drop(called);
+    assert_eq!(lists.define(ListName(6), body(102)), [ListName(100)]);
+}
+
+/// Two threads have got names from the driver before either is told of them.
+#[test]
+fn names_are_claimed_once() {
+    let mut lists = Lists::default();
+    let one = lists.claim(ListName(3), 2);
+    let other = lists.claim(ListName(1), 2);
+    assert_eq!([one, other], [ListName(1), ListName(3)]);
+    assert_eq!(lists.unclaimed(ListName(3), 3), [ListName(5)]);
 }
