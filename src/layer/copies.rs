@@ -29,9 +29,15 @@ impl Layer {
         }
         match to {
             TextureAt::Unit(unit, target) => self.with_unit(gl, unit, |layer| {
-                layer.copy_from_views(gl, TextureAt::Bound(target), x, width, call);
+                layer.copy_texture(gl, TextureAt::Bound(target), [x, width], call);
             }),
-            to => self.copy_from_views(gl, to, x, width, call),
+            TextureAt::Bound(target) => {
+                let texture = self.bound_texture(gl, target);
+                self.copy_from_views(gl, (Some(target), texture), [x, width], call);
+            }
+            TextureAt::Named(texture) => {
+                self.copy_from_views(gl, (None, texture), [x, width], call);
+            }
         }
     }
 
@@ -40,11 +46,15 @@ impl Layer {
         &mut self,
         gl: &Gl,
         texture: TextureName,
-        [x, width]: [i32; 2],
+        columns: [i32; 2],
         call: &mut dyn FnMut(TextureName),
     ) {
+        if self.within_listed_primitive() {
+            self.written(gl, Object::Texture(texture));
+            return call(texture);
+        }
         self.outside_list(gl, |layer| {
-            layer.copy_from_views(gl, TextureAt::Named(texture), x, width, call);
+            layer.copy_from_views(gl, (None, texture), columns, call);
         });
     }
 
@@ -73,28 +83,26 @@ impl Layer {
         }
     }
 
+    /// Copies from each view to its own texture. `to`: the target of the active unit at which the texture is bound, or none for a command that
+    /// names it; and the texture.
     fn copy_from_views(
         &mut self,
         gl: &Gl,
-        to: TextureAt,
-        x: i32,
-        width: i32,
+        to: (Option<u32>, TextureName),
+        [x, width]: [i32; 2],
         call: &mut dyn FnMut(TextureName),
     ) {
         let from = self.state.framebuffers.read;
         if let (FramebufferName::ZERO, Reading::Parked(_)) = (from, self.canvases.reading()) {
             return self.in_read_canvas(gl, |layer| {
-                layer.copy_from_views(gl, to, x, width, call);
+                layer.copy_from_views(gl, to, [x, width], call);
             });
         }
         let differs = match from {
             FramebufferName::ZERO => self.reads_views(),
             _ => self.targets.offscreen.is_split(gl, from),
         };
-        let texture = match to {
-            TextureAt::Bound(target) | TextureAt::Unit(_, target) => self.bound_texture(gl, target),
-            TextureAt::Named(texture) => texture,
-        };
+        let (target, texture) = to;
         let own_call = &mut || call(texture);
         if !differs || texture.is_zero() {
             return self.read(gl, x, width, own_call);
@@ -106,11 +114,9 @@ impl Layer {
         self.state.keep_errors(gl);
         let split = keep_bindings(gl, || {
             let (offscreen, names) = (&mut self.targets.offscreen, &mut self.targets.names);
-            match to {
-                TextureAt::Named(texture) => offscreen.split_named(gl, names, texture),
-                TextureAt::Bound(target) | TextureAt::Unit(_, target) => {
-                    offscreen.split_texture(gl, names, (target, texture))
-                }
+            match target {
+                Some(target) => offscreen.split_texture(gl, names, (target, texture)),
+                None => offscreen.split_named(gl, names, texture),
             }
         });
         self.drain_own_errors(gl);
@@ -119,15 +125,14 @@ impl Layer {
         if self.state.keep_errors(gl) || !split {
             return; // a wrong call is as wrong in the other views
         }
-        self.copy_other_views(gl, to, texture, call);
+        self.copy_other_views(gl, to, call);
     }
 
     /// Copies from each view into its own texture, after the program's own call.
     fn copy_other_views(
         &mut self,
         gl: &Gl,
-        to: TextureAt,
-        texture: TextureName,
+        (target, texture): (Option<u32>, TextureName),
         call: &mut dyn FnMut(TextureName),
     ) {
         let from = self.state.framebuffers.read;
@@ -147,13 +152,13 @@ impl Layer {
                         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
                     }
                 }
-                if let TextureAt::Bound(target) = to {
+                if let Some(target) = target {
                     gl.bind_texture(target, name);
                 }
                 call(name);
             }
         }
-        if let TextureAt::Bound(target) = to {
+        if let Some(target) = target {
             gl.bind_texture(target, texture);
         }
         self.targets.offscreen.written(texture);

@@ -40,6 +40,11 @@ impl Layer {
         self.state.list.is_some()
     }
 
+    /// Whether the list that is compiled is between glBegin and glEnd, where its run cannot end.
+    pub(super) fn within_listed_primitive(&self) -> bool {
+        self.state.list.as_ref().is_some_and(|list| list.between)
+    }
+
     /// Whether what is compiled is executed as well (GL_COMPILE_AND_EXECUTE).
     pub fn executes(&self) -> bool {
         self.state.list.as_ref().is_some_and(Compiling::executes)
@@ -166,26 +171,23 @@ impl Layer {
     /// After the driver's glGenLists, which has returned `first`: returns the first of the names that the driver would have chosen if ours
     /// did not exist.
     pub fn generated_lists(&mut self, gl: &Gl, first: ListName, count: u32) -> ListName {
-        let between = self.state.list.as_ref().is_some_and(|list| list.between);
-        let names = {
-            let mut lists = self.session.group.lists();
-            if between {
-                lists.generated(first, count);
-                return first;
-            }
-            let names = lists.claim(first, count);
-            // Another thread may have claimed those that the driver has chosen.
-            if names == first {
-                return first;
-            }
-            let unclaimed = lists.unclaimed(first, count);
-            if unclaimed.len() == count as usize {
-                gl.delete_lists(first, count);
-            } else {
-                unclaimed.into_iter().for_each(|name| gl.delete_list(name));
-            }
-            names
-        };
+        let mut lists = self.session.group.lists();
+        if self.within_listed_primitive() {
+            lists.generated(first, count);
+            return first;
+        }
+        let names = lists.claim(first, count);
+        if names == first {
+            return first;
+        }
+        // Another thread may have claimed some of those that the driver has chosen.
+        let unclaimed = lists.unclaimed(first, count);
+        if unclaimed.len() == count as usize {
+            gl.delete_lists(first, count);
+        } else {
+            unclaimed.into_iter().for_each(|name| gl.delete_list(name));
+        }
+        drop(lists);
         // The lock is not held here, because the run that ends may ask for a name.
         self.outside_list(gl, |_| {
             for name in names.0..names.0 + count {

@@ -7,7 +7,7 @@
  *   copied mipmap nvcopied     so it is by copies from the window, as mipmaps, by GL_NV_copy_image
  *   corecopied unitcopied      so it is by glCopyTextureSubImage2D, and by its unit
  *   bound boundcopied          so it is where it is bound
- *   (these with list, execute  by a display list, of GL_COMPILE or GL_COMPILE_AND_EXECUTE)
+ *   (these with list, execute  by a display list, of GL_COMPILE or GL_COMPILE_AND_EXECUTE; within: in a primitive of a list)
  *   unitmipmap                 mipmaps by its unit
  *   esblock                    a fragment shader of OpenGL ES counts in a storage block
  *   attached renderbuffer      a framebuffer gets another image by its name (GL_EXT_direct_state_access)
@@ -40,6 +40,7 @@ static const char *const picture = "#version 150\nuniform sampler2D image; unifo
 static const char *mode;
 /* How a display list is compiled that writes; 0 without one. */
 static GLenum listed;
+static int within;
 static GLuint scene, shown;
 
 static int is(const char *name)
@@ -202,6 +203,8 @@ static void written(void)
     }
     if (listed)
         glNewList(1, listed);
+    if (within)
+        glBegin(GL_TRIANGLES);
     if (is("image"))
         CALL(PFNGLTEXTUREIMAGE2DEXTPROC, "glTextureImage2DEXT")(name, GL_TEXTURE_2D, 0, GL_RGBA8, WIDTH, HEIGHT, 0, GL_RGBA, GL_UNSIGNED_BYTE, yellow);
     else if (is("subimage"))
@@ -224,6 +227,8 @@ static void written(void)
         CALL(PFNGLCOPYMULTITEXSUBIMAGE2DEXTPROC, "glCopyMultiTexSubImage2DEXT")(GL_TEXTURE3, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
     else
         CALL(PFNGLCOPYTEXTURESUBIMAGE2DEXTPROC, "glCopyTextureSubImage2DEXT")(name, GL_TEXTURE_2D, 0, 0, 0, 0, 0, WIDTH, HEIGHT);
+    if (within)
+        glEnd();
     if (listed) {
         GLint active;
         glEndList();
@@ -464,7 +469,8 @@ int main(int argc, char **argv)
         return 2;
     mode = argv[1];
     if (argc > 2)
-        listed = strcmp(argv[2], "list") ? GL_COMPILE_AND_EXECUTE : GL_COMPILE;
+        listed = strcmp(argv[2], "execute") ? GL_COMPILE : GL_COMPILE_AND_EXECUTE;
+    within = argc > 2 && !strcmp(argv[2], "within");
     if (is("buffers") || is("esblock") ? !es() : !new_context(EGL_NO_CONTEXT))
         return 2;
     clear(1, 1, 1);
