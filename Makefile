@@ -144,6 +144,12 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
 	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
+random: packages build ## make ten thousand sequences of random calls with and without the layer (an hour)
+	$(CARGO) test --release --no-fail-fast --test random full_ten -- --ignored --nocapture
+
+random-32: packages build build-32 ## the same in programs of 32 bits (installs i386 packages)
+	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast --test random full_ten -- --ignored --nocapture
+
 check-shadow: packages build demos ## run tests with a library that compares the state it keeps with the driver's
 	$(CARGO) build --release --target-dir $(TARGET)/check-shadow -p manyview-shim --features check-shadow
 	MANYVIEW_TESTS_LIBRARY=$(TARGET)/check-shadow/release/libmanyview.so $(CARGO) test --release --no-fail-fast $(TESTS_SHADOW:%=--test %) -- --skip full_
@@ -209,11 +215,12 @@ book: ## build the manual as HTML in target/book (needs mdbook)
 		{ echo "mdbook is missing: run cargo install mdbook, then make book again" >&2; exit 1; }
 	mdbook build --dest-dir $(TARGET)/book
 
+# By the profile of `make build`, so that both share what is compiled for build scripts and macros.
 lint: rust ## check format, clippy, documentation, and the crates where cargo-deny is there
 	$(CARGO) fmt --all --check
 	$(CARGO) fmt --manifest-path fuzz/Cargo.toml --check
-	$(CARGO) clippy --workspace --all-targets $(FAKE_DRIVER) -- -D warnings
-	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --no-deps -p manyview
+	$(CARGO) clippy --release --workspace --all-targets $(FAKE_DRIVER) -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --no-deps -p manyview
 	@if $(CARGO) deny --version >/dev/null 2>&1; then $(CARGO) deny --workspace check licenses bans sources; \
 	else echo "licences and versions of crates are not checked: run cargo install cargo-deny to have that" >&2; fi
 

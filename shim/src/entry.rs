@@ -10529,20 +10529,20 @@ export! { 260, glEvalPoint2, first_glEvalPoint2, hook_glEvalPoint2, zeros_glEval
     }
 } }
 export! { 261, glArrayElement, first_glArrayElement, hook_glArrayElement, zeros_glArrayElement, (i: i32) -> (), {
-    if !imm::record(slot::glArrayElement, Effect::UNKNOWN, |rec| {
+    if !imm::record(slot::glArrayElement, Effect::ELEMENT, |rec| {
         rec.i32(i);
     }) {
-        imm::direct(Effect::UNKNOWN);
+        imm::direct(Effect::ELEMENT);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glArrayElement(i) };
     }
 } }
 export! { 262, glArrayElementEXT, first_glArrayElementEXT, hook_glArrayElementEXT, zeros_glArrayElementEXT, (i: i32) -> (), {
-    if !imm::record(slot::glArrayElementEXT, Effect::UNKNOWN, |rec| {
+    if !imm::record(slot::glArrayElementEXT, Effect::ELEMENT, |rec| {
         rec.i32(i);
     }) {
-        imm::direct(Effect::UNKNOWN);
+        imm::direct(Effect::ELEMENT);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glArrayElementEXT(i) };
@@ -10571,11 +10571,11 @@ export! { 264, glVertexAttrib1dARB, first_glVertexAttrib1dARB, hook_glVertexAttr
     }
 } }
 export! { 265, glVertexAttrib1dNV, first_glVertexAttrib1dNV, hook_glVertexAttrib1dNV, zeros_glVertexAttrib1dNV, (index: u32, x: f64) -> (), {
-    if !imm::record(slot::glVertexAttrib1dNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib1dNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.f64(x);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib1dNV(index, x) };
@@ -10606,12 +10606,12 @@ export! { 267, glVertexAttrib1dvARB, first_glVertexAttrib1dvARB, hook_glVertexAt
     }
 } }
 export! { 268, glVertexAttrib1dvNV, first_glVertexAttrib1dvNV, hook_glVertexAttrib1dvNV, zeros_glVertexAttrib1dvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib1dvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib1dvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib1dvNV(index, v) };
@@ -10640,11 +10640,11 @@ export! { 270, glVertexAttrib1fARB, first_glVertexAttrib1fARB, hook_glVertexAttr
     }
 } }
 export! { 271, glVertexAttrib1fNV, first_glVertexAttrib1fNV, hook_glVertexAttrib1fNV, zeros_glVertexAttrib1fNV, (index: u32, x: f32) -> (), {
-    if !imm::record(slot::glVertexAttrib1fNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib1fNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.f32(x);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib1fNV(index, x) };
@@ -10675,12 +10675,12 @@ export! { 273, glVertexAttrib1fvARB, first_glVertexAttrib1fvARB, hook_glVertexAt
     }
 } }
 export! { 274, glVertexAttrib1fvNV, first_glVertexAttrib1fvNV, hook_glVertexAttrib1fvNV, zeros_glVertexAttrib1fvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib1fvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib1fvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 1) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib1fvNV(index, v) };
@@ -10709,11 +10709,11 @@ export! { 276, glVertexAttrib1sARB, first_glVertexAttrib1sARB, hook_glVertexAttr
     }
 } }
 export! { 277, glVertexAttrib1sNV, first_glVertexAttrib1sNV, hook_glVertexAttrib1sNV, zeros_glVertexAttrib1sNV, (index: u32, x: i16) -> (), {
-    if !imm::record(slot::glVertexAttrib1sNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib1sNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.i16(x);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib1sNV(index, x) };
@@ -10744,12 +10744,12 @@ export! { 279, glVertexAttrib1svARB, first_glVertexAttrib1svARB, hook_glVertexAt
     }
 } }
 export! { 280, glVertexAttrib1svNV, first_glVertexAttrib1svNV, hook_glVertexAttrib1svNV, zeros_glVertexAttrib1svNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib1svNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib1svNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 1) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib1svNV(index, v) };
@@ -10780,12 +10780,12 @@ export! { 282, glVertexAttrib2dARB, first_glVertexAttrib2dARB, hook_glVertexAttr
     }
 } }
 export! { 283, glVertexAttrib2dNV, first_glVertexAttrib2dNV, hook_glVertexAttrib2dNV, zeros_glVertexAttrib2dNV, (index: u32, x: f64, y: f64) -> (), {
-    if !imm::record(slot::glVertexAttrib2dNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib2dNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib2dNV(index, x, y) };
@@ -10816,12 +10816,12 @@ export! { 285, glVertexAttrib2dvARB, first_glVertexAttrib2dvARB, hook_glVertexAt
     }
 } }
 export! { 286, glVertexAttrib2dvNV, first_glVertexAttrib2dvNV, hook_glVertexAttrib2dvNV, zeros_glVertexAttrib2dvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib2dvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib2dvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib2dvNV(index, v) };
@@ -10852,12 +10852,12 @@ export! { 288, glVertexAttrib2fARB, first_glVertexAttrib2fARB, hook_glVertexAttr
     }
 } }
 export! { 289, glVertexAttrib2fNV, first_glVertexAttrib2fNV, hook_glVertexAttrib2fNV, zeros_glVertexAttrib2fNV, (index: u32, x: f32, y: f32) -> (), {
-    if !imm::record(slot::glVertexAttrib2fNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib2fNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib2fNV(index, x, y) };
@@ -10888,12 +10888,12 @@ export! { 291, glVertexAttrib2fvARB, first_glVertexAttrib2fvARB, hook_glVertexAt
     }
 } }
 export! { 292, glVertexAttrib2fvNV, first_glVertexAttrib2fvNV, hook_glVertexAttrib2fvNV, zeros_glVertexAttrib2fvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib2fvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib2fvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 2) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib2fvNV(index, v) };
@@ -10924,12 +10924,12 @@ export! { 294, glVertexAttrib2sARB, first_glVertexAttrib2sARB, hook_glVertexAttr
     }
 } }
 export! { 295, glVertexAttrib2sNV, first_glVertexAttrib2sNV, hook_glVertexAttrib2sNV, zeros_glVertexAttrib2sNV, (index: u32, x: i16, y: i16) -> (), {
-    if !imm::record(slot::glVertexAttrib2sNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib2sNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib2sNV(index, x, y) };
@@ -10960,12 +10960,12 @@ export! { 297, glVertexAttrib2svARB, first_glVertexAttrib2svARB, hook_glVertexAt
     }
 } }
 export! { 298, glVertexAttrib2svNV, first_glVertexAttrib2svNV, hook_glVertexAttrib2svNV, zeros_glVertexAttrib2svNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib2svNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib2svNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 2) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib2svNV(index, v) };
@@ -10998,13 +10998,13 @@ export! { 300, glVertexAttrib3dARB, first_glVertexAttrib3dARB, hook_glVertexAttr
     }
 } }
 export! { 301, glVertexAttrib3dNV, first_glVertexAttrib3dNV, hook_glVertexAttrib3dNV, zeros_glVertexAttrib3dNV, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if !imm::record(slot::glVertexAttrib3dNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib3dNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib3dNV(index, x, y, z) };
@@ -11035,12 +11035,12 @@ export! { 303, glVertexAttrib3dvARB, first_glVertexAttrib3dvARB, hook_glVertexAt
     }
 } }
 export! { 304, glVertexAttrib3dvNV, first_glVertexAttrib3dvNV, hook_glVertexAttrib3dvNV, zeros_glVertexAttrib3dvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib3dvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib3dvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib3dvNV(index, v) };
@@ -11073,13 +11073,13 @@ export! { 306, glVertexAttrib3fARB, first_glVertexAttrib3fARB, hook_glVertexAttr
     }
 } }
 export! { 307, glVertexAttrib3fNV, first_glVertexAttrib3fNV, hook_glVertexAttrib3fNV, zeros_glVertexAttrib3fNV, (index: u32, x: f32, y: f32, z: f32) -> (), {
-    if !imm::record(slot::glVertexAttrib3fNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib3fNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib3fNV(index, x, y, z) };
@@ -11110,12 +11110,12 @@ export! { 309, glVertexAttrib3fvARB, first_glVertexAttrib3fvARB, hook_glVertexAt
     }
 } }
 export! { 310, glVertexAttrib3fvNV, first_glVertexAttrib3fvNV, hook_glVertexAttrib3fvNV, zeros_glVertexAttrib3fvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib3fvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib3fvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib3fvNV(index, v) };
@@ -11148,13 +11148,13 @@ export! { 312, glVertexAttrib3sARB, first_glVertexAttrib3sARB, hook_glVertexAttr
     }
 } }
 export! { 313, glVertexAttrib3sNV, first_glVertexAttrib3sNV, hook_glVertexAttrib3sNV, zeros_glVertexAttrib3sNV, (index: u32, x: i16, y: i16, z: i16) -> (), {
-    if !imm::record(slot::glVertexAttrib3sNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib3sNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib3sNV(index, x, y, z) };
@@ -11185,12 +11185,12 @@ export! { 315, glVertexAttrib3svARB, first_glVertexAttrib3svARB, hook_glVertexAt
     }
 } }
 export! { 316, glVertexAttrib3svNV, first_glVertexAttrib3svNV, hook_glVertexAttrib3svNV, zeros_glVertexAttrib3svNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib3svNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib3svNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib3svNV(index, v) };
@@ -11225,14 +11225,14 @@ export! { 318, glVertexAttrib4dARB, first_glVertexAttrib4dARB, hook_glVertexAttr
     }
 } }
 export! { 319, glVertexAttrib4dNV, first_glVertexAttrib4dNV, hook_glVertexAttrib4dNV, zeros_glVertexAttrib4dNV, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if !imm::record(slot::glVertexAttrib4dNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib4dNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
         rec.f64(w);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib4dNV(index, x, y, z, w) };
@@ -11263,12 +11263,12 @@ export! { 321, glVertexAttrib4dvARB, first_glVertexAttrib4dvARB, hook_glVertexAt
     }
 } }
 export! { 322, glVertexAttrib4dvNV, first_glVertexAttrib4dvNV, hook_glVertexAttrib4dvNV, zeros_glVertexAttrib4dvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib4dvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib4dvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib4dvNV(index, v) };
@@ -11303,14 +11303,14 @@ export! { 324, glVertexAttrib4fARB, first_glVertexAttrib4fARB, hook_glVertexAttr
     }
 } }
 export! { 325, glVertexAttrib4fNV, first_glVertexAttrib4fNV, hook_glVertexAttrib4fNV, zeros_glVertexAttrib4fNV, (index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    if !imm::record(slot::glVertexAttrib4fNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib4fNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
         rec.f32(w);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib4fNV(index, x, y, z, w) };
@@ -11341,12 +11341,12 @@ export! { 327, glVertexAttrib4fvARB, first_glVertexAttrib4fvARB, hook_glVertexAt
     }
 } }
 export! { 328, glVertexAttrib4fvNV, first_glVertexAttrib4fvNV, hook_glVertexAttrib4fvNV, zeros_glVertexAttrib4fvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib4fvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib4fvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib4fvNV(index, v) };
@@ -11381,14 +11381,14 @@ export! { 330, glVertexAttrib4sARB, first_glVertexAttrib4sARB, hook_glVertexAttr
     }
 } }
 export! { 331, glVertexAttrib4sNV, first_glVertexAttrib4sNV, hook_glVertexAttrib4sNV, zeros_glVertexAttrib4sNV, (index: u32, x: i16, y: i16, z: i16, w: i16) -> (), {
-    if !imm::record(slot::glVertexAttrib4sNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib4sNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
         rec.i16(w);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib4sNV(index, x, y, z, w) };
@@ -11419,12 +11419,12 @@ export! { 333, glVertexAttrib4svARB, first_glVertexAttrib4svARB, hook_glVertexAt
     }
 } }
 export! { 334, glVertexAttrib4svNV, first_glVertexAttrib4svNV, hook_glVertexAttrib4svNV, zeros_glVertexAttrib4svNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib4svNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib4svNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib4svNV(index, v) };
@@ -11527,12 +11527,12 @@ export! { 342, glVertexAttrib4NubvARB, first_glVertexAttrib4NubvARB, hook_glVert
     }
 } }
 export! { 343, glVertexAttrib4ubvNV, first_glVertexAttrib4ubvNV, hook_glVertexAttrib4ubvNV, zeros_glVertexAttrib4ubvNV, (index: u32, v: Ptr) -> (), {
-    if !imm::record(slot::glVertexAttrib4ubvNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib4ubvNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib4ubvNV(index, v) };
@@ -11735,14 +11735,14 @@ export! { 359, glVertexAttrib4NubARB, first_glVertexAttrib4NubARB, hook_glVertex
     }
 } }
 export! { 360, glVertexAttrib4ubNV, first_glVertexAttrib4ubNV, hook_glVertexAttrib4ubNV, zeros_glVertexAttrib4ubNV, (index: u32, x: u8, y: u8, z: u8, w: u8) -> (), {
-    if !imm::record(slot::glVertexAttrib4ubNV, Effect::ATTRIB, |rec| {
+    if !imm::record(slot::glVertexAttrib4ubNV, Effect::UNKNOWN, |rec| {
         rec.u32(index);
         rec.u8(x);
         rec.u8(y);
         rec.u8(z);
         rec.u8(w);
     }) {
-        imm::direct(Effect::ATTRIB);
+        imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
         unsafe { gl.glVertexAttrib4ubNV(index, x, y, z, w) };
@@ -15668,169 +15668,169 @@ export! { 950, glTexStorageSparseAMD, first_glTexStorageSparseAMD, hook_glTexSto
     unsafe { gl.glTexStorageSparseAMD(target, internalFormat, width, height, depth, layers, flags) };
 } }
 export! { 951, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, zeros_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterf(target, pname, param) };
 } }
 export! { 952, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, zeros_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterfv(target, pname, params) };
 } }
 export! { 953, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, zeros_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteri(target, pname, param) };
 } }
 export! { 954, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, zeros_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteriv(target, pname, params) };
 } }
 export! { 955, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, zeros_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIiv(target, pname, params) };
 } }
 export! { 956, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, zeros_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivEXT(target, pname, params) };
 } }
 export! { 957, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, zeros_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivOES(target, pname, params) };
 } }
 export! { 958, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, zeros_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuiv(target, pname, params) };
 } }
 export! { 959, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, zeros_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivEXT(target, pname, params) };
 } }
 export! { 960, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, zeros_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivOES(target, pname, params) };
 } }
 export! { 961, glTextureParameterf, first_glTextureParameterf, hook_glTextureParameterf, zeros_glTextureParameterf, (texture: u32, pname: u32, param: f32) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterf(texture, pname, param) };
 } }
 export! { 962, glTextureParameterfv, first_glTextureParameterfv, hook_glTextureParameterfv, zeros_glTextureParameterfv, (texture: u32, pname: u32, param: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterfv(texture, pname, param) };
 } }
 export! { 963, glTextureParameteri, first_glTextureParameteri, hook_glTextureParameteri, zeros_glTextureParameteri, (texture: u32, pname: u32, param: i32) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteri(texture, pname, param) };
 } }
 export! { 964, glTextureParameteriv, first_glTextureParameteriv, hook_glTextureParameteriv, zeros_glTextureParameteriv, (texture: u32, pname: u32, param: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteriv(texture, pname, param) };
 } }
 export! { 965, glTextureParameterIiv, first_glTextureParameterIiv, hook_glTextureParameterIiv, zeros_glTextureParameterIiv, (texture: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIiv(texture, pname, params) };
 } }
 export! { 966, glTextureParameterIuiv, first_glTextureParameterIuiv, hook_glTextureParameterIuiv, zeros_glTextureParameterIuiv, (texture: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIuiv(texture, pname, params) };
 } }
 export! { 967, glTextureParameterfEXT, first_glTextureParameterfEXT, hook_glTextureParameterfEXT, zeros_glTextureParameterfEXT, (texture: u32, target: u32, pname: u32, param: f32) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterfEXT(texture, target, pname, param) };
 } }
 export! { 968, glTextureParameterfvEXT, first_glTextureParameterfvEXT, hook_glTextureParameterfvEXT, zeros_glTextureParameterfvEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterfvEXT(texture, target, pname, params) };
 } }
 export! { 969, glTextureParameteriEXT, first_glTextureParameteriEXT, hook_glTextureParameteriEXT, zeros_glTextureParameteriEXT, (texture: u32, target: u32, pname: u32, param: i32) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteriEXT(texture, target, pname, param) };
 } }
 export! { 970, glTextureParameterivEXT, first_glTextureParameterivEXT, hook_glTextureParameterivEXT, zeros_glTextureParameterivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterivEXT(texture, target, pname, params) };
 } }
 export! { 971, glTextureParameterIivEXT, first_glTextureParameterIivEXT, hook_glTextureParameterIivEXT, zeros_glTextureParameterIivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIivEXT(texture, target, pname, params) };
 } }
 export! { 972, glTextureParameterIuivEXT, first_glTextureParameterIuivEXT, hook_glTextureParameterIuivEXT, zeros_glTextureParameterIuivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIuivEXT(texture, target, pname, params) };
 } }
 export! { 973, glMultiTexParameterfEXT, first_glMultiTexParameterfEXT, hook_glMultiTexParameterfEXT, zeros_glMultiTexParameterfEXT, (texunit: u32, target: u32, pname: u32, param: f32) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Unit(texunit, target), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterfEXT(texunit, target, pname, param) };
 } }
 export! { 974, glMultiTexParameterfvEXT, first_glMultiTexParameterfvEXT, hook_glMultiTexParameterfvEXT, zeros_glMultiTexParameterfvEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Unit(texunit, target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterfvEXT(texunit, target, pname, params) };
 } }
 export! { 975, glMultiTexParameteriEXT, first_glMultiTexParameteriEXT, hook_glMultiTexParameteriEXT, zeros_glMultiTexParameteriEXT, (texunit: u32, target: u32, pname: u32, param: i32) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Unit(texunit, target), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameteriEXT(texunit, target, pname, param) };
 } }
 export! { 976, glMultiTexParameterivEXT, first_glMultiTexParameterivEXT, hook_glMultiTexParameterivEXT, zeros_glMultiTexParameterivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Unit(texunit, target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterivEXT(texunit, target, pname, params) };
 } }
 export! { 977, glMultiTexParameterIivEXT, first_glMultiTexParameterIivEXT, hook_glMultiTexParameterIivEXT, zeros_glMultiTexParameterIivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Unit(texunit, target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterIivEXT(texunit, target, pname, params) };
 } }
 export! { 978, glMultiTexParameterIuivEXT, first_glMultiTexParameterIuivEXT, hook_glMultiTexParameterIuivEXT, zeros_glMultiTexParameterIuivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
-    hooks::texture_parameter();
+    hooks::texture_parameter(TextureAt::Unit(texunit, target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterIuivEXT(texunit, target, pname, params) };

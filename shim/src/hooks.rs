@@ -106,11 +106,13 @@ pub(crate) fn divide() {
     context::peek(|l| l.divides());
 }
 
-/// Before a command that sets a parameter of a texture.
+/// Before a command that sets a parameter of a texture; `set` is its name and value, if it is a single number.
 #[inline]
-pub(crate) fn texture_parameter() {
+pub(crate) fn texture_parameter(at: TextureAt, set: Option<(u32, f32)>) {
     list_only();
-    context::peek(|l| l.parameters_changed());
+    if context::peek(|l| l.has_split_images()) == Some(true) {
+        context::enter(|gl, l| l.texture_parameter(gl, at, set));
+    }
 }
 
 /// Before a command that changes the attachments or the draw buffers of a framebuffer of the program's.
@@ -288,7 +290,7 @@ pub(crate) mod imm {
     /// Writes a call to the recording by `write` while calls are recorded. Returns whether it was recorded.
     #[inline]
     pub(crate) fn record(slot: usize, effect: Effect, write: impl FnOnce(&mut Recording)) -> bool {
-        context::recording() && context::peek_inside(|l| write(l.record(slot, effect))).is_some()
+        context::recording() && context::peek_inside(|l| l.record(slot, effect, write)).is_some()
     }
 
     /// Before a call of immediate mode that is not recorded: inside a display list, or outside glBegin and glEnd.

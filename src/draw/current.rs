@@ -25,7 +25,7 @@ impl Current {
     /// before they are restored, such as a glPopAttrib.
     pub fn take(gl: &Gl, kinds: Effect, popped: bool) -> Current {
         let mut current = Current::default();
-        // It is not known which values an array element or an evaluator sets.
+        // It is not known which values an evaluator sets.
         let kinds = if kinds.has(Effect::UNKNOWN) {
             Effect::ALL
         } else {
@@ -48,16 +48,10 @@ impl Current {
             current.edge = Some(gl.get_integer(c::EDGE_FLAG) != 0);
         }
         if kinds.has(Effect::TEXCOORD) || kinds.has(Effect::MULTITEX) {
-            let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
             let all = gl.get_integer(c::MAX_TEXTURE_COORDS).clamp(1, 32) as u32;
             let units = if kinds.has(Effect::MULTITEX) { all } else { 1 };
-            for unit in 0..units {
-                gl.active_texture(c::TEXTURE0 + unit);
-                current
-                    .texture
-                    .push(gl.get_floats(c::CURRENT_TEXTURE_COORDS));
-            }
-            gl.active_texture(active);
+            let coordinates = (0..units).map(|unit| gl.get_coordinates(unit));
+            current.texture = coordinates.collect();
         }
         if kinds.has(Effect::MATERIAL) {
             for face in [c::FRONT, c::BACK] {

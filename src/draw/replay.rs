@@ -101,6 +101,14 @@ impl ReplayHazard {
             ReplayHazard::Anything { .. } => c::ALL_ATTRIB_BITS,
         }
     }
+
+    /// Whether it draws and changes current values at most, so that the matrix mode and the scissor test are set once for all views.
+    fn is_draw_alone(self) -> bool {
+        match self {
+            ReplayHazard::Current(effects) => !effects.has(Effect::UNKNOWN),
+            other => other == ReplayHazard::None,
+        }
+    }
 }
 
 /// A draw while it is sent for the views.
@@ -128,9 +136,7 @@ impl<'a> Sending<'a> {
     ) -> Self {
         let saves = hazard.saves();
         if saves != 0 {
-            // The query flushes current values: Mesa 22.3 loses pending ones at a glPushAttrib, and a later glPopAttrib of the program's does
-            // not restore them.
-            gl.get_floats::<4>(c::CURRENT_COLOR);
+            gl.flush_current();
         }
         let units = match hazard {
             ReplayHazard::Anything { .. } => Units::All,
@@ -147,13 +153,11 @@ impl<'a> Sending<'a> {
             ReplayHazard::Raster(Some(shear)) => Some(Raster::at(gl, state, shear)),
             _ => None,
         };
-        let projection = Projection {
-            gl,
-            state,
-            shear,
-            grid: tiles.grid,
-        };
-        Sending {
+        let mut projection = Projection::new(gl, state, shear, tiles.grid);
+        if hazard.is_draw_alone() {
+            projection.select();
+        }
+        let sending = Sending {
             gl,
             state,
             rig,
@@ -164,7 +168,11 @@ impl<'a> Sending<'a> {
             raster,
             current,
             pixel_sizes,
+        };
+        if hazard.is_draw_alone() && sending.beside() {
+            enable_scissor(gl, state, &sending.tiles);
         }
+        sending
     }
 
     /// Whether each tile needs a viewport of its own.
@@ -192,7 +200,10 @@ impl<'a> Sending<'a> {
 
     fn enter_tile(&self, view: ViewIndex, x: i32) {
         if self.beside() && !self.is_free(view) {
-            set_tile_viewport(self.gl, self.state, &self.tiles, view, x);
+            if !self.hazard.is_draw_alone() {
+                enable_scissor(self.gl, self.state, &self.tiles);
+            }
+            set_rectangles(self.gl, self.state, &self.tiles, view, x);
         } else if self.beside() {
             self.state.rectangles.put(self.gl);
         }
@@ -273,6 +284,7 @@ impl<'a> Sending<'a> {
         if !keeps_state || self.keeps_projection() && moved {
             self.projection.restore();
         }
+        self.projection.leave();
         if !keeps_state {
             self.current.put(self.gl);
         }
@@ -293,12 +305,7 @@ pub fn enter_own(
     if tiles.columns > 1 || !tiles.grid.is_full() {
         set_tile_viewport(gl, state, &tiles, tiles.own(), x);
     }
-    let projection = Projection {
-        gl,
-        state,
-        shear,
-        grid: tiles.grid,
-    };
+    let projection = Projection::new(gl, state, shear, tiles.grid);
     if rig.position(tiles.own()) != 0.0 || projection.is_slanted() {
         projection.load(rig.position(tiles.own()));
     }
@@ -316,12 +323,7 @@ pub fn others(
 ) {
     let tiles = surface.tiles();
     let (own, beside) = (tiles.own(), tiles.columns > 1 || !tiles.grid.is_full());
-    let projection = Projection {
-        gl,
-        state,
-        shear,
-        grid: tiles.grid,
-    };
+    let projection = Projection::new(gl, state, shear, tiles.grid);
     for view in tiles.order().filter(|&v| wanted && v != own) {
         let x = surface.enter(gl, view);
         if beside {
@@ -339,6 +341,20 @@ pub fn others(
 
 /// Sets the program's viewport and scissor in the tile of a view, which begins at `offset` pixels; the scissor is cut to the tile.
 pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) {
+    enable_scissor(gl, state, tiles);
+    set_rectangles(gl, state, tiles, view, offset);
+}
+
+/// Turns the scissor test on, which keeps draws in their tiles. With several rectangles, [`set_rectangles`] does.
+fn enable_scissor(gl: &Gl, state: &State, tiles: &Tiles) {
+    let several = state.rectangles.are_several() && tiles.grid.is_full();
+    if !several && !state.rectangles.scissor_test {
+        gl.enable(c::SCISSOR_TEST);
+    }
+}
+
+/// [`set_tile_viewport`] while the scissor test is on.
+fn set_rectangles(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) {
     if state.rectangles.are_several() && tiles.grid.is_full() {
         for (index, own) in (0..).zip(&state.rectangles.indexed) {
             let [x, y, w, h] = own.viewport;
@@ -357,9 +373,6 @@ pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex,
         gl.viewport(x + offset, y, w, h);
     } else {
         gl.viewport_f(tiles.grid.viewport(view, offset, state.rectangles.viewport));
-    }
-    if !state.rectangles.scissor_test {
-        gl.enable(c::SCISSOR_TEST);
     }
     let [x, y, w, h] = cut(state, tiles, view, offset);
     gl.scissor(x, y, w, h);
@@ -484,9 +497,41 @@ struct Projection<'a> {
     state: &'a State,
     shear: Option<Shear>,
     grid: Grid,
+    /// The matrix mode is GL_PROJECTION until [`Projection::leave`].
+    selected: bool,
 }
 
-impl Projection<'_> {
+impl<'a> Projection<'a> {
+    fn new(gl: &'a Gl, state: &'a State, shear: Option<Shear>, grid: Grid) -> Self {
+        Projection {
+            gl,
+            state,
+            shear,
+            grid,
+            selected: false,
+        }
+    }
+
+    /// Sets the matrix mode for all that is loaded until [`Projection::leave`].
+    fn select(&mut self) {
+        self.selected = self.loads() && self.state.matrices.mode != c::PROJECTION;
+        if self.selected {
+            self.gl.matrix_mode(c::PROJECTION);
+        }
+    }
+
+    /// Restores the matrix mode after [`Projection::select`].
+    fn leave(&self) {
+        if self.selected {
+            self.gl.matrix_mode(self.state.matrices.mode);
+        }
+    }
+
+    /// Whether it loads anything: not for a flat draw in upright tiles.
+    fn loads(&self) -> bool {
+        self.shear.is_some() || self.is_slanted()
+    }
+
     /// Whether slanted tiles need another projection than P_i.
     fn is_slanted(&self) -> bool {
         self.grid.shear != 0.0
@@ -509,18 +554,19 @@ impl Projection<'_> {
 
     /// Loads the program's own projection again.
     fn restore(&self) {
-        if self.shear.is_some() || self.is_slanted() {
+        if self.loads() {
             self.put(&self.state.matrices.projection);
         }
     }
 
     fn put(&self, p: &[f32; 16]) {
         let mode = self.state.matrices.mode;
-        if mode != c::PROJECTION {
+        let switch = !self.selected && mode != c::PROJECTION;
+        if switch {
             self.gl.matrix_mode(c::PROJECTION);
         }
         self.gl.load_matrix(p);
-        if mode != c::PROJECTION {
+        if switch {
             self.gl.matrix_mode(mode);
         }
     }

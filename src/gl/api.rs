@@ -10,6 +10,9 @@ use super::object_names::{
 use super::real::{Ptr, Real};
 use core::ffi::CStr;
 
+/// The name of a display list that does not exist: glGenLists gives lower names first.
+pub(super) const NO_LIST: u32 = u32::MAX - 1;
+
 /// The driver of the context that is current on this thread, asked for its version once. Every method is the GL command of its name.
 /// More than 25 methods: one for each command.
 #[derive(Clone, Copy, Debug)]
@@ -470,6 +473,20 @@ impl Gl {
             )
         };
         v
+    }
+
+    /// Sets a current value to itself, without a question where the shadow knows it.
+    pub fn touch_current(&self) {
+        let [coordinate] = self.get_floats(super::consts::CURRENT_FOG_COORD);
+        self.fog_coordf(coordinate);
+    }
+
+    /// Lets the driver write current values that it holds back: calls a display list that does not exist, which does nothing else. Mesa 22.3
+    /// loses what it holds back at a glPushAttrib, and a later glPopAttrib of the program's does not restore it.
+    pub fn flush_current(&self) {
+        let list = NO_LIST;
+        // SAFETY: the signature is that of the command, which takes any name.
+        unsafe { unnoted!(self.real, super::slot::glCallList, list: u32) };
     }
 
     /// Sends recorded immediate mode between a glBegin and a glEnd, or lists that have them.

@@ -1,8 +1,10 @@
 //! Immediate mode between glBegin and glEnd, kept as it came, so that it can be sent again for every view.
 
+use super::consts as c;
 use super::object_names::ListName;
 use super::real::{Ptr, Real};
-use super::table::{replay_one, slot};
+use super::shadow;
+use super::table::{note_one, replay_one, sets, slot};
 
 /// The slots of glVertex* are the first ones.
 const LAST_VERTEX: usize = slot::glVertex4hvNV;
@@ -20,6 +22,27 @@ pub struct Recording {
     calls: usize,
     /// Where the calls that give a vertex stand.
     vertices: Vec<u32>,
+    /// Where the last call of each current value stands.
+    last: [Option<u32>; VALUES],
+    /// Some call may set any current value.
+    any: bool,
+}
+
+/// Texture units whose coordinates the shadow keeps.
+const UNITS: usize = 8;
+/// Current values that the shadow keeps: colour, normal, secondary colour, fog coordinate, edge flag, coordinates of the units.
+const VALUES: usize = 5 + UNITS;
+
+/// Which current value a recorded call sets.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Sets {
+    Nothing,
+    /// That of this place in `Recording::last`.
+    Value(usize),
+    /// The coordinates of the texture unit that its first argument names.
+    Unit,
+    /// Any.
+    Any,
 }
 
 macro_rules! small {
@@ -36,6 +59,8 @@ impl Recording {
         self.words.clear();
         self.vertices.clear();
         self.calls = 0;
+        self.last = [None; VALUES];
+        self.any = false;
     }
 
     /// Number of calls recorded.
@@ -43,14 +68,28 @@ impl Recording {
         self.calls
     }
 
-    /// Starts the record of one call.
+    /// Records one call, whose arguments `write` writes.
     #[inline]
-    pub fn call(&mut self, slot: usize) {
+    pub fn call(&mut self, slot: usize, write: impl FnOnce(&mut Recording)) {
+        let at = self.words.len() as u32;
         if slot <= LAST_VERTEX {
-            self.vertices.push(self.words.len() as u32);
+            self.vertices.push(at);
         }
         self.words.push(slot as u32);
         self.calls += 1;
+        write(self);
+        match sets(slot) {
+            Sets::Nothing => {}
+            Sets::Value(value) => self.last[value] = Some(at),
+            Sets::Unit => {
+                let target = self.words.get(at as usize + 1).copied().unwrap_or_default();
+                match target.wrapping_sub(c::TEXTURE0) as usize {
+                    unit @ 0..UNITS => self.last[VALUES - UNITS + unit] = Some(at),
+                    _ => self.any = true,
+                }
+            }
+            Sets::Any => self.any = true,
+        }
     }
 
     small!(u8 i8 u16 i16 u32 i32);
@@ -153,6 +192,20 @@ impl Recording {
                 return;
             }
         }
+        shadow::noted(|s| {
+            if self.any {
+                return s.forget_current();
+            }
+            for at in self.last.into_iter().flatten() {
+                let mut r = Reader {
+                    words: &self.words,
+                    at: at as usize,
+                };
+                let slot = r.u32() as usize;
+                // SAFETY: as above.
+                unsafe { note_one(s, slot, &mut r) };
+            }
+        });
     }
 }
 
@@ -224,13 +277,14 @@ mod tests {
     #[test]
     fn words_come_back_as_written() {
         let mut w = Recording::default();
-        w.call(7);
-        w.f32(-1.5);
-        w.i16(-3);
-        w.f64(1e300);
-        // SAFETY: three doubles of this frame.
-        unsafe { w.slice([1.0f64, 2.0, 3.0].as_ptr(), 3) };
-        w.u8(200);
+        w.call(7, |w| {
+            w.f32(-1.5);
+            w.i16(-3);
+            w.f64(1e300);
+            // SAFETY: three doubles of this frame.
+            unsafe { w.slice([1.0f64, 2.0, 3.0].as_ptr(), 3) };
+            w.u8(200);
+        });
         let mut r = Reader {
             words: &w.words,
             at: 0,

@@ -63,6 +63,19 @@ impl Gl {
         std::array::from_fn(|at| f32::from_bits(words[at]))
     }
 
+    /// GL_CURRENT_TEXTURE_COORDS of a unit, counted from 0.
+    pub fn get_coordinates(&self, unit: u32) -> [f32; 4] {
+        let name = c::CURRENT_TEXTURE_COORDS;
+        let words = shadow::coordinates(unit, || {
+            let active = self.get_integer(c::ACTIVE_TEXTURE) as u32;
+            self.active_texture(c::TEXTURE0 + unit);
+            let v = self.ask_floats(name);
+            self.active_texture(active);
+            [v[0], v[1], v[2], v[3]].map(f32::to_bits)
+        });
+        words.map(f32::from_bits)
+    }
+
     /// glGetFloatv of a matrix, column-major.
     pub fn get_matrix(&self, name: u32) -> [f32; 16] {
         shadow::matrix(name, || self.ask_floats(name))

@@ -54,6 +54,15 @@ impl Real {
     }
 }
 
+/// Makes a call of which the shadow is not told.
+macro_rules! unnoted {
+    ($real:expr, $slot:expr, $($a:ident: $t:ty),*) => {
+        if let Some(p) = $real.get($slot) {
+            core::mem::transmute::<Ptr, unsafe extern "C-unwind" fn($($t),*)>(p)($($a),*);
+        }
+    };
+}
+
 macro_rules! real_functions {
     ($($name:ident($($a:ident: $t:ty),*) $(-> $r:ty = $zero:expr)? $(, $how:ident $note:ident($($n:ident),*))?;)*) => {
         /// The driver's own functions. A command that the provider lacks does nothing and answers zero.

@@ -5,7 +5,9 @@
 
 use super::reading::Reading;
 use super::{Layer, keep_bindings};
-use crate::gl::{FramebufferName, Gl, Object, RenderbufferName, TextureName, consts as c};
+use crate::gl::{
+    FramebufferName, Gl, Object, RenderbufferName, TextureName, consts as c, texture_binding,
+};
 use crate::state::{Command, Run, TextureAt, TextureWrite, Touch};
 use crate::view::ViewIndex;
 
@@ -111,6 +113,20 @@ impl Layer {
         if from.is_zero() && !self.make_singles(gl, false) {
             return self.read(gl, x, width, own_call);
         }
+        let split = self.is_split_or_splits(gl, target, texture);
+        if split {
+            // First, so that nobody has to ask whether the program's own call is wrong: it is as wrong here, and raises its error afterwards.
+            self.state.keep_errors(gl);
+            self.copy_other_views(gl, to, call);
+        }
+        self.read(gl, x, width, &mut || call(texture));
+    }
+
+    /// Splits a texture that is not split yet. False where that cannot be done.
+    fn is_split_or_splits(&mut self, gl: &Gl, target: Option<u32>, texture: TextureName) -> bool {
+        if self.targets.offscreen.has(Object::Texture(texture)) {
+            return true;
+        }
         self.state.keep_errors(gl);
         let split = keep_bindings(gl, || {
             let (offscreen, names) = (&mut self.targets.offscreen, &mut self.targets.names);
@@ -120,15 +136,10 @@ impl Layer {
             }
         });
         self.drain_own_errors(gl);
-        self.state.keep_errors(gl);
-        self.read(gl, x, width, own_call);
-        if self.state.keep_errors(gl) || !split {
-            return; // a wrong call is as wrong in the other views
-        }
-        self.copy_other_views(gl, to, call);
+        split
     }
 
-    /// Copies from each view into its own texture, after the program's own call.
+    /// Copies from each view into its own texture, before the program's own call.
     fn copy_other_views(
         &mut self,
         gl: &Gl,
@@ -289,9 +300,21 @@ impl Layer {
         self.targets.offscreen.forget(gl, all);
     }
 
-    /// A parameter of some texture has changed.
-    pub fn parameters_changed(&mut self) {
-        self.targets.offscreen.parameters_changed();
+    /// Before a parameter of a texture is set; `set` is its name and value, if it is a single number.
+    pub fn texture_parameter(&mut self, gl: &Gl, at: TextureAt, set: Option<(u32, f32)>) {
+        let texture = match at {
+            TextureAt::Named(texture) => Some(texture),
+            TextureAt::Bound(target) => {
+                texture_binding(target).map(|name| TextureName(gl.get_integer(name) as u32))
+            }
+            TextureAt::Unit(..) => None,
+        };
+        self.targets.offscreen.parameter(texture, set);
+    }
+
+    /// Whether some texture or renderbuffer is split.
+    pub fn has_split_images(&self) -> bool {
+        !self.targets.offscreen.is_empty()
     }
 
     /// The attachments or the draw buffers of some framebuffer have changed.

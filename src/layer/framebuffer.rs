@@ -13,8 +13,17 @@ use crate::view::ViewIndex;
 pub(super) struct Pushed {
     /// GL_ATTRIB_STACK_DEPTH after the glPushAttrib.
     depth: i32,
+    mask: u32,
     draw_buffers: Option<Vec<u32>>,
     read_buffer: Option<u32>,
+}
+
+/// What a glPopAttrib may change, where the bits of its glPushAttrib are known or not.
+fn touched_by_pop(mask: Option<u32>) -> Touch {
+    match mask {
+        Some(mask) if mask & c::COLOR_BUFFER_BIT == 0 => Touch::ALL.without(Touch::BUFFERS),
+        _ => Touch::ALL,
+    }
 }
 
 impl Layer {
@@ -41,6 +50,7 @@ impl Layer {
         self.targets.pushed.retain(|p| p.depth < depth);
         self.targets.pushed.push(Pushed {
             depth,
+            mask,
             draw_buffers: (mask & c::COLOR_BUFFER_BIT != 0 && f.draw.is_zero())
                 .then(|| f.draw_buffers.clone()),
             read_buffer: (mask & c::PIXEL_MODE_BIT != 0 && f.read.is_zero())
@@ -51,13 +61,15 @@ impl Layer {
     /// glPopAttrib.
     pub fn pop_attrib(&mut self, gl: &Gl, pop: &mut dyn FnMut()) {
         if self.compiles() {
-            self.compile(gl, Command::PopAttrib, Touch::ALL);
+            let mask = self.state.list.as_ref().and_then(|list| list.pushed());
+            self.compile(gl, Command::PopAttrib, touched_by_pop(mask));
             if !self.executes() {
                 return pop();
             }
         }
-        self.state.touch(Touch::ALL);
         let depth = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+        let pushed = self.targets.pushed.iter().find(|p| p.depth == depth);
+        self.state.touch(touched_by_pop(pushed.map(|p| p.mask)));
         pop();
         self.popped_attribs(gl, depth);
     }

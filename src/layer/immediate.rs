@@ -47,10 +47,10 @@ impl Layer {
         self.state.begin = Begin::Recorded(mode);
     }
 
-    /// Records a call between glBegin and glEnd. The caller writes its arguments to the recording.
+    /// Records a call between glBegin and glEnd, whose arguments `write` writes.
     #[inline]
-    pub fn record(&mut self, slot: usize, effect: Effect) -> &mut Recording {
-        self.lists.record(slot, effect)
+    pub fn record(&mut self, slot: usize, effect: Effect, write: impl FnOnce(&mut Recording)) {
+        self.lists.record(slot, effect, write);
     }
 
     /// After the driver's glEnd: makes the recorded calls.

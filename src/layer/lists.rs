@@ -382,8 +382,8 @@ impl Layer {
             self.lists.closed_by(segment.name);
             self.end(gl);
         } else {
-            self.record(slot::glCallList, Effect::UNKNOWN)
-                .u32(segment.name.0);
+            let name = segment.name.0;
+            self.record(slot::glCallList, Effect::UNKNOWN, |rec| rec.u32(name));
         }
     }
 
@@ -542,13 +542,12 @@ struct Content {
     material: bool,
 }
 
-/// Sets the current colour to itself. This has to be called before the driver calls a list that sets current values. Some current value,
+/// Sets a current value to itself. This has to be called before the driver calls a list that sets current values. Some current value,
 /// whichever, must have been set by a call since the last such list. Otherwise, at the next change of state, Mesa 22.3 once more sets the
 /// values from before the list's vertices.
 pub(super) fn touch_current_values(gl: &Gl, sets: Effect) {
     if sets != Effect::NONE {
-        let [r, g, b, a] = gl.get_floats(c::CURRENT_COLOR);
-        gl.color_4f(r, g, b, a);
+        gl.touch_current();
     }
 }
 

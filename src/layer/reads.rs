@@ -151,8 +151,7 @@ impl Layer {
 
     fn copy_views(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         let own = self.targets.atlas.tiles.own();
-        // As in `draw::replay`: Mesa 22.3 would lose current values at our glPushAttrib.
-        gl.get_floats::<4>(c::CURRENT_COLOR);
+        gl.flush_current();
         self.queries.pause(gl);
         for view in self.targets.atlas.tiles.order() {
             self.take_read_single(gl, view);

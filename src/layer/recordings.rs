@@ -26,12 +26,16 @@ impl Recordings {
         self.ends = Ends::default();
     }
 
-    /// Records a call. The caller writes its arguments to the recording.
+    /// Records a call, whose arguments `write` writes.
     #[inline]
-    pub(super) fn record(&mut self, slot: usize, effect: Effect) -> &mut Recording {
+    pub(super) fn record(
+        &mut self,
+        slot: usize,
+        effect: Effect,
+        write: impl FnOnce(&mut Recording),
+    ) {
         self.immediate.note(effect);
-        self.recording.call(slot);
-        &mut self.recording
+        self.recording.call(slot, write);
     }
 
     /// The recording begins in a display list, which holds its glBegin.

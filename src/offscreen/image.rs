@@ -5,6 +5,7 @@
 //! Where such an array cannot be had, each other view has an object like the program's.
 
 use super::fill::fill;
+use super::parameters::{ParameterNames, Parameters};
 use crate::atlas::{Names, Tiles};
 use crate::gl::{
     Gl, Level, Object, RenderbufferName, TextureName, consts as c, is_multisampled, texture_binding,
@@ -22,8 +23,8 @@ pub(super) struct Image {
     pub(super) array: Option<Array>,
     /// The program's own object is out of date.
     pub(super) stale: bool,
-    /// By view: the number of the last change of texture parameters that was copied from the program's texture.
-    parameter_changes: Vec<u64>,
+    /// Of the textures.
+    pub(super) parameters: Parameters,
 }
 
 /// The layers of an image.
@@ -38,14 +39,11 @@ pub(super) struct Array {
 /// The features of a context that decide how images are made.
 #[derive(Clone, Debug)]
 pub(super) struct ImageSupport {
-    /// The texture parameters that affect sampling.
-    parameters: Vec<u32>,
+    parameters: ParameterNames,
     /// A layer of an array can be a texture of its own (glTextureView).
     pub(super) arrays: bool,
     /// The driver tells the target of a texture.
     pub(super) targets: bool,
-    /// Textures have border colours.
-    borders: bool,
 }
 
 /// Texture targets.
@@ -60,30 +58,6 @@ pub(super) const TARGETS: [u32; 9] = [
     c::TEXTURE_2D_MULTISAMPLE_ARRAY,
     c::TEXTURE_CUBE_MAP_ARRAY,
 ];
-
-/// The texture parameters that affect sampling and exist in every context.
-const PARAMETERS: [u32; 11] = [
-    c::TEXTURE_MIN_FILTER,
-    c::TEXTURE_MAG_FILTER,
-    c::TEXTURE_WRAP_S,
-    c::TEXTURE_WRAP_T,
-    c::TEXTURE_WRAP_R,
-    c::TEXTURE_BASE_LEVEL,
-    c::TEXTURE_MAX_LEVEL,
-    c::TEXTURE_MIN_LOD,
-    c::TEXTURE_MAX_LOD,
-    c::TEXTURE_COMPARE_MODE,
-    c::TEXTURE_COMPARE_FUNC,
-];
-/// Further parameters of OpenGL 3.3 and OpenGL ES 3.0.
-const SWIZZLES: [u32; 4] = [
-    c::TEXTURE_SWIZZLE_R,
-    c::TEXTURE_SWIZZLE_G,
-    c::TEXTURE_SWIZZLE_B,
-    c::TEXTURE_SWIZZLE_A,
-];
-/// Further parameters of contexts with fixed function.
-const OLD: [u32; 2] = [c::GENERATE_MIPMAP, c::DEPTH_TEXTURE_MODE];
 
 /// The name of the binding of one of [`TARGETS`].
 pub(super) fn binding(target: u32) -> Option<u32> {
@@ -153,7 +127,7 @@ impl Image {
     fn new(target: u32, views: Vec<Object>, array: Option<Array>) -> Image {
         Image {
             target,
-            parameter_changes: vec![u64::MAX; views.len()],
+            parameters: Parameters::new(views.len()),
             views,
             array,
             stale: false,
@@ -202,26 +176,18 @@ impl Image {
     }
 
     /// Binds a view's texture at the active unit, in place of the program's own or another view's.
-    /// `changes`: number of changes of texture parameters so far.
     pub(super) fn bind(
         &mut self,
         gl: &Gl,
         support: &ImageSupport,
-        changes: u64,
         (own, view): (TextureName, ViewIndex),
     ) {
-        let at = view.0 as usize;
-        let (Some(&Object::Texture(name)), Some(copied)) =
-            (self.views.get(at), self.parameter_changes.get_mut(at))
-        else {
+        let Some(&Object::Texture(name)) = self.views.get(view.0 as usize) else {
             return;
         };
-        if name != own && *copied != changes && !is_multisampled(self.target) {
-            gl.bind_texture(self.target, own);
-            let (values, border) = support.parameters(gl, self.target);
-            gl.bind_texture(self.target, name);
-            support.set_parameters(gl, self.target, &values, &border);
-            *copied = changes;
+        if name != own && !is_multisampled(self.target) {
+            let (names, target) = (&support.parameters, self.target);
+            self.parameters.give(gl, names, target, (own, view), name);
         }
         gl.bind_texture(self.target, name);
     }
@@ -230,48 +196,12 @@ impl Image {
 impl ImageSupport {
     /// Asks the current context; `compatibility`: it has fixed function.
     pub(super) fn of(gl: &Gl, compatibility: bool) -> ImageSupport {
-        let mut parameters = PARAMETERS.to_vec();
-        if gl.since((3, 3), Some((3, 0))) {
-            parameters.extend(SWIZZLES);
-        }
-        if compatibility {
-            parameters.extend(OLD);
-        }
-        if gl.since((1, 4), None) {
-            parameters.push(c::TEXTURE_LOD_BIAS);
-        }
-        if gl.since((4, 3), Some((3, 1))) {
-            parameters.push(c::DEPTH_STENCIL_TEXTURE_MODE);
-        }
-        if gl.has_extension("GL_EXT_texture_filter_anisotropic") || gl.since((4, 6), None) {
-            parameters.push(c::TEXTURE_MAX_ANISOTROPY);
-        }
         ImageSupport {
-            parameters,
+            parameters: ParameterNames::of(gl, compatibility),
             // On OpenGL ES the layer draws to one layer at a time, so an array has no use.
             arrays: gl.since((4, 3), None),
             // Mesa tells them in core profiles alone.
             targets: gl.since((4, 5), None) && !compatibility,
-            borders: gl.since((1, 0), Some((3, 2))),
-        }
-    }
-
-    fn parameters(&self, gl: &Gl, target: u32) -> (Vec<f32>, [f32; 4]) {
-        let all = self.parameters.iter();
-        let values = all.map(|&p| gl.tex_parameter_floats(target, p)[0]);
-        let border = match self.borders {
-            true => gl.tex_parameter_floats(target, c::TEXTURE_BORDER_COLOR),
-            false => [0.0; 4],
-        };
-        (values.collect(), border)
-    }
-
-    fn set_parameters(&self, gl: &Gl, target: u32, values: &[f32], border: &[f32; 4]) {
-        for (&name, &value) in self.parameters.iter().zip(values) {
-            gl.tex_parameterf(target, name, value);
-        }
-        if self.borders {
-            gl.set_border_color(target, border);
         }
     }
 

@@ -1,6 +1,8 @@
 //! The split images of a share group. Its contexts share textures and renderbuffers, but not framebuffers.
 
 use super::image::{Image, ImageSupport};
+#[cfg(doc)]
+use super::parameters::Parameters;
 use crate::atlas::{Names, Tiles};
 use crate::gl::{Gl, Object, TextureName};
 use crate::view::ViewIndex;
@@ -16,8 +18,6 @@ pub struct Images {
     targets: HashMap<TextureName, u32>,
     /// Number of changes of attachments, draw buffers and images.
     pub(super) changes: u64,
-    /// Number of changes of texture parameters.
-    pub(super) parameter_changes: u64,
 }
 
 impl Images {
@@ -126,9 +126,23 @@ impl Images {
         texture: TextureName,
         view: ViewIndex,
     ) {
-        let parameter_changes = self.parameter_changes;
         if let Some(image) = self.all.get_mut(&Object::Texture(texture)) {
-            image.bind(gl, support, parameter_changes, (texture, view));
+            image.bind(gl, support, (texture, view));
+        }
+    }
+
+    /// The program sets a parameter of a texture, or of some texture; `set` as for [`Parameters::change`].
+    pub(super) fn parameter(&mut self, texture: Option<TextureName>, set: Option<(u32, f32)>) {
+        match texture {
+            Some(texture) => {
+                if let Some(image) = self.all.get_mut(&Object::Texture(texture)) {
+                    image.parameters.change(set);
+                }
+            }
+            None => self
+                .all
+                .values_mut()
+                .for_each(|image| image.parameters.change(None)),
         }
     }
 

@@ -10,6 +10,7 @@
 mod fill;
 mod image;
 mod images;
+mod parameters;
 mod target;
 #[cfg(test)]
 mod tests;
@@ -104,9 +105,9 @@ impl Offscreen {
         self.images().changes
     }
 
-    /// Takes note that a parameter of some texture has changed.
-    pub fn parameters_changed(&mut self) {
-        self.images().parameter_changes += 1;
+    /// The program sets a parameter of a texture, or of some texture; `set` is its name and value, if it is a single number.
+    pub fn parameter(&mut self, texture: Option<TextureName>, set: Option<(u32, f32)>) {
+        self.images().parameter(texture, set);
     }
 
     /// Takes note that attachments or draw buffers of some framebuffer have changed.

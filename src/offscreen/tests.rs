@@ -222,9 +222,32 @@ fn a_views_texture_is_bound_for_its_draw() {
     stage.fake.forget();
     stage.offscreen.bind(&gl, &bound, ViewIndex(3));
     assert_eq!(stage.fake.count("glTexParameter*"), 0);
-    stage.offscreen.parameters_changed();
+    // The same value again is no change, nor is a parameter of another texture.
+    let filter = |value: u32| Some((c::TEXTURE_MIN_FILTER, value as f32));
+    let nearest = filter(c::NEAREST);
+    stage.offscreen.parameter(Some(texture), filter(c::LINEAR));
+    stage.offscreen.parameter(Some(TextureName(999)), nearest);
     stage.offscreen.bind(&gl, &bound, ViewIndex(3));
-    assert!(stage.fake.count("glTexParameter*") > 0);
+    assert_eq!(stage.fake.count("glTexParameter*"), 0);
+    for (of, set) in [
+        (Some(texture), nearest),
+        (Some(texture), None),
+        (None, None),
+    ] {
+        stage.fake.forget();
+        stage.offscreen.parameter(of, set);
+        for view in [2, 3] {
+            stage.offscreen.bind(&gl, &bound, ViewIndex(view));
+        }
+        let asked = stage.fake.count("glGetTexParameter*");
+        assert!(asked > 0, "{set:?}");
+        stage.offscreen.bind(&gl, &bound, ViewIndex(1));
+        assert_eq!(
+            stage.fake.count("glGetTexParameter*"),
+            asked,
+            "asked once for all views"
+        );
+    }
     stage.offscreen.unbind(&gl, &bound);
     stage.fake.assert_restored(&before);
 }

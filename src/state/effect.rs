@@ -34,8 +34,10 @@ impl Effect {
     pub const MATERIAL: Effect = Effect(256);
     /// Generic attribute; attribute 0 emits a vertex.
     pub const ATTRIB: Effect = Effect(512);
-    /// Array elements, evaluators: may set anything and emits a vertex.
+    /// Evaluators and calls of lists: may set anything and emits a vertex.
     pub const UNKNOWN: Effect = Effect(1024);
+    /// An array element: sets the values of all arrays that are on, the same ones for each element, then emits a vertex.
+    pub const ELEMENT: Effect = Effect(4096);
     /// Nothing.
     pub const NONE: Effect = Effect(0);
     /// Everything.
@@ -56,14 +58,20 @@ pub struct Immediate {
     before_vertex: u32,
     after_vertex: u32,
     vertex_seen: bool,
+    /// Some vertex was given by a call of its own.
+    own_vertex: bool,
+    /// Some vertex was an array element.
+    elements: bool,
 }
 
 impl Immediate {
     /// Notes one call.
     #[inline]
     pub fn note(&mut self, e: Effect) {
-        if e == Effect::VERTEX {
+        if e == Effect::VERTEX || e == Effect::ELEMENT {
             self.vertex_seen = true;
+            self.own_vertex |= e == Effect::VERTEX;
+            self.elements |= e == Effect::ELEMENT;
             return;
         }
         if self.vertex_seen {
@@ -80,12 +88,16 @@ impl Immediate {
 
     /// Whether a material changes between glBegin and glEnd, or may change by a call whose effect is unknown.
     pub fn changes_material(&self) -> bool {
-        (self.before_vertex | self.after_vertex) & (Effect::MATERIAL.0 | Effect::UNKNOWN.0) != 0
+        self.sets().has(Effect::MATERIAL | Effect::UNKNOWN)
     }
 
     /// Everything that the calls set.
     pub fn sets(&self) -> Effect {
-        Effect(self.before_vertex | self.after_vertex)
+        let elements = match self.elements {
+            true => Effect::UNKNOWN,
+            false => Effect::NONE,
+        };
+        Effect(self.before_vertex | self.after_vertex) | elements
     }
 
     /// The current values that must be restored before the calls are sent again; [`Effect::NONE`] if none must be.
@@ -93,7 +105,12 @@ impl Immediate {
         // Texture coordinates of several units and materials of two faces share a bit, so one that was set before the first vertex does
         // not mean that all were.
         let shared = Effect::MULTITEX.0 | Effect::MATERIAL.0;
-        Effect(self.after_vertex & (!self.before_vertex | shared))
+        let restore = Effect(self.after_vertex & (!self.before_vertex | shared));
+        // Elements alone give each vertex its values from the arrays. Other vertices among them may use what an element has left.
+        match self.elements && self.own_vertex {
+            true => restore | Effect::UNKNOWN,
+            false => restore,
+        }
     }
 }
 
@@ -124,6 +141,12 @@ mod tests {
         ]));
         assert!(!run(&[Effect::VERTEX, Effect::VERTEX]));
         assert!(run(&[Effect::UNKNOWN]), "an evaluator may set anything");
+        let [element, vertex] = [Effect::ELEMENT, Effect::VERTEX];
+        assert!(!run(&[element, element]), "arrays give all their values");
+        assert!(run(&[element, Effect::COLOR, element]));
+        for mixed in [[element, vertex], [vertex, element]] {
+            assert!(run(&mixed), "a vertex may use what an element has left");
+        }
         assert!(
             run(&[Effect::MULTITEX, Effect::VERTEX, Effect::MULTITEX]),
             "it may be another unit"

@@ -447,6 +447,11 @@ impl Compiling {
         self.closed.push(segment);
     }
 
+    /// The bits of the last glPushAttrib of the open run that is not popped yet.
+    pub fn pushed(&self) -> Option<u32> {
+        self.open.pushes.last().copied()
+    }
+
     /// Whether the program wants the commands executed as well (GL_COMPILE_AND_EXECUTE).
     pub fn executes(&self) -> bool {
         self.mode == c::COMPILE_AND_EXECUTE

@@ -40,7 +40,7 @@ fn zero(c: &Command) -> &'static str {
 /// `src/gl/table.rs`: slots, names, one method per command, the replay of recorded immediate mode.
 pub fn table(commands: &[Command]) -> String {
     let mut o = String::from(HEAD);
-    o.push_str("use super::immediate::Reader;\nuse super::real::{Ptr, Real};\nuse core::ffi::{CStr, c_ulong};\n\n");
+    o.push_str("use super::immediate::{Reader, Sets};\nuse super::real::{Ptr, Real};\nuse super::shadow::Shadow;\nuse core::ffi::{CStr, c_ulong};\n\n");
     writeln!(
         o,
         "/// Number of commands in the table.\npub const COUNT: usize = {};\n",
@@ -80,28 +80,82 @@ pub fn table(commands: &[Command]) -> String {
         .filter(|c| c.class == "imm" || c.name == "glCallList")
     {
         let list: Vec<String> = c.params.iter().map(|p| p.name.clone()).collect();
-        let lets: String = c
-            .params
-            .iter()
-            .map(|p| {
-                if p.ty == "Ptr" {
-                    format!("let {} = reader.slice(); ", p.name)
-                } else {
-                    format!("let {} = reader.{}(); ", p.name, p.ty)
-                }
-            })
-            .collect();
-        writeln!(
-            o,
-            "            slot::{} => {{ {lets}real.{}({}) }}",
-            c.name,
-            c.name,
-            list.join(", ")
-        )
-        .unwrap();
+        let lets: String = c.params.iter().map(read).collect();
+        // Of current values, only the last call of each is noted.
+        let call = match is_current(c) {
+            true => format!("unnoted!(real, slot::{}, {})", c.name, args(c)),
+            false => format!("real.{}({})", c.name, list.join(", ")),
+        };
+        writeln!(o, "            slot::{} => {{ {lets}{call} }}", c.name).unwrap();
     }
     o.push_str("            _ => return false,\n        }\n    }\n    true\n}\n");
+    o.push_str(&notes_of_recorded(commands));
     o
+}
+
+/// Whether a command of immediate mode sets current values that the shadow keeps.
+fn is_current(c: &Command) -> bool {
+    c.class == "imm" && !c.note.is_empty() && effect(&c.base) != "MATERIAL"
+}
+
+/// Which current value a recorded call sets, and how the shadow gets to know of it.
+fn notes_of_recorded(commands: &[Command]) -> String {
+    let mut o = String::from(
+        "\n/// Which current value a recorded call sets.\n#[inline]\npub(super) const fn sets(slot: usize) -> Sets {\n    match slot {\n",
+    );
+    let of = |c: &Command| match effect(&c.base) {
+        _ if c.name == "glCallList" => "Any",
+        "MATERIAL" | "VERTEX" | "ATTRIB" | "INDEX" => "Nothing",
+        "COLOR" => "Value(0)",
+        "NORMAL" => "Value(1)",
+        "SECONDARY" => "Value(2)",
+        "FOG" => "Value(3)",
+        "EDGE" => "Value(4)",
+        "TEXCOORD" => "Value(5)",
+        "MULTITEX" => "Unit",
+        _ if c.note == "any_current" => "Any",
+        _ => "Nothing",
+    };
+    let recorded = |c: &Command| c.class == "imm" || c.name == "glCallList";
+    let kinds: Vec<&str> = commands
+        .iter()
+        .map(|c| if recorded(c) { of(c) } else { "Nothing" })
+        .collect();
+    let mut at = 0;
+    for run in kinds.chunk_by(|a, b| a == b) {
+        let (first, last) = (&commands[at].name, &commands[at + run.len() - 1].name);
+        at += run.len();
+        if run[0] != "Nothing" {
+            writeln!(
+                o,
+                "        slot::{first}..=slot::{last} => Sets::{},",
+                run[0]
+            )
+            .unwrap();
+        }
+    }
+    o.push_str("        _ => Sets::Nothing,\n    }\n}\n\n/// Notes one recorded call that sets a current value.\n///\n/// # Safety\n/// As for [`replay_one`].\n");
+    o.push_str("pub(super) unsafe fn note_one(shadow: &mut Shadow, slot: usize, reader: &mut Reader<'_>) {\n    // SAFETY: see above.\n    unsafe {\n        match slot {\n");
+    for c in commands.iter().filter(|c| is_current(c)) {
+        let call = match c.note.as_str() {
+            "itself" => {
+                let lets: String = c.params.iter().map(read).collect();
+                format!("{{ {lets}shadow.{}({}) }}", c.base, names(c))
+            }
+            other => format!("shadow.{other}(),"),
+        };
+        writeln!(o, "            slot::{} => {call}", c.name).unwrap();
+    }
+    o.push_str("            _ => {}\n        }\n    }\n}\n");
+    o
+}
+
+/// Reads an argument of a recorded call.
+fn read(p: &Param) -> String {
+    match p.ty.as_str() {
+        "Ptr" => format!("let {} = reader.slice(); ", p.name),
+        ty => format!("let {} = reader.{ty}(); ", p.name),
+    }
 }
 
 fn element(p: &Param) -> &'static str {
@@ -152,6 +206,10 @@ fn record(c: &Command) -> String {
 /// The effect of a recorded call on the current values (see `manyview::state::Immediate`).
 fn effect(name: &str) -> &'static str {
     let n = name.strip_prefix("gl").unwrap_or(name);
+    // They may be the colour, the normal and so on (NV_vertex_program).
+    if n.starts_with("VertexAttrib") && n.ends_with("NV") && !n.contains('h') {
+        return "UNKNOWN";
+    }
     let table = [
         ("VertexAttrib", "ATTRIB"),
         ("VertexP", "VERTEX"),
@@ -167,7 +225,7 @@ fn effect(name: &str) -> &'static str {
         ("Index", "INDEX"),
         ("Material", "MATERIAL"),
         ("Eval", "UNKNOWN"),
-        ("ArrayElement", "UNKNOWN"),
+        ("ArrayElement", "ELEMENT"),
     ];
     table
         .iter()
@@ -294,13 +352,21 @@ pub fn entry(commands: &[Command]) -> String {
             "matrix" | "cap" | "list_only" | "before_uncompiled" | "uniform" | "texture" | "texture_now" | "texture_parameter" | "divide" | "images" | "write_back" | "storage" | "named" | "attached" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
-                    "list_only" | "before_uncompiled" | "uniform" | "texture_parameter" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
+                    "list_only" | "before_uncompiled" | "uniform" | "divide" | "write_back" | "storage" | "attached" => format!("{class}()"),
                     "images" => match c.params.iter().any(|p| p.name == "count") {
                         true => format!("images({}, count)", c.params[0].name),
                         false => format!("images({}, 1)", c.params[0].name),
                     },
                     "texture" => format!("texture({})", texture_at(arg)),
                     "texture_now" => "texture_now(target)".into(),
+                    "texture_parameter" => {
+                        let value = c.params.last().expect("a value");
+                        let set = match value.ty.as_str() {
+                            "Ptr" => "None".to_owned(),
+                            _ => format!("Some((pname, {} as f32))", value.name),
+                        };
+                        format!("texture_parameter({}, {set})", texture_at(arg))
+                    }
                     "named" => format!("named(Object::{arg}({arg}Name({})))", c.params[0].name),
                     _ => {
                         let hook = if c.params.len() > 1 { "cap_indexed" } else { "cap" };

@@ -416,7 +416,7 @@ fn several_viewports_are_in_each_tile_and_come_back() {
 fn attributes_are_pushed_where_their_changes_are_not_known() {
     for (effect, pushes, asks) in [
         (Effect::UNKNOWN, true, true),
-        (Effect::ATTRIB, true, true),
+        (Effect::ATTRIB, true, false),
         (Effect::COLOR, false, true),
         (Effect::NORMAL, false, false),
     ] {
@@ -425,6 +425,8 @@ fn attributes_are_pushed_where_their_changes_are_not_known() {
         let pushed = stage.fake.count("glPushAttrib");
         assert_eq!(pushed, if pushes { 3 } else { 0 }, "{effect:?}");
         assert_eq!(stage.fake.count("glPopAttrib"), pushed);
+        let flushed = stage.fake.count("glCallList");
+        assert_eq!(flushed, usize::from(pushes), "before the first push");
         let asked = stage.fake.asked();
         let colour = asked.iter().any(|(what, _)| what.contains("CURRENT_COLOR"));
         assert_eq!(colour, asks, "{effect:?}: {asked:?}");

@@ -1,5 +1,6 @@
 //! What commands do to the state.
 
+use super::super::api::NO_LIST;
 use super::limits::{self, BUFFERS, TEXTURES, more as m};
 use super::memory::{Kind, address, read};
 use super::{Arg, Call, Drawn, Driver, Scope, Snapshot, model};
@@ -173,7 +174,11 @@ fn is_attribute(key: model::Key, mask: u32) -> bool {
 }
 
 /// Whether a command makes pixels.
-fn draws(name: &str) -> bool {
+fn draws(call: &Call) -> bool {
+    let name = call.name;
+    if name == "glCallList" && call.int(0) == i64::from(NO_LIST) {
+        return false;
+    }
     let draws = name.starts_with("glDraw") && !name.starts_with("glDrawBuffer");
     let others = [
         "glClear",
@@ -193,7 +198,7 @@ impl Driver {
     /// Records a command, does what it does to the state, and answers it.
     pub(super) fn execute(&mut self, mut call: Call) -> i64 {
         let answer = self.answer(&mut call);
-        if draws(call.name) {
+        if draws(&call) {
             let state = self.snapshot();
             let call = call.clone();
             self.draws.push(Drawn { call, state });

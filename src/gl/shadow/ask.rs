@@ -78,6 +78,15 @@ pub(in crate::gl) fn value(name: u32, form: Form, ask: impl Fn() -> [u32; 4]) ->
             },
         );
     }
+    if name == c::LIST_INDEX && form == Form::Integers {
+        let list = |s: &mut Shadow| s.compiling.as_ref().map_or(0, |list| list.list);
+        return asked(
+            &"list that is compiled",
+            |s| Some([list(s), 0, 0, 0]),
+            ask,
+            |_, _| (),
+        );
+    }
     if name == c::ATTRIB_STACK_DEPTH && form == Form::Integers {
         return asked(
             &"depth of the attribute stack",
@@ -97,7 +106,15 @@ pub(in crate::gl) fn value(name: u32, form: Form, ask: impl Fn() -> [u32; 4]) ->
             },
         );
     }
+    let ask = || {
+        let mut answer = ask();
+        answer[key::kept_of(name)..].fill(0);
+        answer
+    };
+    // Drivers execute the vertices of a list that is compiled later.
+    let compiling = || with(|s| s.compiling.is_some()) == Some(true);
     match key::kept(name) {
+        Some(_) if key::is_current(name) && compiling() => ask(),
         Some((Kept::Constant, kept)) if kept == form => asked(
             &name,
             |s| s.constants.get(&name).copied(),
@@ -116,6 +133,13 @@ pub(in crate::gl) fn value(name: u32, form: Form, ask: impl Fn() -> [u32; 4]) ->
         ),
         _ => ask(),
     }
+}
+
+/// GL_CURRENT_TEXTURE_COORDS of a unit, counted from 0.
+pub(in crate::gl) fn coordinates(unit: u32, ask: impl Fn() -> [u32; 4]) -> [u32; 4] {
+    let key = Key::Unit(c::CURRENT_TEXTURE_COORDS, unit);
+    // Drivers execute the vertices of a list that is compiled later.
+    by_key(|s| s.compiling.is_none().then_some(key), ask)
 }
 
 /// A matrix of glGet: what is known, or what `ask` answers.

@@ -49,11 +49,63 @@ pub(super) enum Change {
     ForgetAll,
 }
 
+/// What a display list may do, with the lists that it calls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Summary {
+    /// The current values that it may set, by [`key::current_bit`].
+    pub(super) currents: u32,
+    /// It may set the material, or a colour that the material follows.
+    pub(super) material: bool,
+    /// It may begin a primitive that it does not end.
+    pub(super) open: bool,
+}
+
+impl Summary {
+    /// Of a list of which nothing is known.
+    pub(super) const ANYTHING: Summary = Summary {
+        currents: u32::MAX,
+        material: true,
+        open: true,
+    };
+
+    /// Of these changes. `called` tells of lists that they call.
+    pub(super) fn of(changes: &[Change], called: impl Fn(&Change) -> Summary) -> Summary {
+        let mut all = Summary::default();
+        for change in changes {
+            match change {
+                Change::Put(key, _) => {
+                    let bit = key::current_bit(*key).map_or(0, |bit| 1 << bit);
+                    all.currents |= bit;
+                    all.material |= matches!(key, Key::Material(..)) || bit == key::COLOR_BIT;
+                }
+                Change::Begin(_) => all.open = true,
+                Change::End => all.open = false,
+                Change::Enable(..) | Change::ColorMaterial(_) | Change::PopAttrib => {
+                    all.material = true;
+                }
+                Change::CallList(_) | Change::CallLists(_) | Change::ForgetAll => {
+                    let called = called(change);
+                    all.currents |= called.currents;
+                    all.material |= called.material;
+                    all.open |= called.open;
+                }
+                _ => {}
+            }
+        }
+        all
+    }
+}
+
 impl Compiling {
     /// Notes a change. One of a value that was changed just before takes the place of that: lists may give each vertex a material.
     fn note(&mut self, change: &Change) {
         if matches!(change, Change::End) && self.leave_out_begin() {
             return;
+        }
+        if let Change::Put(key, _) = change
+            && let Some(bit) = key::current_bit(*key)
+        {
+            return self.note_current(*key, bit);
         }
         if let Change::Put(key, _) = change {
             let before = self.changes.iter_mut().rev().take(LATELY);
@@ -73,16 +125,31 @@ impl Compiling {
         }
     }
 
-    /// Leaves out a primitive that changes nothing but the material, which may be set outside as well.
+    /// Notes a current value, once. What it is after the list, only the driver knows: Mesa 22.3 sets some again, later.
+    fn note_current(&mut self, key: Key, bit: u32) {
+        if self.currents & 1 << bit == 0 {
+            self.currents |= 1 << bit;
+            self.changes.push(Change::Put(key, None));
+        }
+    }
+
+    /// Leaves out a primitive that changes nothing but the material and current values, which may be set outside as well.
     fn leave_out_begin(&mut self) -> bool {
-        let outside = |change: &Change| !matches!(change, Change::Put(Key::Material(..), _));
+        let outside = |change: &Change| match change {
+            Change::Put(Key::Material(..), _) => false,
+            Change::Put(key, _) => key::current_bit(*key).is_none(),
+            _ => true,
+        };
         let last = self.changes.iter().rposition(outside);
         let begin = last.filter(|&at| matches!(self.changes[at], Change::Begin(_)));
         let Some(begin) = begin else {
             return false;
         };
         let within: Vec<Change> = self.changes.drain(begin..).skip(1).collect();
+        // The current values are noted already.
+        let noted = std::mem::take(&mut self.currents);
         within.iter().for_each(|change| self.note(change));
+        self.currents |= noted;
         true
     }
 }
@@ -119,18 +186,47 @@ impl Shadow {
             list,
             executes,
             changes: Vec::new(),
+            currents: 0,
         });
     }
 
     pub(super) fn end_list(&mut self) {
+        let Some(list) = &self.compiling else { return };
+        let summary = Summary::of(&list.changes, |change| self.summary_of(change));
         // The driver refuses it between a glBegin and a glEnd of the list.
-        if self.compiling.is_none() || self.integer(c::LIST_INDEX) != 0 {
+        if summary.open && self.integer(c::LIST_INDEX) != 0 {
             return;
         }
         if let Some(list) = self.compiling.take() {
-            self.lists.compiled(list.list, list.changes);
+            self.lists.compiled(list.list, list.changes, summary);
+            if list.executes {
+                self.forget_executed(summary);
+            }
+        }
+    }
+
+    /// What the lists that a change calls may do.
+    fn summary_of(&self, change: &Change) -> Summary {
+        match *change {
+            Change::CallList(list) => self.lists.summary(list),
+            Change::CallLists(ref names) => {
+                let Some([base, ..]) = self.values.known(Key::Value(c::LIST_BASE)) else {
+                    return Summary::ANYTHING;
+                };
+                let of = |&name: &u32| Change::CallList(name.wrapping_add(base));
+                let all: Vec<Change> = names.iter().map(of).collect();
+                Summary::of(&all, |change| self.summary_of(change))
+            }
+            _ => Summary::ANYTHING,
+        }
+    }
+
+    /// After a list that was executed while it was compiled: drivers execute its vertices at the end, or later.
+    fn forget_executed(&mut self, summary: Summary) {
+        if summary.material {
             self.forget_material();
         }
+        self.forget_currents(summary.currents);
     }
 
     fn apply(&mut self, change: &Change, depth: usize) {
@@ -212,6 +308,7 @@ impl Shadow {
     fn apply_inside(&mut self, change: &Change, depth: usize) {
         match *change {
             Change::Put(key @ Key::Material(..), value) => self.put(key, value),
+            Change::Put(key, value) if key::current_bit(key).is_some() => self.put(key, value),
             Change::Put(key, _) | Change::Bind(key, _) => self.put(key, None),
             Change::Enable(cap, _) if !key::is_of_unit(cap) => self.put(Key::Cap(cap), None),
             Change::CallList(list) => self.call_list(list, depth),
@@ -234,22 +331,30 @@ impl Shadow {
                 None => self.forget_all(),
             };
         }
+        let before = self.values.known(Key::Cap(cap));
         self.put(Key::Cap(cap), value);
         if self.indexed && key::is_indexed(cap) {
             (0..16).for_each(|index| self.put(Key::CapAt(cap, index), value));
         }
-        if cap == c::COLOR_MATERIAL {
+        if cap == c::COLOR_MATERIAL && (on || before != value) {
             // The material has followed the colour, or does so now.
             self.forget_followers();
         }
     }
 
-    /// Forgets the parameters of the material that follow the colour while GL_COLOR_MATERIAL is on.
+    /// Forgets the parameters of the material that follow the colour while GL_COLOR_MATERIAL is on. Only the driver knows them: Mesa 22.3 lets
+    /// them follow late.
     pub(super) fn forget_followers(&mut self) {
-        let parameter = self.values.known(Key::Value(c::COLOR_MATERIAL_PARAMETER));
+        let name = c::COLOR_MATERIAL_PARAMETER;
+        let known = self.values.known(Key::Value(name));
+        let [parameter, ..] = known.unwrap_or_else(|| {
+            let value = [self.integer(name), 0, 0, 0];
+            self.answered(Key::Value(name), value);
+            value
+        });
         for face in [c::FRONT, c::BACK] {
             for name in COLOURS {
-                if parameter.is_none_or(|[parameter, ..]| key::drives(parameter, name)) {
+                if key::drives(parameter, name) {
                     self.put(Key::Material(face, name), None);
                 }
             }

@@ -48,6 +48,50 @@ pub(super) enum Kept {
     Unit,
 }
 
+/// Texture units whose coordinates are kept. Mesa takes those of further units for them.
+pub(super) const UNITS: u32 = 8;
+
+pub(super) const COLOR: Key = Key::Value(c::CURRENT_COLOR);
+pub(super) const NORMAL: Key = Key::Value(c::CURRENT_NORMAL);
+pub(super) const SECONDARY: Key = Key::Value(c::CURRENT_SECONDARY_COLOR);
+pub(super) const FOG: Key = Key::Value(c::CURRENT_FOG_COORD);
+pub(super) const EDGE: Key = Key::Value(c::EDGE_FLAG);
+
+/// The current coordinates of a texture unit, counted from 0.
+pub(super) const fn coordinates(unit: u32) -> Key {
+    Key::Unit(c::CURRENT_TEXTURE_COORDS, unit)
+}
+
+/// The colour, as a set of [`current_bit`]s.
+pub(super) const COLOR_BIT: u32 = 1;
+
+/// The bit of a current value in a set of them; none for a key of other state.
+pub(super) fn current_bit(key: Key) -> Option<u32> {
+    Some(match key {
+        COLOR => 0,
+        NORMAL => 1,
+        SECONDARY => 2,
+        FOG => 3,
+        EDGE => 4,
+        Key::Unit(c::CURRENT_TEXTURE_COORDS, unit) if unit < UNITS => 5 + unit,
+        _ => return None,
+    })
+}
+
+/// Whether glGet answers a current value to this name.
+pub(super) fn is_current(name: u32) -> bool {
+    name == c::CURRENT_TEXTURE_COORDS || current_bit(Key::Value(name)).is_some()
+}
+
+/// How many of the values that a name has are kept: the alpha of a secondary colour is set by no command.
+pub(super) fn kept_of(name: u32) -> usize {
+    match name {
+        c::CURRENT_NORMAL | c::CURRENT_SECONDARY_COLOR => 3,
+        c::CURRENT_FOG_COORD => 1,
+        _ => 4,
+    }
+}
+
 /// Bits of glPushAttrib that the constants of the layer lack.
 pub(super) mod bits {
     pub(in super::super) const POINT: u32 = 0x2;
@@ -103,7 +147,8 @@ pub(super) fn kept(name: u32) -> Option<(Kept, Form)> {
         | c::FOG_DISTANCE_MODE_NV
         | c::QUADS_FOLLOW_PROVOKING_VERTEX_CONVENTION
         | c::CULL_FACE_MODE
-        | c::FRONT_FACE => (Kept::Value, Integers),
+        | c::FRONT_FACE
+        | c::EDGE_FLAG => (Kept::Value, Integers),
         _ if is_pixel_store(name) || is_buffer(name) => (Kept::Value, Integers),
         c::DEPTH_RANGE
         | c::DEPTH_CLEAR_VALUE
@@ -112,7 +157,12 @@ pub(super) fn kept(name: u32) -> Option<(Kept, Form)> {
         | c::POINT_SIZE_MIN
         | c::POINT_FADE_THRESHOLD_SIZE
         | c::POINT_DISTANCE_ATTENUATION
-        | c::ACCUM_CLEAR_VALUE => (Kept::Value, Floats),
+        | c::ACCUM_CLEAR_VALUE
+        | c::CURRENT_COLOR
+        | c::CURRENT_NORMAL
+        | c::CURRENT_SECONDARY_COLOR
+        | c::CURRENT_FOG_COORD => (Kept::Value, Floats),
+        c::CURRENT_TEXTURE_COORDS => (Kept::Unit, Floats),
         c::SAMPLER_BINDING => (Kept::Unit, Integers),
         _ if is_texture_binding(name) => (Kept::Unit, Integers),
         _ => return None,
@@ -176,7 +226,7 @@ impl Key {
                 name @ (c::CURRENT_PROGRAM | c::PROGRAM_PIPELINE_BINDING | c::VERTEX_ARRAY_BINDING),
             ) => Some(name),
             Key::Value(name) if is_buffer(name) => Some(name),
-            Key::Unit(name, _) => Some(name),
+            Key::Unit(name, _) if name != c::CURRENT_TEXTURE_COORDS => Some(name),
             _ => None,
         }
     }
@@ -197,6 +247,8 @@ impl Key {
     pub(super) fn saved_with(self) -> (u32, u32) {
         const LIGHTING: u32 = c::LIGHTING_BIT;
         match self {
+            // Mesa 22.3 does not restore all of them.
+            _ if current_bit(self).is_some() => (0, c::CURRENT_BIT),
             Key::Value(name) => match name {
                 c::VIEWPORT | c::DEPTH_RANGE => (bits::VIEWPORT, 0),
                 c::SCISSOR_BOX => (bits::SCISSOR, 0),

@@ -9,6 +9,7 @@ mod arrays;
 mod ask;
 mod change;
 mod commands;
+mod current;
 mod fixed_function;
 mod key;
 mod lists;
@@ -23,11 +24,11 @@ mod values;
 use super::consts as c;
 use super::real::Real;
 pub(super) use ask::{
-    attributes, block_bindings, has_extension, is_enabled, is_enabled_at, is_uniform_unchanged,
-    keep_uniform, light, material, matrix, storage_bindings, tex_env, tex_gen, uniform,
-    uniform_changes, value, value_at,
+    attributes, block_bindings, coordinates, has_extension, is_enabled, is_enabled_at,
+    is_uniform_unchanged, keep_uniform, light, material, matrix, storage_bindings, tex_env,
+    tex_gen, uniform, uniform_changes, value, value_at,
 };
-use change::Change;
+use change::{Change, Summary};
 use core::cell::{Cell, RefCell};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 pub(super) use key::Form;
@@ -67,6 +68,8 @@ struct Compiling {
     list: u32,
     executes: bool,
     changes: Vec<Change>,
+    /// The current values that it changes, by [`key::current_bit`].
+    currents: u32,
 }
 
 /// The state of one context, as far as it is known.
@@ -88,6 +91,7 @@ pub(super) struct Shadow {
     compiling: Option<Compiling>,
     lists: CompiledLists,
     uniforms: UniformValues,
+    bytes: current::Bytes,
     subroutines: Subroutines,
     /// Between glBegin and glEnd, where the driver refuses most calls.
     inside: bool,
@@ -128,6 +132,7 @@ impl ContextShadow {
             compiling: None,
             lists: shared.lists,
             uniforms: shared.uniforms,
+            bytes: current::Bytes::default(),
             subroutines: Subroutines::default(),
             inside: false,
             indexed: false,
@@ -163,7 +168,7 @@ pub fn no_shadow() {
 pub fn lists_of_bitmaps(first: u32, count: u32) {
     noted(|s| {
         for list in first..first.saturating_add(count) {
-            s.lists.compiled(list, Vec::new());
+            s.lists.compiled(list, Vec::new(), Summary::default());
         }
     });
 }
@@ -238,6 +243,7 @@ impl Shadow {
     /// The driver has answered. That is no change, so nothing is saved of it.
     fn answered(&mut self, key: Key, value: [u32; 4]) {
         self.values.entry(key).value = Some(value);
+        self.bytes.compare(key, value);
         if let Some(binding) = key.binding()
             && value[0] != 0
         {
@@ -261,6 +267,9 @@ impl Shadow {
             false => &mut self.attribs,
         };
         let entry = self.values.entry(key);
+        if value.is_some() && entry.value == value {
+            return;
+        }
         stack.save(key, entry);
         entry.value = value;
     }

@@ -6,7 +6,7 @@ use crate::gl::consts as c;
 use rustc_hash::FxHashMap;
 
 /// Values with places of their own.
-const PLACES: usize = 16;
+const PLACES: usize = 19;
 
 /// What is kept of all values.
 #[derive(Debug, Default)]
@@ -35,6 +35,9 @@ fn place(key: Key) -> Option<usize> {
         Key::Cap(c::COLOR_MATERIAL) => 13,
         Key::Unit(c::TEXTURE_BINDING_2D, 0) => 14,
         Key::UnitCap(c::TEXTURE_2D, 0) => 15,
+        Key::Value(c::CURRENT_COLOR) => 16,
+        Key::Value(c::CURRENT_NORMAL) => 17,
+        Key::Unit(c::CURRENT_TEXTURE_COORDS, 0) => 18,
         _ => return None,
     })
 }
@@ -57,6 +60,9 @@ const KEYS: [Key; PLACES] = [
     Key::Cap(c::COLOR_MATERIAL),
     Key::Unit(c::TEXTURE_BINDING_2D, 0),
     Key::UnitCap(c::TEXTURE_2D, 0),
+    Key::Value(c::CURRENT_COLOR),
+    Key::Value(c::CURRENT_NORMAL),
+    Key::Unit(c::CURRENT_TEXTURE_COORDS, 0),
 ];
 
 impl Store {

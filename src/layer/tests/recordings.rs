@@ -9,8 +9,8 @@ use crate::state::Effect;
 fn coloured(recordings: &mut Recordings) {
     recordings.start();
     for _ in 0..2 {
-        recordings.record(slot::glColor3f, Effect::COLOR);
-        recordings.record(slot::glVertex3f, Effect::VERTEX);
+        recordings.record(slot::glColor3f, Effect::COLOR, |_| {});
+        recordings.record(slot::glVertex3f, Effect::VERTEX, |_| {});
     }
 }
 
@@ -34,10 +34,10 @@ fn a_recording_has_the_calls_since_its_start() {
 fn a_value_that_changes_after_a_vertex_has_to_be_put_back() {
     let mut recordings = Recordings::default();
     recordings.start();
-    recordings.record(slot::glVertex3f, Effect::VERTEX);
-    recordings.record(slot::glNormal3f, Effect::NORMAL);
+    recordings.record(slot::glVertex3f, Effect::VERTEX, |_| {});
+    recordings.record(slot::glNormal3f, Effect::NORMAL, |_| {});
     assert_eq!(recordings.hazard(), ReplayHazard::Current(Effect::NORMAL));
-    recordings.record(slot::glMaterialfv, Effect::MATERIAL);
+    recordings.record(slot::glMaterialfv, Effect::MATERIAL, |_| {});
     assert!(recordings.changes_material());
     assert!(recordings.sets().has(Effect::NORMAL | Effect::MATERIAL));
 }
