@@ -105,10 +105,13 @@ impl Gl {
 
     /// glGetFloati_v, 4 values.
     pub fn get_floats_indexed(&self, name: u32, index: u32) -> [f32; 4] {
-        let mut v = [0f32; 4];
-        // SAFETY: room for 4 elements.
-        unsafe { self.real.glGetFloati_v(name, index, v.as_mut_ptr().cast()) };
-        v
+        let words = shadow::floats_at(name, index, || {
+            let mut v = [0u32; 4];
+            // SAFETY: room for 4 elements.
+            unsafe { self.real.glGetFloati_v(name, index, v.as_mut_ptr().cast()) };
+            v
+        });
+        words.map(f32::from_bits)
     }
 
     /// glGetLightfv, up to 4 values; of GL_POSITION, only w counts.

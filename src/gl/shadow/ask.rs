@@ -199,8 +199,16 @@ pub(in crate::gl) fn is_enabled_at(cap: u32, index: u32, ask: impl Fn() -> bool)
 
 /// The value that glGet has for a name and an index, as integers.
 pub(in crate::gl) fn value_at(name: u32, index: u32, ask: impl Fn() -> [u32; 4]) -> [u32; 4] {
-    let kept = name == c::COLOR_WRITEMASK;
-    by_key(|_| kept.then_some(Key::At(name, index)), ask)
+    let kept = |s: &mut Shadow| {
+        name == c::COLOR_WRITEMASK || name == c::SCISSOR_BOX && s.rectangles_by_index
+    };
+    by_key(|s| kept(s).then_some(Key::At(name, index)), ask)
+}
+
+/// The same as floats.
+pub(in crate::gl) fn floats_at(name: u32, index: u32, ask: impl Fn() -> [u32; 4]) -> [u32; 4] {
+    let kept = |s: &mut Shadow| name == c::VIEWPORT && s.rectangles_by_index;
+    by_key(|s| kept(s).then_some(Key::At(name, index)), ask)
 }
 
 /// glGetLight, of whose GL_POSITION only w counts.

@@ -234,7 +234,12 @@ impl Shadow {
             return self.apply_inside(change, depth);
         }
         match *change {
-            Change::Put(key, value) => self.put(key, value),
+            Change::Put(key, value) => {
+                self.put(key, value);
+                if self.rectangles_by_index && value.is_some() {
+                    self.spread(key, value);
+                }
+            }
             Change::PutUnit(key, name, value) => match self.unit() {
                 Some(unit) => self.put(key(name, unit), value),
                 None => self.forget_all(),

@@ -5,6 +5,7 @@ use super::Shadow;
 use super::change::Change;
 use super::key::Key;
 use super::matrices::Operation;
+use super::rectangles::INDICES;
 use super::values::{floats, one, read};
 use crate::gl::bindings::texture_binding;
 use crate::gl::consts as c;
@@ -83,6 +84,9 @@ impl Shadow {
         let within = [x, y].iter().all(|v| v.abs() <= 4096) && width.max(height) <= 8192;
         let value = within.then_some([x, y, width, height].map(|v| v as u32));
         self.change(Change::Put(Key::Value(c::VIEWPORT), value));
+        if value.is_none() {
+            (0..INDICES).for_each(|at| self.change(Change::Put(Key::At(c::VIEWPORT, at), None)));
+        }
     }
 
     pub(in crate::gl) unsafe fn glScissor(&mut self, x: i32, y: i32, width: i32, height: i32) {

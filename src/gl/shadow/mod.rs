@@ -15,6 +15,7 @@ mod key;
 mod lists;
 mod matrices;
 mod objects;
+mod rectangles;
 mod stack;
 mod store;
 mod subroutines;
@@ -24,7 +25,7 @@ mod values;
 use super::consts as c;
 use super::real::Real;
 pub(super) use ask::{
-    attributes, block_bindings, coordinates, has_extension, is_enabled, is_enabled_at,
+    attributes, block_bindings, coordinates, floats_at, has_extension, is_enabled, is_enabled_at,
     is_uniform_unchanged, keep_uniform, light, material, matrix, storage_bindings, tex_env,
     tex_gen, uniform, uniform_changes, value, value_at,
 };
@@ -97,6 +98,8 @@ pub(super) struct Shadow {
     inside: bool,
     /// Some capability was set by its index. Until then, none is kept by its index.
     indexed: bool,
+    /// Some viewport or scissor rectangle was set by its index. Until then, none is kept by its index.
+    rectangles_by_index: bool,
     /// Some attributes were given to binding points. From then on, only the driver knows which attributes advance by instances.
     binding_points: bool,
     /// While transform feedback is on, the driver may refuse other programs.
@@ -136,6 +139,7 @@ impl ContextShadow {
             subroutines: Subroutines::default(),
             inside: false,
             indexed: false,
+            rectangles_by_index: false,
             binding_points: false,
             feedback: false,
         };

@@ -16,18 +16,6 @@ impl Shadow {
         self.change(Change::ForgetMatrices);
     }
 
-    /// The command sets viewports, scissor rectangles or depths in a way that is not followed.
-    pub(in crate::gl) unsafe fn rectangles(&mut self) {
-        for name in [
-            c::VIEWPORT,
-            c::SCISSOR_BOX,
-            c::DEPTH_RANGE,
-            c::DEPTH_CLEAR_VALUE,
-        ] {
-            self.change(Change::Put(Key::Value(name), None));
-        }
-    }
-
     /// The command changes state in a way that is not followed.
     pub(in crate::gl) unsafe fn anything(&mut self) {
         self.change_now_or_later(Change::ForgetAll);

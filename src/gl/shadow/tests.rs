@@ -1,6 +1,7 @@
 //! What is kept of the state is what a driver has: random calls against a driver that answers as the specification says.
 
 mod current_values;
+mod rectangles;
 
 use super::key::{Key, bits};
 use super::*;
