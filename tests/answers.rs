@@ -390,6 +390,16 @@ fn textures_that_display_lists_write_show_what_was_written() {
 }
 
 #[test]
+fn textures_of_the_views_have_the_parameters_of_the_programs() {
+    for mode in ["filter", "pushed"] {
+        alike("unhooked", &[mode], 1);
+        for listed in ["list", "execute"] {
+            alike("unhooked", &[mode, listed], 1);
+        }
+    }
+}
+
+#[test]
 fn framebuffers_get_other_images_by_their_names() {
     for mode in ["attached", "renderbuffer", "named", "readbuffers"] {
         alike("unhooked", &[mode], 1);

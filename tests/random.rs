@@ -295,6 +295,13 @@ fn random_calls_with_front_buffers() {
     compare_without(swaps, Api::Glx, "layers", "replay", 21_030..21_050);
 }
 
+#[test]
+#[ignore = "a minute: make test-long"]
+fn random_calls_of_further_seeds() {
+    compare(Api::Egl, "side-by-side", "replay", 100..200);
+    compare(Api::Egl, "layers", "replay", 10_050..10_100);
+}
+
 /// A context draws to several drawables and reads from others, in 30 of 100 sequences of this test and of the others.
 #[test]
 #[ignore = "a minute: make test-long"]

@@ -109,10 +109,8 @@ pub(crate) fn divide() {
 /// Before a command that sets a parameter of a texture; `set` is its name and value, if it is a single number.
 #[inline]
 pub(crate) fn texture_parameter(at: TextureAt, set: Option<(u32, f32)>) {
-    list_only();
-    if context::peek(|l| l.has_split_images()) == Some(true) {
-        context::enter(|gl, l| l.texture_parameter(gl, at, set));
-    }
+    compile(Command::Of(Run::Open), Touch::PARAMETERS);
+    if_split(|gl, l| l.texture_parameter(gl, at, set));
 }
 
 /// Before a command that changes the attachments or the draw buffers of a framebuffer of the program's.

@@ -78,6 +78,7 @@ pub const CURRENT_RASTER_POSITION: u32 = 0x0B07;
 pub const LIST_INDEX: u32 = 0x0B33;
 pub const CURRENT_BIT: u32 = 0x0001;
 pub const LIGHTING_BIT: u32 = 0x0040;
+pub const TEXTURE_BIT: u32 = 0x4_0000;
 pub const ALL_ATTRIB_BITS: u32 = 0xFFFFFFFF;
 pub const ATTRIB_STACK_DEPTH: u32 = 0x0BB0;
 pub const MAX_ATTRIB_STACK_DEPTH: u32 = 0x0D35;

@@ -29,7 +29,7 @@ pub struct Recording {
 }
 
 /// Texture units whose coordinates the shadow keeps.
-const UNITS: usize = 8;
+const UNITS: usize = shadow::UNITS as usize;
 /// Current values that the shadow keeps: colour, normal, secondary colour, fog coordinate, edge flag, coordinates of the units.
 const VALUES: usize = 5 + UNITS;
 

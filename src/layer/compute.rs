@@ -13,6 +13,7 @@ impl Layer {
             return call();
         }
         self.state.refresh(gl);
+        self.refresh_parameters();
         let program = self.state.in_use.program;
         let (sampled, images) = match program {
             // Nothing is known of a program pipeline.

@@ -113,7 +113,7 @@ impl Layer {
         if from.is_zero() && !self.make_singles(gl, false) {
             return self.read(gl, x, width, own_call);
         }
-        let split = self.is_split_or_splits(gl, target, texture);
+        let split = self.ensure_split(gl, target, texture);
         if split {
             // First, so that nobody has to ask whether the program's own call is wrong: it is as wrong here, and raises its error afterwards.
             self.state.keep_errors(gl);
@@ -122,8 +122,8 @@ impl Layer {
         self.read(gl, x, width, &mut || call(texture));
     }
 
-    /// Splits a texture that is not split yet. False where that cannot be done.
-    fn is_split_or_splits(&mut self, gl: &Gl, target: Option<u32>, texture: TextureName) -> bool {
+    /// Splits a texture, unless it is split already. False where that cannot be done.
+    fn ensure_split(&mut self, gl: &Gl, target: Option<u32>, texture: TextureName) -> bool {
         if self.targets.offscreen.has(Object::Texture(texture)) {
             return true;
         }
@@ -312,9 +312,12 @@ impl Layer {
         self.targets.offscreen.parameter(texture, set);
     }
 
-    /// Whether some texture or renderbuffer is split.
-    pub fn has_split_images(&self) -> bool {
-        !self.targets.offscreen.is_empty()
+    /// Takes note of parameters of textures that something has set which no hook sees one by one.
+    pub(super) fn refresh_parameters(&mut self) {
+        if self.state.touched.has(Touch::PARAMETERS) {
+            self.state.touched = self.state.touched.without(Touch::PARAMETERS);
+            self.targets.offscreen.parameter(None, None);
+        }
     }
 
     /// The attachments or the draw buffers of some framebuffer have changed.

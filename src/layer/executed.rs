@@ -66,6 +66,7 @@ impl Layer {
             return;
         };
         let after = Current::take(gl, Effect::ALL, true);
+        self.refresh_parameters();
         let bound = self.targets.offscreen.bound(gl);
         if own.everywhere {
             self.queries.pause(gl);

@@ -13,17 +13,23 @@ use crate::view::ViewIndex;
 pub(super) struct Pushed {
     /// GL_ATTRIB_STACK_DEPTH after the glPushAttrib.
     depth: i32,
+    /// Its bits.
     mask: u32,
+    /// How often parameters of split textures had changed then.
+    parameter_changes: u64,
     draw_buffers: Option<Vec<u32>>,
     read_buffer: Option<u32>,
 }
 
 /// What a glPopAttrib may change, where the bits of its glPushAttrib are known or not.
 fn touched_by_pop(mask: Option<u32>) -> Touch {
-    match mask {
-        Some(mask) if mask & c::COLOR_BUFFER_BIT == 0 => Touch::ALL.without(Touch::BUFFERS),
-        _ => Touch::ALL,
-    }
+    let mask = mask.unwrap_or(c::ALL_ATTRIB_BITS);
+    let parts = [
+        (c::COLOR_BUFFER_BIT, Touch::BUFFERS),
+        (c::TEXTURE_BIT, Touch::PARAMETERS),
+    ];
+    let left_alone = parts.into_iter().filter(|(bit, _)| mask & bit == 0);
+    left_alone.fold(Touch::ALL, |all, (_, touch)| all.without(touch))
 }
 
 impl Layer {
@@ -51,6 +57,7 @@ impl Layer {
         self.targets.pushed.push(Pushed {
             depth,
             mask,
+            parameter_changes: self.targets.offscreen.parameter_changes(),
             draw_buffers: (mask & c::COLOR_BUFFER_BIT != 0 && f.draw.is_zero())
                 .then(|| f.draw_buffers.clone()),
             read_buffer: (mask & c::PIXEL_MODE_BIT != 0 && f.read.is_zero())
@@ -69,7 +76,12 @@ impl Layer {
         }
         let depth = gl.get_integer(c::ATTRIB_STACK_DEPTH);
         let pushed = self.targets.pushed.iter().find(|p| p.depth == depth);
-        self.state.touch(touched_by_pop(pushed.map(|p| p.mask)));
+        let mut touched = touched_by_pop(pushed.map(|p| p.mask));
+        let changes = self.targets.offscreen.parameter_changes();
+        if pushed.is_some_and(|p| p.parameter_changes == changes) {
+            touched = touched.without(Touch::PARAMETERS);
+        }
+        self.state.touch(touched);
         pop();
         self.popped_attribs(gl, depth);
     }

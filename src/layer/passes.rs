@@ -100,6 +100,7 @@ impl Layer {
 
     /// The textures with an image per view that a draw reads.
     pub(super) fn sampled(&mut self, gl: &Gl) -> Arc<[Bound]> {
+        self.refresh_parameters();
         let program = self.state.in_use.program;
         let changes = self.targets.offscreen.changes();
         let key = (program, uniform_change(), changes);

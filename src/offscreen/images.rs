@@ -18,6 +18,8 @@ pub struct Images {
     targets: HashMap<TextureName, u32>,
     /// Number of changes of attachments, draw buffers and images.
     pub(super) changes: u64,
+    /// How often parameters of split textures have changed.
+    pub(super) parameter_changes: u64,
 }
 
 impl Images {
@@ -133,16 +135,16 @@ impl Images {
 
     /// The program sets a parameter of a texture, or of some texture; `set` as for [`Parameters::change`].
     pub(super) fn parameter(&mut self, texture: Option<TextureName>, set: Option<(u32, f32)>) {
+        let changes = &mut self.parameter_changes;
+        let mut change =
+            |image: &mut Image, set| *changes += u64::from(image.parameters.change(set));
         match texture {
             Some(texture) => {
                 if let Some(image) = self.all.get_mut(&Object::Texture(texture)) {
-                    image.parameters.change(set);
+                    change(image, set);
                 }
             }
-            None => self
-                .all
-                .values_mut()
-                .for_each(|image| image.parameters.change(None)),
+            None => self.all.values_mut().for_each(|image| change(image, None)),
         }
     }
 

@@ -110,6 +110,11 @@ impl Offscreen {
         self.images().parameter(texture, set);
     }
 
+    /// How often parameters of split textures have changed.
+    pub fn parameter_changes(&self) -> u64 {
+        self.images().parameter_changes
+    }
+
     /// Takes note that attachments or draw buffers of some framebuffer have changed.
     pub fn attachments_changed(&mut self) {
         self.images().changes += 1;

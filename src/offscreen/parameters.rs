@@ -112,14 +112,16 @@ impl Parameters {
     }
 
     /// The program sets a parameter of its texture; `set` is its name and value, if it is a single number. Where it has that value already,
-    /// nothing changes: programs set the same ones again in each frame.
-    pub(super) fn change(&mut self, set: Option<(u32, f32)>) {
+    /// nothing changes: programs set the same ones again in each frame. Returns whether something may have changed.
+    pub(super) fn change(&mut self, set: Option<(u32, f32)>) -> bool {
         let known = self.values.as_ref();
         let same = |set: (u32, f32)| known.is_some_and(|values| values.single.contains(&set));
-        if !set.is_some_and(same) {
-            self.values = None;
-            self.copied.fill(false);
+        if set.is_some_and(same) {
+            return false;
         }
+        self.values = None;
+        self.copied.fill(false);
+        true
     }
 
     /// Gives a view's texture those of the program's own, if it does not have them. Leaves either bound at the target.

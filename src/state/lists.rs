@@ -476,6 +476,11 @@ impl Compiling {
     /// list, whose matrix mode may be known.
     pub fn note(&mut self, command: Command, touch: Touch) -> Touch {
         let run = self.kind(command);
+        let command = match command {
+            // Programs may switch arrays between the primitives of a list, so that its elements set different values.
+            Command::Immediate(Effect::ELEMENT) => Command::Immediate(Effect::UNKNOWN),
+            other => other,
+        };
         // A list that begins within a primitive has nothing but vertices before the glEnd.
         let inside = self.closed.is_empty() && self.open.run == Run::Open && self.open.primitives;
         if !self.between && run != Run::Open {

@@ -74,6 +74,8 @@ impl Touch {
     pub const COVER: Touch = Touch(1 << 14);
     /// Viewports, scissor rectangles and scissor tests by index: they differ from now on. [`Touch::RECTS`] goes with it.
     pub const VIEWPORTS: Touch = Touch(1 << 15);
+    /// Parameters of textures, by what restores or executes many commands.
+    pub const PARAMETERS: Touch = Touch(1 << 17);
     /// Everything.
     pub const ALL: Touch = Touch(0xffff_fffe & !(1 << 15));
     /// Nothing.

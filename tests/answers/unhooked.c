@@ -7,6 +7,7 @@
  *   copied mipmap nvcopied     so it is by copies from the window, as mipmaps, by GL_NV_copy_image
  *   corecopied unitcopied      so it is by glCopyTextureSubImage2D, and by its unit
  *   bound boundcopied          so it is where it is bound
+ *   filter                     a parameter of a texture that was drawn to is set; pushed: and restored by glPopAttrib
  *   (these with list, execute  by a display list, of GL_COMPILE or GL_COMPILE_AND_EXECUTE; within: in a primitive of a list)
  *   unitmipmap                 mipmaps by its unit
  *   esblock                    a fragment shader of OpenGL ES counts in a storage block
@@ -238,6 +239,40 @@ static void written(void)
         printf("unit %d\n", active - GL_TEXTURE0);
     }
     show(name, is("mipmap") || is("unitmipmap") ? 2 : 0);
+    glDeleteFramebuffers(1, &framebuffer);
+}
+
+/* A parameter of a texture that the scene was drawn to, in each view, is set once the views have been drawn with it: whether small pictures
+ * of it are shown. */
+static void parameter(void)
+{
+    enum { SMALL = 2 };
+    static unsigned char white[(WIDTH >> SMALL) * (HEIGHT >> SMALL) * 4];
+    GLuint name = texture();
+    GLuint framebuffer = framebuffer_of(name);
+    memset(white, 255, sizeof white);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexSubImage2D(GL_TEXTURE_2D, SMALL, 0, 0, WIDTH >> SMALL, HEIGHT >> SMALL, GL_RGBA, GL_UNSIGNED_BYTE, white);
+    clear(0, 0, 0);
+    bar(1);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    show(name, SMALL);
+    if (is("pushed"))
+        glPushAttrib(GL_TEXTURE_BIT);
+    if (listed)
+        glNewList(1, listed);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    if (listed)
+        glEndList();
+    if (listed == GL_COMPILE) {
+        show(name, SMALL);
+        glCallList(1);
+    }
+    show(name, SMALL);
+    if (is("pushed")) {
+        glPopAttrib();
+        show(name, SMALL);
+    }
     glDeleteFramebuffers(1, &framebuffer);
 }
 
@@ -486,6 +521,8 @@ int main(int argc, char **argv)
     else if (is("image") || is("subimage") || is("multi") || is("copied") || is("nvcopied") || is("mipmap") || is("corecopied") ||
              is("unitcopied") || is("unitmipmap") || is("bound") || is("boundcopied"))
         written();
+    else if (is("filter") || is("pushed"))
+        parameter();
     else if (is("attached") || is("renderbuffer"))
         attaches();
     else if (is("named"))

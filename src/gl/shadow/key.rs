@@ -49,7 +49,7 @@ pub(super) enum Kept {
 }
 
 /// Texture units whose coordinates are kept. Mesa takes those of further units for them.
-pub(super) const UNITS: u32 = 8;
+pub(in crate::gl) const UNITS: u32 = 8;
 
 pub(super) const COLOR: Key = Key::Value(c::CURRENT_COLOR);
 pub(super) const NORMAL: Key = Key::Value(c::CURRENT_NORMAL);
@@ -101,7 +101,6 @@ pub(super) mod bits {
     pub(in super::super) const VIEWPORT: u32 = 0x800;
     pub(in super::super) const ENABLE: u32 = 0x2000;
     pub(in super::super) const LIST: u32 = 0x2_0000;
-    pub(in super::super) const TEXTURE: u32 = 0x4_0000;
     pub(in super::super) const SCISSOR: u32 = 0x8_0000;
     /// Of glPushClientAttrib, moved to where glPushAttrib has none.
     pub(in super::super) const CLIENT_PIXELS: u32 = 1 << 30;
@@ -259,7 +258,7 @@ impl Key {
                 c::COLOR_WRITEMASK => (c::COLOR_BUFFER_BIT, 0),
                 c::STENCIL_WRITEMASK => (c::STENCIL_BUFFER_BIT, 0),
                 c::POLYGON_MODE | c::CULL_FACE_MODE | c::FRONT_FACE => (bits::POLYGON, 0),
-                c::ACTIVE_TEXTURE => (bits::TEXTURE, 0),
+                c::ACTIVE_TEXTURE => (c::TEXTURE_BIT, 0),
                 c::LIST_BASE => (bits::LIST, 0),
                 c::ACCUM_CLEAR_VALUE => (c::ACCUM_BUFFER_BIT, 0),
                 c::SHADE_MODEL
@@ -301,9 +300,9 @@ impl Key {
                 _ if (c::LIGHT0..c::LIGHT0 + 8).contains(&cap) => (LIGHTING | bits::ENABLE, 0),
                 _ => (0, u32::MAX),
             },
-            Key::UnitCap(..) => (bits::TEXTURE | bits::ENABLE, 0),
-            Key::Unit(c::SAMPLER_BINDING, _) => (0, bits::TEXTURE),
-            Key::Unit(..) | Key::TexEnv(..) | Key::TexGen(..) => (bits::TEXTURE, 0),
+            Key::UnitCap(..) => (c::TEXTURE_BIT | bits::ENABLE, 0),
+            Key::Unit(c::SAMPLER_BINDING, _) => (0, c::TEXTURE_BIT),
+            Key::Unit(..) | Key::TexEnv(..) | Key::TexGen(..) => (c::TEXTURE_BIT, 0),
             Key::Light(..) | Key::Material(..) => (LIGHTING, 0),
             Key::Attributes(..) => (0, bits::CLIENT_ARRAYS),
         }

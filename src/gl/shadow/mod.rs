@@ -32,8 +32,8 @@ pub(super) use ask::{
 use change::{Change, Summary};
 use core::cell::{Cell, RefCell};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
-pub(super) use key::Form;
 use key::Key;
+pub(super) use key::{Form, UNITS};
 use lists::CompiledLists;
 use matrices::Matrices;
 use rustc_hash::{FxHashMap, FxHashSet};

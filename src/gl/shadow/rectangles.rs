@@ -37,17 +37,13 @@ impl Shadow {
 
     pub(in crate::gl) unsafe fn glViewportIndexedfv(&mut self, index: u32, v: Ptr) {
         // SAFETY: the program's array of four.
-        let value = unsafe { read::<f32, 4>(v) };
-        self.rectangle(c::VIEWPORT, index, value.and_then(viewport));
+        unsafe { self.rectangles(c::VIEWPORT, [index, 1], v, viewport) };
     }
 
     pub(in crate::gl) unsafe fn glViewportArrayv(&mut self, first: u32, count: i32, v: Ptr) {
-        for at in 0..u32::try_from(count).unwrap_or(0).min(INDICES) {
-            // SAFETY: the program's array of four for each index.
-            let value = unsafe { read::<f32, 4>(v.wrapping_byte_add(16 * at as usize)) };
-            let value = value.filter(|_| !v.is_null()).and_then(viewport);
-            self.rectangle(c::VIEWPORT, first.wrapping_add(at), value);
-        }
+        let count = u32::try_from(count).unwrap_or(0);
+        // SAFETY: the program's array of four for each index.
+        unsafe { self.rectangles(c::VIEWPORT, [first, count], v, viewport) };
     }
 
     pub(in crate::gl) unsafe fn glScissorIndexed(
@@ -64,23 +60,47 @@ impl Shadow {
 
     pub(in crate::gl) unsafe fn glScissorIndexedv(&mut self, index: u32, v: Ptr) {
         // SAFETY: the program's array of four.
-        let value = unsafe { read::<i32, 4>(v) };
-        self.rectangle(c::SCISSOR_BOX, index, value.and_then(scissor));
+        unsafe { self.rectangles(c::SCISSOR_BOX, [index, 1], v, scissor) };
     }
 
     pub(in crate::gl) unsafe fn glScissorArrayv(&mut self, first: u32, count: i32, v: Ptr) {
-        for at in 0..u32::try_from(count).unwrap_or(0).min(INDICES) {
-            // SAFETY: the program's array of four for each index.
-            let value = unsafe { read::<i32, 4>(v.wrapping_byte_add(16 * at as usize)) };
-            let value = value.filter(|_| !v.is_null()).and_then(scissor);
-            self.rectangle(c::SCISSOR_BOX, first.wrapping_add(at), value);
-        }
+        let count = u32::try_from(count).unwrap_or(0);
+        // SAFETY: the program's array of four for each index.
+        unsafe { self.rectangles(c::SCISSOR_BOX, [first, count], v, scissor) };
     }
 
     /// The command sets depth ranges by their index, or the depth that is cleared to.
     pub(in crate::gl) unsafe fn depths(&mut self) {
         for name in [c::DEPTH_RANGE, c::DEPTH_CLEAR_VALUE] {
             self.change(Change::Put(Key::Value(name), None));
+        }
+    }
+
+    /// Sets the rectangles of some indices, the first one and their number. A driver that refuses one takes none of them.
+    ///
+    /// # Safety
+    /// The array has four numbers for each of them.
+    unsafe fn rectangles<T: Copy>(
+        &mut self,
+        name: u32,
+        [first, count]: [u32; 2],
+        v: Ptr,
+        of: fn([T; 4]) -> Option<[u32; 4]>,
+    ) {
+        let value = |at: u32| {
+            let four = v.wrapping_byte_add(at as usize * size_of::<[T; 4]>());
+            // SAFETY: four numbers (contract), unless there is no array.
+            unsafe { read::<T, 4>(four) }.and_then(of)
+        };
+        let count = count.min(INDICES);
+        let taken = !v.is_null() && first.saturating_add(count) <= INDICES;
+        let values: Option<Vec<_>> = match taken {
+            true => (0..count).map(value).collect(),
+            false => None,
+        };
+        for at in 0..count {
+            let value = values.as_ref().map(|values| values[at as usize]);
+            self.rectangle(name, first.wrapping_add(at), value);
         }
     }
 

@@ -332,7 +332,7 @@ const VALUES: [(Key, u32, u32); 6] = [
     ),
     (Key::Value(c::DEPTH_FUNC), c::DEPTH_BUFFER_BIT, 0),
     (Key::Value(c::SCISSOR_BOX), bits::SCISSOR, 0),
-    (Key::Unit(c::TEXTURE_BINDING_2D, 3), bits::TEXTURE, 0),
+    (Key::Unit(c::TEXTURE_BINDING_2D, 3), c::TEXTURE_BIT, 0),
     (Key::Value(c::CURRENT_PROGRAM), 0, 0),
     (Key::Cap(c::MULTISAMPLE), 0, u32::MAX),
 ];
@@ -353,7 +353,7 @@ fn random_pushes_and_pops_are_those_of_a_model() {
                     let mask = [
                         c::DEPTH_BUFFER_BIT,
                         bits::SCISSOR,
-                        bits::TEXTURE,
+                        c::TEXTURE_BIT,
                         bits::ENABLE,
                         u32::MAX,
                     ][random.below(5) as usize];

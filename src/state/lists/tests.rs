@@ -165,3 +165,17 @@ fn names_are_claimed_once() {
     assert_eq!([one, other], [ListName(1), ListName(3)]);
     assert_eq!(lists.unclaimed(ListName(3), 3), [ListName(5)]);
 }
+
+/// Unlike between glBegin and glEnd, arrays may be switched on and off between the elements of a list.
+#[test]
+fn elements_of_a_list_may_set_different_values() {
+    let mut list = Compiling::new(ListName(1), c::COMPILE, ListName(100));
+    let element = Command::Immediate(Effect::ELEMENT);
+    for command in [Command::Begin(c::TRIANGLES), element, Command::End] {
+        list.note(command, Touch::NONE);
+    }
+    list.finish();
+    let body = list.body();
+    let segment = body.iter().next().expect("a run");
+    assert!(segment.immediate.must_restore().has(Effect::UNKNOWN));
+}

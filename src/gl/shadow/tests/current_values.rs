@@ -64,6 +64,24 @@ fn they_are_those_of_the_last_call() {
     });
 }
 
+/// glPopAttrib makes those unknown that were changed. Setting one to itself is no change.
+#[test]
+fn those_that_were_changed_are_unknown_after_a_pop() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.fog_coordf(0.5);
+        gl.normal_3f(0.0, 0.0, 1.0);
+        gl.push_attrib(c::CURRENT_BIT);
+        gl.fog_coordf(0.5);
+        gl.normal_3f(0.0, 1.0, 0.0);
+        gl.pop_attrib();
+        assert_eq!(known(&shadow, FOG), floats([0.5, 0.0, 0.0, 0.0]));
+        assert_eq!(known(&shadow, NORMAL), None);
+    });
+}
+
 /// Of a recording, the last call of each value counts.
 #[test]
 fn they_are_those_of_a_recording() {

@@ -38,13 +38,40 @@ fn they_are_those_that_were_set() {
         let two = [[1.0f32, 1.0, 2.0, 2.0], [3.0, 3.0, 4.0, -1.0]].concat();
         // SAFETY: two viewports.
         unsafe { real.glViewportArrayv(6, 2, two.as_ptr() as _) };
+        for index in [6, 7] {
+            assert_eq!(
+                known(&shadow, viewport(index)),
+                None,
+                "the driver refuses both"
+            );
+        }
+        // SAFETY: one viewport.
+        unsafe { real.glViewportArrayv(6, 1, two.as_ptr() as _) };
         assert_eq!(known(&shadow, viewport(6)), bits([1.0, 1.0, 2.0, 2.0]));
-        assert_eq!(known(&shadow, viewport(7)), None, "the driver refuses it");
+        gl.viewport(1, 2, 30, 20);
+        let four = [[1.0f32, 1.0, 2.0, 2.0]; 4].concat();
+        // SAFETY: four viewports.
+        unsafe { real.glViewportArrayv(14, 4, four.as_ptr() as _) };
+        assert_eq!(known(&shadow, viewport(14)), None, "some have no index");
         gl.scissor_indexed(3, -1, 2, 3, 4);
         let scissor = Key::At(c::SCISSOR_BOX, 3);
         assert_eq!(known(&shadow, scissor), Some([u32::MAX, 2, 3, 4]));
         gl.scissor(5, 6, 7, 8);
         assert_eq!(known(&shadow, scissor), Some([5, 6, 7, 8]));
+    });
+}
+
+#[test]
+fn a_depth_range_by_its_index_makes_that_of_all_unknown() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || {
+        // SAFETY: no pointers.
+        unsafe { fake.real().glDepthRange(0.25, 0.5) };
+        assert!(known(&shadow, Key::Value(c::DEPTH_RANGE)).is_some());
+        // SAFETY: no pointers.
+        unsafe { fake.real().glDepthRangeIndexed(0, 0.0, 1.0) };
+        assert_eq!(known(&shadow, Key::Value(c::DEPTH_RANGE)), None);
     });
 }
 
