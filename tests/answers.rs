@@ -278,6 +278,12 @@ fn a_frame_ends_while_feedback_is_active() {
     assert_eq!(extent(&rgb(&picture), 1, 0, [255, 0, 0]), [6.0, 18.0]);
 }
 
+/// Between glBegin and glEnd the driver has a primitive without vertices, which feedback takes as well.
+#[test]
+fn primitives_begin_while_feedback_is_active() {
+    alike("immediate", &[], 1);
+}
+
 #[test]
 fn feedback_that_is_refused_changes_nothing() {
     for mode in ["wrong", "failed"] {

@@ -134,6 +134,15 @@ fn a_program_may_use_any_name_for_a_list() {
     }
 }
 
+/// The layers of both contexts have textures, whose names the program takes.
+#[test]
+fn a_program_may_use_any_name_for_a_texture_in_contexts_that_share() {
+    let shares = windowed("shares.c", &[]);
+    for way in ["bind", "delete", "late"] {
+        same(&shares, &[way], &[]);
+    }
+}
+
 /// Calls that the driver reports as wrong. The first of them have hooks that work on the layer.
 const WRONG: [&str; 14] = [
     "draw", "elements", "clear", "pixels", "read", "blit", "bind", "buffer", "state", "link",

@@ -1,6 +1,6 @@
 //! Names of the layer's own textures and buffers.
 
-use crate::gl::{Gl, Held, TextureName, consts as c};
+use crate::gl::{Gl, TextureName, consts as c};
 use std::collections::BTreeSet;
 
 /// Gives out names that the program does not use.
@@ -53,7 +53,7 @@ impl Names {
         }
         let name = *next;
         next.0 += 1;
-        Held::Texture.count(1);
+        gl.use_texture(name);
         name
     }
 

@@ -8,6 +8,7 @@ use super::object_names::{
     TextureName, VertexArrayName,
 };
 use super::real::{Ptr, Real};
+use super::shadow;
 use core::ffi::CStr;
 
 /// The name of a display list that does not exist: glGenLists gives lower names first.
@@ -164,10 +165,19 @@ impl Gl {
     }
 
     generate! {
-        gen_texture = glGenTextures, Texture, TextureName;
         gen_framebuffer = glGenFramebuffers, Framebuffer, FramebufferName;
         gen_query = glGenQueries, Query, QueryName;
         gen_vertex_array = glGenVertexArrays, VertexArray, VertexArrayName;
+    }
+
+    /// Switches the scissor test of index 0, which cuts clears and copies. That of other viewports stays as the program has set it.
+    pub fn switch_scissor_test(&self, on: bool) {
+        match (shadow::are_capabilities_indexed(), on) {
+            (true, true) => self.enablei(c::SCISSOR_TEST, 0),
+            (true, false) => self.disablei(c::SCISSOR_TEST, 0),
+            (false, true) => self.enable(c::SCISSOR_TEST),
+            (false, false) => self.disable(c::SCISSOR_TEST),
+        }
     }
 
     /// glDepthFunc

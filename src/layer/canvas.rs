@@ -162,6 +162,7 @@ impl Layer {
                 layer.switch(gl, [drawable, read], elsewhere, lives)
             });
         }
+        self.yield_taken_names(gl);
         let as_before = [drawable.id, read.id] == [self.canvases.current; 2]
             && self.canvases.reading == Reading::Drawn
             && drawable.size == self.size();

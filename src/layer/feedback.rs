@@ -20,23 +20,60 @@ pub(super) enum Feedback {
     Held,
 }
 
+/// A command that switches transform feedback.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedbackCommand {
+    /// glBeginTransformFeedback of a kind of primitives.
+    Begin(u32),
+    /// glEndTransformFeedback.
+    End,
+    /// It is paused or goes on.
+    Pause,
+    /// Another object is bound, which may be active with another kind of primitives.
+    Bind,
+}
+
+/// The kind of primitives of a mode of glBegin, as transform feedback has it.
+fn kind(mode: u32) -> u32 {
+    match mode {
+        c::POINTS => c::POINTS,
+        c::LINES | c::LINE_LOOP | c::LINE_STRIP => c::LINES,
+        _ => c::TRIANGLES,
+    }
+}
+
 impl Layer {
-    /// After a command that begins, ends, pauses or resumes transform feedback, or binds another object for it. `begun`: the command was
-    /// glBeginTransformFeedback, or else glEndTransformFeedback, as far as the driver cannot be asked.
-    pub fn feedback_changed(&mut self, gl: &Gl, begun: Option<bool>) {
+    /// After a command that switches transform feedback.
+    pub fn feedback_changed(&mut self, gl: &Gl, command: FeedbackCommand) {
         self.shaders_wrote();
         if !self.session.support.pauses_feedback {
-            if let Some(begun) = begun {
-                self.state.primitives.transform_feedback = begun;
+            // The driver cannot be asked.
+            match command {
+                FeedbackCommand::Begin(_) => self.state.primitives.transform_feedback = true,
+                FeedbackCommand::End => self.state.primitives.transform_feedback = false,
+                FeedbackCommand::Pause | FeedbackCommand::Bind => {}
             }
             return;
         }
-        let on = gl.get_integer(c::TRANSFORM_FEEDBACK_ACTIVE) != 0
-            && gl.get_integer(c::TRANSFORM_FEEDBACK_PAUSED) == 0;
+        let active = gl.get_integer(c::TRANSFORM_FEEDBACK_ACTIVE) != 0;
+        let on = active && gl.get_integer(c::TRANSFORM_FEEDBACK_PAUSED) == 0;
         self.queries.set_feedback(match on {
             true => Feedback::On,
             false => Feedback::Off,
         });
+        let fed = &mut self.queries.fed;
+        *fed = match command {
+            _ if !active => None,
+            // Where feedback is active already, it is an error.
+            FeedbackCommand::Begin(kind) => fed.or(Some(kind)),
+            FeedbackCommand::Bind => None,
+            FeedbackCommand::End | FeedbackCommand::Pause => *fed,
+        };
+    }
+
+    /// Whether transform feedback is active that refuses primitives of this mode, so that the driver's glBegin begins nothing.
+    pub(super) fn feedback_refuses(&self, mode: u32) -> bool {
+        self.queries.feeds() && self.queries.fed.is_some_and(|fed| fed != kind(mode))
     }
 
     /// Makes a draw that is written by transform feedback: writes it, and then draws the views by `show`.

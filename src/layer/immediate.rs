@@ -29,7 +29,7 @@ impl Layer {
             return Primitive::None;
         }
         // A mode that does not exist begins nothing.
-        if mode > c::PATCHES {
+        if mode > c::PATCHES || self.feedback_refuses(mode) {
             return Primitive::None;
         }
         self.state.refresh(gl);

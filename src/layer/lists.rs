@@ -231,7 +231,11 @@ impl Layer {
         };
         let segments = || bodies.iter().flat_map(|b| b.iter());
         let balanced = segments().all(Segment::is_balanced);
-        if balanced && !self.state.makes_pictures() && segments().all(|s| s.run.is_plain()) {
+        // Empty lists as well reach the driver: Mesa 22.3 flushes current values at each call of a list, and a later glPopAttrib
+        // restores only what was flushed.
+        let plain = || segments().all(|s| s.run.is_plain());
+        let passes = segments().next().is_none() || !self.state.makes_pictures() && plain();
+        if balanced && passes {
             let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             call();
             self.state.touch(touch);

@@ -53,6 +53,7 @@ pub use blocks::BufferRef;
 pub use canvas::CurrentDrawable;
 pub use control::Pictured;
 pub use draw::Primitives;
+pub use feedback::FeedbackCommand;
 pub use frames::Frames;
 pub use lists::is_scaled;
 pub use queries::{Answer, ResultPlace};
@@ -62,6 +63,7 @@ pub use tracked::Primitive;
 use crate::atlas::{Atlas, Names};
 use crate::config::{Config, Optimisation, profile};
 use crate::draw::{Driver, Programs};
+use crate::gl::shadow::{are_textures_taken, is_own_texture};
 use crate::gl::{BufferName, FramebufferName, Gl, TextureName, consts as c};
 use crate::plan::Rig;
 use crate::plan::decide::Known;
@@ -229,6 +231,31 @@ impl Layer {
                 || proving.is_some_and(|atlas| atlas.owns(name)))
     }
 
+    /// Whether a texture is one of ours, or one of another context that shares objects with this one.
+    pub fn hides_texture(&self, name: TextureName) -> bool {
+        match self.session.group.has_others() {
+            // One of ours may be the program's by now (`yield_taken_names`).
+            true => is_own_texture(name),
+            false => self.owns_texture(name),
+        }
+    }
+
+    /// The program deletes textures that it has not generated, or that a display list has bound.
+    pub fn deletes_textures(&mut self, gl: &Gl, names: &[TextureName]) {
+        for &name in names {
+            if self.hides_texture(name) {
+                self.take_texture(gl, name);
+            }
+        }
+    }
+
+    /// Another context of the share group has found that the program uses texture names that are ours: our textures move to other names.
+    pub(super) fn yield_taken_names(&mut self, gl: &Gl) {
+        if are_textures_taken() {
+            self.yield_names(gl);
+        }
+    }
+
     /// Whether a framebuffer object is one of ours.
     pub fn owns_framebuffer(&self, name: FramebufferName) -> bool {
         let proving = self.diagnostics.proving.atlas();
@@ -245,20 +272,31 @@ impl Layer {
 
     /// The program is about to bind a texture, or to compile the binding into a list.
     pub fn binds_texture(&mut self, gl: &Gl, name: TextureName) {
-        if self.owns_texture(name) {
-            self.yield_names(gl);
+        if self.hides_texture(name) {
+            self.take_texture(gl, name);
         } else if !name.is_zero() {
             self.targets.names.promise(name);
         }
     }
 
     /// The program uses a texture name that it has not generated and that is ours: our textures move to other names.
-    pub fn yield_names(&mut self, gl: &Gl) {
-        // Core profiles accept only names that glGenTextures has returned.
-        if self.targets.names.hidden() || !(self.state.has.compatibility || gl.is_es()) {
-            return;
+    fn yield_names(&mut self, gl: &Gl) {
+        if !self.targets.names.hidden() && self.numbers_textures(gl) {
+            self.outside_list(gl, |layer| layer.move_names(gl));
         }
-        self.outside_list(gl, |layer| layer.move_names(gl));
+    }
+
+    /// Whether the program may number its textures itself: core profiles accept only names that glGenTextures has returned.
+    fn numbers_textures(&self, gl: &Gl) -> bool {
+        self.state.has.compatibility || gl.is_es()
+    }
+
+    /// The program takes a name that is ours.
+    fn take_texture(&mut self, gl: &Gl, name: TextureName) {
+        if !self.owns_texture(name) && self.numbers_textures(gl) {
+            gl.free_texture(name);
+        }
+        self.yield_names(gl);
     }
 
     fn move_names(&mut self, gl: &Gl) {
@@ -380,11 +418,11 @@ impl Layer {
 /// Runs a copy without scissor test and sRGB conversion, so that bits stay as they are.
 fn with_raw_copies<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
     let (cut, srgb) = (gl.is_enabled(c::SCISSOR_TEST), gl.is_srgb_enabled());
-    gl.disable(c::SCISSOR_TEST);
+    gl.switch_scissor_test(false);
     gl.enable_srgb(false);
     let copied = copy();
     if cut {
-        gl.enable(c::SCISSOR_TEST);
+        gl.switch_scissor_test(true);
     }
     if srgb {
         gl.enable_srgb(true);

@@ -18,6 +18,8 @@ pub(super) struct Queries {
     /// The query and mode of conditional rendering, while it is on.
     condition: Option<(QueryName, u32)>,
     feedback: Feedback,
+    /// The kind of primitives that active transform feedback takes, where it is known.
+    pub(super) fed: Option<u32>,
     /// How many pauses are on: passes are made within passes.
     pauses: u32,
 }

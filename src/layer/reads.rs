@@ -119,11 +119,11 @@ impl Layer {
 
     pub(super) fn unscissored<T>(&mut self, gl: &Gl, work: impl FnOnce(&mut Self) -> T) -> T {
         if self.state.rectangles.scissor_test {
-            gl.disable(c::SCISSOR_TEST);
+            gl.switch_scissor_test(false);
         }
         let answer = work(self);
         if self.state.rectangles.scissor_test {
-            gl.enable(c::SCISSOR_TEST);
+            gl.switch_scissor_test(true);
         }
         answer
     }

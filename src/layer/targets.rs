@@ -5,6 +5,7 @@ use super::session::Session;
 use super::{LayerError, accumulate, framebuffer};
 use crate::atlas::{Atlas, Names};
 use crate::config::ViewScale;
+use crate::gl::shadow::are_textures_taken;
 use crate::gl::{FramebufferName, Gl, TextureName};
 use crate::interleave::Interleaver;
 use crate::offscreen::Offscreen;
@@ -40,6 +41,9 @@ impl Targets {
     ) -> Result<(Self, Option<String>), LayerError> {
         let (config, support) = (session.config, &session.support);
         let mut names = Names::default();
+        if are_textures_taken() {
+            names.hide();
+        }
         let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
         match interleaver.note() {
             Some(note) if gl.is_es() => return Err(LayerError::Passes(note)),

@@ -19,17 +19,26 @@ pub enum Primitive {
     Direct,
 }
 
+/// The mode of the driver's empty primitive, for a mode of the program. Transform feedback refuses the modes of another kind of primitives.
+fn empty(mode: u32, feedback: bool) -> u32 {
+    match mode {
+        c::POINTS if feedback => c::POINTS,
+        c::POINTS => c::LINES,
+        _ if !feedback => c::POINTS,
+        c::LINES => c::LINE_STRIP,
+        c::LINE_LOOP | c::LINE_STRIP => c::LINES,
+        c::TRIANGLES => c::TRIANGLE_STRIP,
+        _ => c::TRIANGLES,
+    }
+}
+
 impl Layer {
     /// Whether the program is between glBegin and glEnd, and where its calls go then.
     pub fn primitive(&self) -> Primitive {
         match self.state.begin {
             Begin::Outside => Primitive::None,
             Begin::Recorded(mode) => Primitive::Recorded {
-                empty: if mode == c::POINTS {
-                    c::LINES
-                } else {
-                    c::POINTS
-                },
+                empty: empty(mode, self.queries.feeds()),
             },
             Begin::Direct => Primitive::Direct,
         }

@@ -17,7 +17,7 @@ pub(super) fn fill(gl: &Gl, target: u32, (from, to): (Object, Object), at: i32, 
     }
     let scissor = gl.is_enabled(c::SCISSOR_TEST);
     if scissor {
-        gl.disable(c::SCISSOR_TEST);
+        gl.switch_scissor_test(false);
     }
     for layer in 0..layers {
         for &(point, mask) in level.points() {
@@ -47,6 +47,6 @@ pub(super) fn fill(gl: &Gl, target: u32, (from, to): (Object, Object), at: i32, 
         }
     }
     if scissor {
-        gl.enable(c::SCISSOR_TEST);
+        gl.switch_scissor_test(true);
     }
 }

@@ -24,7 +24,11 @@ pub(crate) fn program(osmesa: bool) -> PathBuf {
         "calls_draw",
         "calls_pixels",
         "calls_objects",
+        "calls_queries",
         "calls_lists",
+        "calls_indexed",
+        "calls_captures",
+        "worker",
         "dump",
     ];
     let sources: Vec<PathBuf> = common

@@ -1,4 +1,4 @@
-/* Framebuffer objects, occlusion queries, swaps. */
+/* Framebuffer objects, swaps. */
 #include "random.h"
 
 int framebuffer_bound(void)
@@ -64,21 +64,6 @@ static void framebuffer(void)
     }
 }
 
-static void query(void)
-{
-    struct context *c = R->now;
-    if (c->query) {
-        CALL(glEndQuery, GL_SAMPLES_PASSED);
-        GLuint passed = 12345;
-        CALL(glGetQueryObjectuiv, (GLuint)c->query, GL_QUERY_RESULT, &passed);
-        tell(&R->answers, "%d.%d samples %u", R->step, R->part, passed);
-        c->query = 0;
-    } else if (!R->begin && !R->list) {
-        c->query = 1 + (int)below(3) + 10 * (int)(c - R->contexts);
-        CALL(glBeginQuery, GL_SAMPLES_PASSED, (GLuint)c->query);
-    }
-}
-
 static void swap(void)
 {
     if (R->begin || R->list)
@@ -97,7 +82,5 @@ static void flush(void)
         CALL0(glFinish);
 }
 
-const struct generator object_calls[] = {
-    {"framebuffer", FRAMEBUFFERS, 30, framebuffer}, {"query", QUERIES, 15, query}, {"swap", SWAPS, 12, swap},
-    {"flush", SWAPS, 8, flush}, {0},
-};
+const struct generator object_calls[] = {{"framebuffer", FRAMEBUFFERS, 30, framebuffer}, {0}};
+const struct generator swap_calls[] = {{"swap", SWAPS, 12, swap}, {"flush", SWAPS, 8, flush}, {0}};

@@ -181,6 +181,30 @@ static void units(void)
     glActiveTexture((GLenum)active);
 }
 
+/* What draw buffers and viewports have of their own. */
+static void indexes(void)
+{
+    for (GLuint i = 0; i < 8; i++) {
+        static const GLenum of_buffer[] = {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB};
+        GLint v[5] = {0}, mask[4] = {0};
+        for (int k = 0; k < 5; k++)
+            glGetIntegeri_v(of_buffer[k], i, &v[k]);
+        glGetIntegeri_v(GL_COLOR_WRITEMASK, i, mask);
+        tell(&R->state, "draw buffer %u %d %x %x %x %x %x %d%d%d%d", i, glIsEnabledi(GL_BLEND, i), v[0], v[1], v[2], v[3], v[4], mask[0],
+             mask[1], mask[2], mask[3]);
+    }
+    for (GLuint i = 0; i < 16; i++) {
+        GLfloat viewport[4] = {0};
+        GLdouble range[2] = {0};
+        GLint box[4] = {0};
+        glGetFloati_v(GL_VIEWPORT, i, viewport);
+        glGetDoublei_v(GL_DEPTH_RANGE, i, range);
+        glGetIntegeri_v(GL_SCISSOR_BOX, i, box);
+        tell(&R->state, "viewport %u %.9g %.9g %.9g %.9g %.9g %.9g %d %d %d %d %d", i, viewport[0], viewport[1], viewport[2], viewport[3],
+             range[0], range[1], glIsEnabledi(GL_SCISSOR_TEST, i), box[0], box[1], box[2], box[3]);
+    }
+}
+
 static void errors(const char *when)
 {
     for (GLenum e; (e = glGetError());)
@@ -271,8 +295,9 @@ void dump_context(void)
     tell(&R->answers, "hits %d", glRenderMode(GL_RENDER));
     tell(&R->answers, "feedback %llx selection %llx", (unsigned long long)hash(c->feedback, sizeof c->feedback),
          (unsigned long long)hash(c->selection, sizeof c->selection));
-    if (c->query)
-        glEndQuery(GL_SAMPLES_PASSED);
+    end_queries();
+    end_capture();
+    glUseProgram(0);
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);
     tell(&R->state, "draws to %d", number(c->framebuffers, FRAMES, (GLuint)name));
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &name);
@@ -282,6 +307,7 @@ void dump_context(void)
             get("", gets[i].name, gets[i].value);
     tables();
     units();
+    indexes();
     errors("the questions");
     stacks();
     errors("the stacks");

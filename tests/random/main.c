@@ -29,7 +29,7 @@ const struct window_api *W = &window_egl;
 static const char *const class_names[CLASSES] = {
     "state", "matrices", "immediate", "in-begin", "arrays", "evaluators", "lists", "pixels", "accum", "clears",
     "textures", "attribs", "modes", "reads", "framebuffers", "buffers", "queries", "swaps", "contexts", "threads", "errors",
-    "front", "copies", "drawables",
+    "front", "copies", "drawables", "captures", "indexed", "counters", "workers",
 };
 
 void fail(const char *format, ...)
@@ -147,7 +147,10 @@ const int *ints(int n, int bound) { return (const int *)values(int_values, n, 2,
 
 /* ---- one sequence ---- */
 
-static const struct generator *const tables[] = {state_calls, draw_calls, pixel_calls, object_calls, list_calls};
+static const struct generator *const tables[] = {state_calls, draw_calls, pixel_calls, object_calls, query_calls, swap_calls, list_calls,
+                                                 indexed_calls, capture_calls};
+
+int has(enum class class) { return !(R->without >> class & 1); }
 
 void any_call(void)
 {
@@ -156,7 +159,7 @@ void any_call(void)
         uint32_t at = pass ? below(sum) : 0;
         for (size_t t = 0; t < sizeof tables / sizeof *tables; t++)
             for (const struct generator *g = tables[t]; g->call; g++) {
-                if (O.without >> g->class & 1)
+                if (!has(g->class))
                     continue;
                 if (!pass) {
                     sum += (uint32_t)g->weight;
@@ -173,7 +176,8 @@ void any_call(void)
 static void switch_context(struct context *to)
 {
     R->now = to;
-    W->current(to->handle, to->draw, to->read);
+    if (!to->worker)
+        W->current(to->handle, to->draw, to->read);
 }
 
 /* Draws to a drawable of the context and reads from one; 0 is its first one. What was pushed comes back before: Mesa 22.3 has a read buffer for
@@ -184,7 +188,8 @@ static void switch_drawables(struct context *to, int draw, int read)
         glPopAttrib();
     to->draw = draw ? to->others + draw - 1 : to->drawable;
     to->read = read ? to->others + read - 1 : to->drawable;
-    switch_context(to);
+    R->now = to;
+    W->current(to->handle, to->draw, to->read);
 }
 
 /* Changes that no program could notice: a flush, each attribute group and the current colour touched, a culled triangle. */
@@ -213,6 +218,10 @@ void disturb(void)
     glGetIntegerv(GL_FOG_HINT, &hint);
     glHint(GL_FOG_HINT, hint == GL_NICEST ? GL_FASTEST : GL_NICEST);
     glHint(GL_FOG_HINT, (GLenum)hint);
+    glGetFloatv(GL_CURRENT_COLOR, colour);
+    glColor4fv(colour);
+    if (bound(GL_TRANSFORM_FEEDBACK_BUFFER_ACTIVE) || (R->now->query && R->now->counted != GL_SAMPLES_PASSED))
+        return; /* it would notice a triangle */
     GLboolean culled = glIsEnabled(GL_CULL_FACE);
     glGetIntegerv(GL_CULL_FACE_MODE, &face);
     glEnable(GL_CULL_FACE);
@@ -231,11 +240,10 @@ void disturb(void)
 
 static void take_context(struct context *c, int number, struct context *share)
 {
-    memset(c, 0, sizeof *c);
     c->share = share;
     c->drawable = c->draw = c->read = R->thread ? CONTEXTS : number;
     /* Not by chance(), so that a seed means the same with and without drawables up to here. */
-    if (W->several && !(O.without >> DRAWABLES & 1) && mix(R->seed + 77) % 100 < 30)
+    if (W->several && has(DRAWABLES) && mix(R->seed + 77) % 100 < 30)
         c->others = CONTEXTS + 1 + OTHERS * c->drawable;
     c->handle = W->create(share ? share->handle : NULL);
     if (!c->handle)
@@ -243,13 +251,18 @@ static void take_context(struct context *c, int number, struct context *share)
     for (int i = c->others ? OTHERS : 0; i >= 0; i--) {
         switch_drawables(c, i, i);
         glClearColor(0, 0, 0, 0);
+        if (W->windows && has(FRONT)) { /* an earlier sequence has drawn to it */
+            glDrawBuffer(GL_FRONT);
+            glClear(GL_COLOR_BUFFER_BIT);
+            glDrawBuffer(GL_BACK);
+        }
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT);
     }
     array_pointers();
     /* Names are the program's own or GL's choice, the same within a share group. */
     if (share) {
         memcpy(c->textures, share->textures, sizeof c->textures);
-    } else if (R->seed % 2 || R->context_count > 1) {
+    } else if (R->seed % 2 || (R->context_count > 1 && !has(WORKERS))) {
         glGenTextures(TEXTURES, c->textures);
     } else {
         for (int i = 0; i < TEXTURES; i++)
@@ -266,17 +279,59 @@ static void take_context(struct context *c, int number, struct context *share)
     }
 }
 
+static void one_step(void)
+{
+    if (R->now->others && !R->begin && chance(15)) {
+        int draw = (int)below(OTHERS + 1), read = chance(50) ? draw : (int)below(OTHERS + 1);
+        if (O.trace)
+            fprintf(R->out, "%d.0 (draws to %d, reads from %d)\n", R->step, draw, read);
+        switch_drawables(R->now, draw, read);
+    } else {
+        any_call();
+        if (O.disturb && !R->begin && !R->list)
+            disturb();
+    }
+}
+
+/* Another context goes on, on its own thread where it has one. */
+static void go_on_with(struct context *to)
+{
+    if (R->now->worker)
+        worker_run(R->now->worker, glFinish);
+    switch_context(to);
+}
+
+static void take_next(void) { take_context(R->now, (int)(R->now - R->contexts), R->sharing ? &R->contexts[0] : NULL); }
+
+static void print_context(void)
+{
+    if (O.verbose)
+        fprintf(R->out, "context %d\n", (int)(R->now - R->contexts));
+    switch_drawables(R->now, 0, 0);
+    dump_context();
+    for (int k = 1; R->now->others && k <= OTHERS; k++) {
+        switch_drawables(R->now, k, k);
+        dump_drawable(k);
+    }
+}
+
 static void sequence(void)
 {
     R->step = -1, R->part = 0;
     begin_part();
     R->answers = R->state = R->pixels = 0;
-    int several = !(O.without >> CONTEXTS_ & 1) && !R->thread && chance(25);
+    R->calls = 0;
+    int several = has(CONTEXTS_) && !R->thread && chance(25);
     R->context_count = several ? 2 + (int)below(CONTEXTS - 1) : 1;
-    for (int i = 0; i < R->context_count; i++)
-        take_context(&R->contexts[i], i, i && chance(60) ? &R->contexts[0] : NULL);
+    for (int i = 0; i < R->context_count; i++) {
+        struct context *c = R->now = &R->contexts[i];
+        R->sharing = i && chance(60);
+        memset(c, 0, sizeof *c);
+        c->worker = several && has(WORKERS) && mix(R->seed + 79) % 2 ? worker_start() : NULL;
+        worker_run(c->worker, take_next);
+    }
     if (several)
-        switch_context(&R->contexts[0]);
+        go_on_with(&R->contexts[0]);
     for (R->step = 0; R->step < O.steps; R->step++) {
         R->part = 0;
         begin_part();
@@ -286,34 +341,22 @@ static void sequence(void)
             int to = (int)below((uint32_t)R->context_count);
             if (O.trace)
                 fprintf(R->out, "%d.0 (context %d)\n", R->step, to);
-            switch_context(&R->contexts[to]);
-        } else if (R->now->others && !R->begin && chance(15)) {
-            int draw = (int)below(OTHERS + 1), read = chance(50) ? draw : (int)below(OTHERS + 1);
-            if (O.trace)
-                fprintf(R->out, "%d.0 (draws to %d, reads from %d)\n", R->step, draw, read);
-            switch_drawables(R->now, draw, read);
+            go_on_with(&R->contexts[to]);
         } else {
-            any_call();
-            if (O.disturb && !R->begin && !R->list)
-                disturb();
+            worker_run(R->now->worker, one_step);
         }
     }
     for (int i = 0; i < R->context_count; i++) {
-        switch_context(&R->contexts[i]);
-        switch_drawables(&R->contexts[i], 0, 0);
-        if (O.verbose)
-            fprintf(R->out, "context %d\n", i);
-        dump_context();
-        for (int k = 1; R->contexts[i].others && k <= OTHERS; k++) {
-            switch_drawables(&R->contexts[i], k, k);
-            dump_drawable(k);
-        }
+        go_on_with(&R->contexts[i]);
+        worker_run(R->now->worker, print_context);
     }
+    for (int i = 0; i < R->context_count; i++)
+        worker_stop(R->contexts[i].worker);
     W->current(NULL, 0, 0);
     for (int i = R->context_count - 1; i >= 0; i--)
         W->destroy(R->contexts[i].handle);
-    fprintf(R->out, "seed %llu thread %d answers %016llx state %016llx pixels %016llx\n", (unsigned long long)R->seed, R->thread,
-            (unsigned long long)R->answers, (unsigned long long)R->state, (unsigned long long)R->pixels);
+    fprintf(R->out, "seed %llu thread %d calls %u answers %016llx state %016llx pixels %016llx\n", (unsigned long long)R->seed,
+            R->thread, R->calls, (unsigned long long)R->answers, (unsigned long long)R->state, (unsigned long long)R->pixels);
     fflush(R->out);
 }
 
@@ -328,8 +371,12 @@ static void seed(uint64_t number)
 {
     static struct run runs[2];
     static unsigned char memory[2][MEMORY];
+    unsigned without = O.without;
+    /* Not by chance(), as for drawables. */
+    for (int class = CAPTURES; mix(number + 78) % 100 >= SOME_SEEDS && class < CLASSES; class++)
+        without |= 1u << class;
     for (int i = 0; i < 2; i++)
-        runs[i] = (struct run){.seed = number, .thread = i, .out = stdout, .memory = memory[i]};
+        runs[i] = (struct run){.seed = number, .without = without, .thread = i, .out = stdout, .memory = memory[i]};
     memset(memory, 0, sizeof memory);
     R = &runs[0];
     R->step = -2;
@@ -337,7 +384,7 @@ static void seed(uint64_t number)
     pthread_t other;
     char *text = NULL;
     size_t length;
-    int two = !(O.without >> THREADS & 1) && chance(15);
+    int two = has(THREADS) && chance(15);
     if (two) {
         runs[1].out = open_memstream(&text, &length);
         if (!runs[1].out || pthread_create(&other, NULL, second_thread, &runs[1]))

@@ -16,8 +16,11 @@ enum { MEMORY = 1 << 20, BUFFER = 8192 };
 /* Kinds of calls that can be left out (--without). The order is that of class_names in main.c. */
 enum class {
     STATE, MATRICES, IMMEDIATE, IN_BEGIN, ARRAYS, EVALUATORS, LISTS, PIXELS, ACCUM, CLEARS, TEXTURES_, ATTRIBS, MODES,
-    READS, FRAMEBUFFERS, BUFFERS, QUERIES, SWAPS, CONTEXTS_, THREADS, ERRORS, FRONT, COPIES, DRAWABLES, CLASSES
+    READS, FRAMEBUFFERS, BUFFERS, QUERIES, SWAPS, CONTEXTS_, THREADS, ERRORS, FRONT, COPIES, DRAWABLES,
+    /* From here on: in SOME_SEEDS of 100 sequences, so that the others are what they were before there were these. */
+    CAPTURES, INDEXED, COUNTERS, WORKERS, CLASSES
 };
+enum { SOME_SEEDS = 40 };
 
 /* One context of a sequence, and its state as far as the sequence tracks it. */
 struct context {
@@ -29,20 +32,27 @@ struct context {
     GLuint textures[TEXTURES], framebuffers[FRAMES], renderbuffer;
     GLfloat feedback[VALUES];
     GLuint selection[VALUES];
-    int query; /* 1 to 3: between glBeginQuery and glEndQuery */
+    int query; /* its name, between glBeginQuery and glEndQuery */
+    GLenum counted; /* what it counts */
+    int conditional; /* between glBeginConditionalRender and its end */
+    unsigned asked; /* bits of occlusion queries that have ended */
+    GLuint program, captured; /* transform feedback; 0 before its first call */
+    struct worker *worker; /* the thread that it is current on; null: the sequence's */
 };
 
 /* One thread of a sequence. */
 struct run {
     uint64_t seed, random;
+    unsigned without; /* bits of classes that the sequence leaves out */
     int step, part;
     int thread; /* 0 or 1 */
     int begin, list; /* between glBegin and glEnd; the list that is being compiled */
     int loop;        /* between glBegin(GL_LINE_LOOP) and glEnd */
     int executes;    /* the list is compiled with GL_COMPILE_AND_EXECUTE */
     struct context contexts[CONTEXTS], *now;
-    int context_count;
+    int context_count, sharing; /* whether the next context shares with the first one */
     FILE *out;
+    unsigned calls; /* of the sequence; what prints the results calls more */
     uint64_t answers, state, pixels;
     unsigned char *memory; /* memory that GL writes to */
 };
@@ -118,9 +128,10 @@ void trace_end(void);
 /* Arguments are evaluated once, from left to right, so that a seed means the same with every compiler. */
 #define CALL(f, ...) __extension__({ \
     JOIN(V, COUNT(__VA_ARGS__))(__VA_ARGS__) \
+    R->calls++; \
     if (O.trace) { trace_name(#f); JOIN(P, COUNT(__VA_ARGS__)) trace_end(); } \
     f(JOIN(A, COUNT(__VA_ARGS__))); })
-#define CALL0(f) __extension__({ if (O.trace) { trace_name(#f); trace_end(); } f(); })
+#define CALL0(f) __extension__({ R->calls++; if (O.trace) { trace_name(#f); trace_end(); } f(); })
 /* An array of random numbers, which --trace prints. */
 const float *floats(int n, float a, float b);
 const double *doubles(int n, float a, float b);
@@ -133,7 +144,8 @@ struct generator {
     int weight;
     void (*call)(void);
 };
-extern const struct generator state_calls[], draw_calls[], pixel_calls[], object_calls[], list_calls[];
+extern const struct generator state_calls[], draw_calls[], pixel_calls[], object_calls[], query_calls[], swap_calls[], list_calls[],
+    indexed_calls[], capture_calls[];
 void any_call(void);        /* a call from any table (main.c) */
 void vertex_calls(int n);   /* legal calls between glBegin and glEnd (calls_draw.c) */
 void disturb(void);
@@ -146,6 +158,15 @@ void prepare_data(void);    /* once per process (calls_draw.c) */
 void prepare_pixels(void);  /* once per process (calls_pixels.c) */
 const void *pixel_source(void);
 void *pixel_target(void);
+
+int has(enum class class);  /* whether the sequence has a class of calls (main.c) */
+void end_queries(void);     /* ends the query and the conditional rendering of the context (calls_queries.c) */
+void end_capture(void);     /* ends transform feedback, and tells what it wrote (calls_captures.c) */
+
+/* ---- worker.c ---- */
+struct worker *worker_start(void);
+void worker_run(struct worker *worker, void (*work)(void)); /* runs work there with the same R, and waits for it; here if null */
+void worker_stop(struct worker *worker);                    /* no context is current there afterwards */
 
 /* ---- dump.c ---- */
 void dump_context(void);

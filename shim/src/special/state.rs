@@ -5,6 +5,7 @@ use crate::context::{
 };
 use crate::hooks::{Object, before_uncompiled, compile, named, touch};
 use manyview_core::gl::{FramebufferName, Ptr, TextureName, consts::PROGRAM_BINARY_FORMATS};
+use manyview_core::layer::FeedbackCommand;
 use manyview_core::state::{Command, Touch};
 
 pub(crate) unsafe fn glMatrixMode(mode: u32) {
@@ -27,7 +28,7 @@ pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
     let name = TextureName(texture);
     let clashes = peek(|l| {
         l.binds_at(target, name);
-        l.compiles() || l.owns_texture(name)
+        l.compiles() || l.hides_texture(name)
     });
     if clashes == Some(true) {
         enter(|gl, l| l.binds_texture(gl, name));
@@ -85,13 +86,10 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
         },
         _ => &[],
     };
-    if names
-        .iter()
-        .any(|&name| peek(|l| l.owns_texture(name)) == Some(true))
-    {
-        enter(|gl, l| l.yield_names(gl));
-    }
-    enter(|gl, l| l.deleted_textures(gl, names));
+    enter(|gl, l| {
+        l.deletes_textures(gl, names);
+        l.deleted_textures(gl, names);
+    });
     // Deleting a bound texture unbinds it.
     peek(|l| l.touch(Touch::TEXTURE));
     // SAFETY: the program's own call.
@@ -115,7 +113,7 @@ pub(crate) unsafe fn glIsTexture(texture: u32) -> u8 {
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsTexture(texture) };
     // Textures of ours do not exist for the program.
-    is & u8::from(peek(|l| l.owns_texture(TextureName(texture))) != Some(true))
+    is & u8::from(peek(|l| l.hides_texture(TextureName(texture))) != Some(true))
 }
 
 pub(crate) unsafe fn glIsFramebuffer(framebuffer: u32) -> u8 {
@@ -136,31 +134,31 @@ pub(crate) unsafe fn glRenderMode(mode: u32) -> i32 {
 pub(crate) unsafe fn glBeginTransformFeedback(mode: u32) {
     // SAFETY: the program's own call.
     unsafe { real().glBeginTransformFeedback(mode) };
-    enter(|gl, l| l.feedback_changed(gl, Some(true)));
+    enter(|gl, l| l.feedback_changed(gl, FeedbackCommand::Begin(mode)));
 }
 
 pub(crate) unsafe fn glEndTransformFeedback() {
     // SAFETY: the program's own call.
     unsafe { real().glEndTransformFeedback() };
-    enter(|gl, l| l.feedback_changed(gl, Some(false)));
+    enter(|gl, l| l.feedback_changed(gl, FeedbackCommand::End));
 }
 
 /// A hook of a command that switches transform feedback in another way.
 macro_rules! feedback {
-    ($name:ident($($arg:ident: $kind:ty),*)) => {
+    ($command:ident: $name:ident($($arg:ident: $kind:ty),*)) => {
         pub(crate) unsafe fn $name($($arg: $kind),*) {
             // SAFETY: the program's own call.
             unsafe { real().$name($($arg),*) };
-            enter(|gl, l| l.feedback_changed(gl, None));
+            enter(|gl, l| l.feedback_changed(gl, FeedbackCommand::$command));
         }
     };
 }
 
-feedback!(glPauseTransformFeedback());
-feedback!(glResumeTransformFeedback());
-feedback!(glBindTransformFeedback(target: u32, id: u32));
-feedback!(glBindTransformFeedbackNV(target: u32, id: u32));
-feedback!(glDeleteTransformFeedbacks(n: i32, ids: Ptr));
+feedback!(Pause: glPauseTransformFeedback());
+feedback!(Pause: glResumeTransformFeedback());
+feedback!(Bind: glBindTransformFeedback(target: u32, id: u32));
+feedback!(Bind: glBindTransformFeedbackNV(target: u32, id: u32));
+feedback!(Bind: glDeleteTransformFeedbacks(n: i32, ids: Ptr));
 
 /// The answer to glGet where it differs from the driver's because the program's framebuffer 0 is the atlas.
 fn answer(name: u32) -> Option<i64> {

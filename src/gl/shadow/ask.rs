@@ -182,6 +182,11 @@ pub(in crate::gl) fn is_enabled(cap: u32, ask: impl Fn() -> bool) -> bool {
     by_key(key, || [ask().into(), 0, 0, 0])[0] != 0
 }
 
+/// Whether the program has set some capability by its index.
+pub(in crate::gl) fn are_capabilities_indexed() -> bool {
+    with(|s| s.indexed) == Some(true)
+}
+
 /// Whether a capability is on for an index.
 pub(in crate::gl) fn is_enabled_at(cap: u32, index: u32, ask: impl Fn() -> bool) -> bool {
     let kept = key::is_indexed(cap);

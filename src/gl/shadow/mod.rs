@@ -15,6 +15,7 @@ mod key;
 mod lists;
 mod matrices;
 mod objects;
+mod own_names;
 mod rectangles;
 mod stack;
 mod store;
@@ -24,6 +25,7 @@ mod values;
 
 use super::consts as c;
 use super::real::Real;
+pub(super) use ask::are_capabilities_indexed;
 pub(super) use ask::{
     attributes, block_bindings, coordinates, floats_at, has_extension, is_enabled, is_enabled_at,
     is_uniform_unchanged, keep_uniform, light, material, matrix, storage_bindings, tex_env,
@@ -36,6 +38,9 @@ use key::Key;
 pub(super) use key::{Form, UNITS};
 use lists::CompiledLists;
 use matrices::Matrices;
+use own_names::OwnNames;
+pub use own_names::{are_textures_taken, is_own_texture};
+pub(super) use own_names::{texture_left, texture_taken, texture_used};
 use rustc_hash::{FxHashMap, FxHashSet};
 use stack::Stack;
 use store::Store;
@@ -52,6 +57,7 @@ static DELETED: AtomicU64 = AtomicU64::new(0);
 pub struct Shared {
     lists: CompiledLists,
     uniforms: UniformValues,
+    own_names: OwnNames,
 }
 
 /// What is kept of a value.
@@ -92,6 +98,7 @@ pub(super) struct Shadow {
     compiling: Option<Compiling>,
     lists: CompiledLists,
     uniforms: UniformValues,
+    own_names: OwnNames,
     bytes: current::Bytes,
     subroutines: Subroutines,
     /// Between glBegin and glEnd, where the driver refuses most calls.
@@ -135,6 +142,7 @@ impl ContextShadow {
             compiling: None,
             lists: shared.lists,
             uniforms: shared.uniforms,
+            own_names: shared.own_names,
             bytes: current::Bytes::default(),
             subroutines: Subroutines::default(),
             inside: false,

@@ -64,8 +64,10 @@ impl Layer {
 
     /// Makes a draw as [`Layer::choose`] has chosen.
     pub(in crate::layer) fn execute_by(&mut self, gl: &Gl, draw: &mut Draw, execution: &Execution) {
-        let feeds = self.queries.feeds();
-        if feeds && self.has_copies() {
+        let written = self.queries.feeds();
+        // Otherwise no view is drawn, and what GL_FEEDBACK or GL_SELECT tells is told once.
+        let feeds = written && self.state.primitives.render_mode == c::RENDER;
+        if written && self.has_copies() {
             // What is written comes from the program's own textures.
             self.write_back_textures(gl);
         }
