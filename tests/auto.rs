@@ -128,7 +128,7 @@ fn what_is_drawn_before_is_there_after_a_change() {
         let mut command = layered(demo("echo"), &all);
         command
             .env("XDG_CACHE_HOME", cache.path())
-            .args(["--frames", FRAMES, "--dump"]);
+            .args(["--frames", FRAMES, "--size", "160x120", "--dump"]);
         succeed(screen().give(command.arg(&path)));
         rgb(&path)
     };

@@ -69,6 +69,7 @@ fn instanced_holds_its_bounds() {
 }
 
 #[test]
+#[ignore = "half a minute: make test-long"]
 fn geometry_holds_its_bounds() {
     check(&["geometry"]);
 }

@@ -19,7 +19,7 @@ fn frames(demonstration: &[&str], options: &[&str], count: u32) -> (Vec<RgbImage
     command.arg("--out").arg(folder.path().join("%d.png"));
     command.arg("--report").arg(&report).args(options);
     command.arg("--").arg(demo(name)).args(arguments);
-    succeed(screen().give(command.args(["--size", "320x240"])));
+    succeed(screen().give(command.args(["--size", "160x120"])));
     let picture = |frame| rgb(&folder.path().join(format!("{frame}.png")));
     ((1..=count).map(picture).collect(), drawn_once(&report))
 }

@@ -289,6 +289,11 @@ fn programs_know_nothing_of_it() {
     for way in SHADED.into_iter().chain(FIXED).chain(["cyan"]) {
         let expected = lines(bare(bars()).arg(way));
         assert_eq!(expected.matches("error 0x0").count(), 4, "{expected}");
+        let replay = Views {
+            frame: 3,
+            ..REPLAYED
+        };
+        let (_, exact) = replay.shown(layered(bars(), &[]).arg(way));
         for atlas in ["side-by-side", "layers"] {
             let views = Views {
                 atlas,
@@ -299,12 +304,6 @@ fn programs_know_nothing_of_it() {
             let (told, all) = views.shown(layered(bars(), &[]).arg(way));
             assert_eq!(told, expected, "{way}, {atlas}");
             let own = |all: &RgbImage| all.view(SIZE[0], 0, SIZE[0], SIZE[1]).to_image();
-            let replay = Views {
-                atlas,
-                frame: 3,
-                ..REPLAYED
-            };
-            let (_, exact) = replay.shown(layered(bars(), &[]).arg(way));
             assert!(
                 own(&all) == own(&exact),
                 "{way}, {atlas}: the own view is another"

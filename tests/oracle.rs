@@ -521,8 +521,8 @@ macro_rules! oracle {
 
 oracle! {
     glx: gears lists echo echo_listed blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_depth passes_samples passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
-    egl: gears lists echo menu shade passes_samples;
-    osmesa: gears lists echo blur menu shade passes_samples;
+    egl: gears lists echo shade passes_samples;
+    osmesa: gears lists echo blur shade passes_samples;
 }
 
 /// The scenes whose draws meet nothing of EGL or OSMesa that those above do not meet.
@@ -537,8 +537,8 @@ macro_rules! other_apis {
 }
 
 other_apis! {
-    egl: teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field shade_toon shade_combined shade_block passes passes_depth passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
-    osmesa: teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field shade_toon shade_combined shade_block passes passes_depth passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
+    egl: teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade_toon shade_combined shade_block passes passes_depth passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
+    osmesa: teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade_toon shade_combined shade_block passes passes_depth passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
 }
 
 /// Windows that are sRGB or multisampled, or have no read buffer at the swap, by replay.

@@ -493,6 +493,7 @@ fn differences_are_found_by_subtest_and_by_test() {
 }
 
 #[test]
+#[ignore = "a minute: make test-long"]
 fn a_subset_gives_the_same_results() {
     let tests: Vec<_> = lines(SUBSET).map(str::to_owned).collect();
     check(Tests::Named(&tests), "subset", |mode| !mode.long);

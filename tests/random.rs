@@ -19,8 +19,9 @@ use support::{Screen, bare, layered, own_screen};
 const APART: [&str; 2] = ["front", "swaps"];
 
 /// Seeds that are known to differ, and the reason.
-const KNOWN: [(u64, &str); 17] = [
+const KNOWN: [(u64, &str); 18] = [
     (63_298, DRAW_BUFFER),
+    (65_024, FOLLOWS),
     (103_929, MATERIAL),
     (104_195, MATERIAL),
     (104_463, MATERIAL),
@@ -51,6 +52,8 @@ const COLOUR: &str =
     "Mesa alone sets the colour from before a list's vertices again after it (docs/measured.md)";
 const MATERIAL: &str =
     "Mesa alone loses a material within a list's primitive, if an evaluator follows in it";
+const FOLLOWS: &str =
+    "Mesa alone lets a material within a list's primitive override one that follows the colour";
 const CURRENT: &str = "Mesa alone keeps a current value that glPopAttrib should restore, if a list has set it that calls glPushAttrib";
 const DRAW_BUFFER: &str = "Mesa alone keeps the draw buffer of framebuffer 0 with the drawable, if another framebuffer is bound while \
     the drawable is exchanged; the layer keeps it with the context";

@@ -115,3 +115,30 @@ fn a_material_that_follows_the_colour_takes_it_anew() {
         fake.assert_restored(&before);
     }
 }
+
+#[test]
+fn what_follows_the_colour_of_a_material_is_left_alone() {
+    let both = c::AMBIENT_AND_DIFFUSE;
+    for (face, parameter, popped, expected) in [
+        (c::FRONT_AND_BACK, both, false, 6),
+        (c::FRONT, both, false, 8),
+        (c::BACK, c::SPECULAR, false, 9),
+        // It may follow no more when it is restored.
+        (c::FRONT_AND_BACK, both, true, 10),
+    ] {
+        let fake = driver();
+        let gl = fake.gl();
+        fake.put(Scope::Context, c::COLOR_MATERIAL, &[1.0]);
+        fake.put(Scope::Context, c::COLOR_MATERIAL_FACE, &[f64::from(face)]);
+        fake.put(
+            Scope::Context,
+            c::COLOR_MATERIAL_PARAMETER,
+            &[f64::from(parameter)],
+        );
+        let current = Current::take(&gl, Effect::MATERIAL, popped);
+        assert_eq!(fake.count("glGetMaterialfv"), expected);
+        fake.forget();
+        current.put(&gl);
+        assert_eq!(fake.count("glMaterialfv"), expected);
+    }
+}

@@ -1,6 +1,7 @@
 //! What is kept of the state is what a driver has: random calls against a driver that answers as the specification says.
 
 mod current_values;
+mod own_names;
 mod rectangles;
 
 use super::key::{Key, bits};
@@ -109,6 +110,7 @@ fn calls_that_a_driver_may_refuse_are_asked_about() {
         gl.bind_texture(c::TEXTURE_2D, TextureName(0));
         gl.bind_texture(c::TEXTURE_2D, TextureName(7));
         assert_eq!(known(&shadow, bound), Some([7, 0, 0, 0]));
+        gl.use_texture(TextureName(7));
         gl.delete_texture(TextureName(7));
         assert_eq!(known(&shadow, bound), None);
         gl.bind_texture(c::TEXTURE_2D, TextureName(7));
