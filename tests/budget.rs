@@ -30,7 +30,7 @@ const KINDS: [Scene; 7] = [
     &["blur"],
 ];
 
-const SCENES: [Scene; 17] = [
+const SCENES: [Scene; 18] = [
     &["arrays", "--many", "1000"],
     &["shade", "--glsl", "330"],
     &["shade", "--toon"],
@@ -48,6 +48,7 @@ const SCENES: [Scene; 17] = [
     &["points"],
     &["clip"],
     &["echo"],
+    &["prims"],
 ];
 
 /// Scenes on EGL: desktop OpenGL and OpenGL ES.
@@ -57,7 +58,7 @@ const ON_EGL: [Scene; 2] = [
 ];
 
 /// Scenes that are known to ask more, the most calls for a swap, and why.
-const MORE: [(Scene, f64, &str); 3] = [
+const MORE: [(Scene, f64, &str); 2] = [
     (
         &["lists"],
         46.0,
@@ -67,11 +68,6 @@ const MORE: [(Scene, f64, &str); 3] = [
         &["arrays"],
         18.0,
         "after array elements that stand among other vertices, only the driver knows the current values",
-    ),
-    (
-        &["prims"],
-        23.0,
-        "only the driver knows a material that has followed the colour",
     ),
 ];
 

@@ -13,7 +13,7 @@ const LATELY: usize = 16;
 const NESTING: usize = 64;
 
 /// Parameters of a material that may follow the colour.
-const COLOURS: [u32; 4] = [c::AMBIENT, c::DIFFUSE, c::SPECULAR, c::EMISSION];
+pub(super) const COLOURS: [u32; 4] = [c::AMBIENT, c::DIFFUSE, c::SPECULAR, c::EMISSION];
 
 /// One change.
 #[derive(Clone, Debug)]
@@ -225,6 +225,7 @@ impl Shadow {
     fn forget_executed(&mut self, summary: Summary) {
         if summary.material {
             self.forget_material();
+            self.followers_have_colour = false;
         }
         self.forget_currents(summary.currents);
     }
@@ -234,8 +235,10 @@ impl Shadow {
             return self.apply_inside(change, depth);
         }
         match *change {
+            Change::Put(Key::Material(face, name), value) => self.material(face, name, value),
             Change::Put(key, value) => {
                 self.put(key, value);
+                self.colour_may_be_set(key);
                 if self.rectangles_by_index && value.is_some() {
                     self.spread(key, value);
                 }
@@ -273,13 +276,14 @@ impl Shadow {
                 self.put(Key::Value(c::ACTIVE_TEXTURE), value);
             }
             Change::ColorMaterial(values) => {
-                self.forget_followers();
+                // What followed until now may not be known any more: the driver has taken the new parameter already.
+                self.forget_material();
+                self.followers_have_colour = false;
                 let names = [c::COLOR_MATERIAL_FACE, c::COLOR_MATERIAL_PARAMETER];
                 for (at, name) in names.into_iter().enumerate() {
                     let value = values.map(|values| [values[at], 0, 0, 0]);
                     self.put(Key::Value(name), value);
                 }
-                self.forget_followers();
             }
             Change::ColorMask(mask) => {
                 self.put(Key::Value(c::COLOR_WRITEMASK), Some(mask));
@@ -312,8 +316,11 @@ impl Shadow {
     /// Between glBegin and glEnd the driver refuses most calls, but is the judge of that.
     fn apply_inside(&mut self, change: &Change, depth: usize) {
         match *change {
-            Change::Put(key @ Key::Material(..), value) => self.put(key, value),
-            Change::Put(key, value) if key::current_bit(key).is_some() => self.put(key, value),
+            Change::Put(Key::Material(face, name), value) => self.material(face, name, value),
+            Change::Put(key, value) if key::current_bit(key).is_some() => {
+                self.put(key, value);
+                self.colour_may_be_set(key);
+            }
             Change::Put(key, _) | Change::Bind(key, _) => self.put(key, None),
             Change::Enable(cap, _) if !key::is_of_unit(cap) => self.put(Key::Cap(cap), None),
             Change::CallList(list) => self.call_list(list, depth),
@@ -341,28 +348,8 @@ impl Shadow {
         if self.indexed && key::is_indexed(cap) {
             (0..16).for_each(|index| self.put(Key::CapAt(cap, index), value));
         }
-        if cap == c::COLOR_MATERIAL && (on || before != value) {
-            // The material has followed the colour, or does so now.
-            self.forget_followers();
-        }
-    }
-
-    /// Forgets the parameters of the material that follow the colour while GL_COLOR_MATERIAL is on. Only the driver knows them: Mesa 22.3 lets
-    /// them follow late.
-    pub(super) fn forget_followers(&mut self) {
-        let name = c::COLOR_MATERIAL_PARAMETER;
-        let known = self.values.known(Key::Value(name));
-        let [parameter, ..] = known.unwrap_or_else(|| {
-            let value = [self.integer(name), 0, 0, 0];
-            self.answered(Key::Value(name), value);
-            value
-        });
-        for face in [c::FRONT, c::BACK] {
-            for name in COLOURS {
-                if key::drives(parameter, name) {
-                    self.put(Key::Material(face, name), None);
-                }
-            }
+        if cap == c::COLOR_MATERIAL {
+            self.color_material(before.map(|[on, ..]| on != 0), on);
         }
     }
 
@@ -467,15 +454,10 @@ impl Shadow {
             entry.value = value;
             *self.values.entry(key) = entry;
         }
+        self.followers_have_colour = false;
         if lighting {
             // A driver may let the material follow the colour that it restores.
             self.forget_followers_if_any();
-        }
-    }
-
-    fn forget_followers_if_any(&mut self) {
-        if self.values.known(Key::Cap(c::COLOR_MATERIAL)) != Some([0; 4]) {
-            self.forget_followers();
         }
     }
 
@@ -490,5 +472,7 @@ impl Shadow {
             // It does not exist, or only the driver knows it.
             None => self.forget_all(),
         }
+        // Mesa 22.3 lets the material follow the first colour of a list.
+        self.followers_have_colour = false;
     }
 }

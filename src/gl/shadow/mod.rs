@@ -8,6 +8,7 @@
 mod arrays;
 mod ask;
 mod change;
+mod color_material;
 mod commands;
 mod current;
 mod fixed_function;
@@ -109,6 +110,8 @@ pub(super) struct Shadow {
     rectangles_by_index: bool,
     /// Some attributes were given to binding points. From then on, only the driver knows which attributes advance by instances.
     binding_points: bool,
+    /// A command of its own has set the colour last, so that a material that follows it has it.
+    followers_have_colour: bool,
     /// While transform feedback is on, the driver may refuse other programs.
     feedback: bool,
 }
@@ -149,6 +152,7 @@ impl ContextShadow {
             indexed: false,
             rectangles_by_index: false,
             binding_points: false,
+            followers_have_colour: false,
             feedback: false,
         };
         ContextShadow {
@@ -333,6 +337,7 @@ impl Shadow {
         self.matrices = Matrices::default();
         self.attribs.forget();
         self.client.forget();
+        self.followers_have_colour = false;
     }
 
     /// GL_ATTRIB_STACK_DEPTH, asked for once.

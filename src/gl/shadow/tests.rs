@@ -1,5 +1,6 @@
 //! What is kept of the state is what a driver has: random calls against a driver that answers as the specification says.
 
+mod color_material;
 mod current_values;
 mod own_names;
 mod rectangles;
@@ -167,6 +168,7 @@ fn a_list_may_have_primitives() {
         let gl = fake.gl();
         gl.disable(c::BLEND);
         gl.disable(c::DEPTH_TEST);
+        gl.disable(c::COLOR_MATERIAL);
         gl.new_list(list(5), c::COMPILE);
         gl.begin(c::POINTS);
         gl.enable(c::BLEND);
