@@ -24,9 +24,9 @@ README_SCENE := --frame 40 --eye-spacing 0.3 --focal-depth 8
 # Debian packages that building, the demos and the tests need; then optional packages of some tests.
 PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libosmesa6 libosmesa6-dev libgl-dev libegl-dev \
 	libx11-dev libpng-dev mesa-utils apitrace khronos-api
-OPTIONAL_PACKAGES := faketime glslang-tools piglit
+OPTIONAL_PACKAGES := faketime glslang-tools
 # Programs that test-long and test-full record and repeat.
-LONG_PACKAGES := gltron xscreensaver-gl
+LONG_PACKAGES := gltron xscreensaver-gl piglit
 # What 32-bit programs, and building them, need. The architecture i386 is added to dpkg.
 PACKAGES_32 := gcc-multilib g++-multilib libgl1:i386 libegl1:i386 libgl1-mesa-dri:i386 libosmesa6:i386 libosmesa6-dev:i386 \
 	libgl-dev:i386 libegl-dev:i386 libx11-dev:i386 libpng-dev:i386 libglu1-mesa-dev:i386

@@ -285,6 +285,11 @@ fn primitives_begin_while_feedback_is_active() {
 }
 
 #[test]
+fn what_is_told_while_feedback_is_active_is_told_once() {
+    alike_by_both_shaders("feedback", "told", 1);
+}
+
+#[test]
 fn feedback_that_is_refused_changes_nothing() {
     for mode in ["wrong", "failed"] {
         alike_by_both_shaders("feedback", mode, 1);
@@ -300,7 +305,7 @@ fn every_viewport_stays_where_the_program_has_put_it() {
 
 #[test]
 fn every_scissor_test_is_as_the_program_has_switched_it() {
-    for mode in ["scissor", "first"] {
+    for mode in ["scissor", "first", "copied"] {
         alike("indexed", &[mode], 2);
     }
 }

@@ -407,6 +407,11 @@ mod full_ten_thousand {
     #[ignore = "many minutes: make random"]
     fn side_by_side() {
         compare(Api::Egl, "side-by-side", "replay", 104_000..107_000);
+    }
+
+    #[test]
+    #[ignore = "many minutes: make random"]
+    fn further_side_by_side() {
         compare(Api::Egl, "side-by-side", "replay", 110_000..111_400);
     }
 
@@ -414,6 +419,11 @@ mod full_ten_thousand {
     #[ignore = "many minutes: make random"]
     fn in_layers() {
         compare(Api::Egl, "layers", "replay", 107_000..110_000);
+    }
+
+    #[test]
+    #[ignore = "many minutes: make random"]
+    fn further_in_layers() {
         compare(Api::Egl, "layers", "replay", 112_000..113_400);
     }
 }

@@ -28,28 +28,6 @@ const PARAMETERS: [u32; 5] = [
     c::SHININESS,
 ];
 
-/// The parameters of the material that follow the colour, which glMaterial does not set meanwhile (OpenGL 4.6 compatibility profile, 12.2.3).
-struct Followed {
-    face: u32,
-    parameter: u32,
-}
-
-impl Followed {
-    /// None where GL_COLOR_MATERIAL is off.
-    fn ask(gl: &Gl) -> Option<Followed> {
-        gl.is_enabled(c::COLOR_MATERIAL).then(|| Followed {
-            face: gl.get_integer(c::COLOR_MATERIAL_FACE) as u32,
-            parameter: gl.get_integer(c::COLOR_MATERIAL_PARAMETER) as u32,
-        })
-    }
-
-    fn includes(&self, face: u32, name: u32) -> bool {
-        let both =
-            self.parameter == c::AMBIENT_AND_DIFFUSE && [c::AMBIENT, c::DIFFUSE].contains(&name);
-        [face, c::FRONT_AND_BACK].contains(&self.face) && (self.parameter == name || both)
-    }
-}
-
 impl Current {
     /// Reads the values of some kinds from the driver. `popped`: something other than immediate-mode calls may change them
     /// before they are restored, such as a glPopAttrib.
@@ -84,15 +62,12 @@ impl Current {
             current.texture = coordinates.collect();
         }
         if kinds.has(Effect::MATERIAL) {
-            let followed = if popped { None } else { Followed::ask(gl) };
-            let own = |&(face, name): &(u32, u32)| {
-                !followed.as_ref().is_some_and(|f| f.includes(face, name))
-            };
             let places = [c::FRONT, c::BACK]
                 .into_iter()
                 .flat_map(|face| PARAMETERS.map(|name| (face, name)));
+            // What follows the colour now may not do so when it is restored after a glPopAttrib.
             let material = places
-                .filter(own)
+                .filter(|&(face, name)| popped || !gl.follows_colour(face, name))
                 .map(|(face, name)| (face, name, gl.get_material(face, name)));
             current.material = material.collect();
         }

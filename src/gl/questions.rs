@@ -148,11 +148,21 @@ impl Gl {
             .any(|e| e == extension)
     }
 
+    /// Whether a parameter of the material follows the colour (GL_COLOR_MATERIAL), so that glMaterial does not set it (OpenGL 4.6 compatibility
+    /// profile, 12.2.3).
+    pub fn follows_colour(&self, face: u32, name: u32) -> bool {
+        let setting = |name| self.get_integer(name) as u32;
+        self.is_enabled(c::COLOR_MATERIAL)
+            && shadow::drives(
+                [c::COLOR_MATERIAL_FACE, c::COLOR_MATERIAL_PARAMETER].map(setting),
+                face,
+                name,
+            )
+    }
+
     /// glGetMaterialfv, up to 4 values.
     pub fn get_material(&self, face: u32, name: u32) -> [f32; 4] {
-        let on = self.is_enabled(c::COLOR_MATERIAL);
-        let driving = on.then(|| self.get_integer(c::COLOR_MATERIAL_PARAMETER) as u32);
-        let words = shadow::material(face, name, driving, || {
+        let words = shadow::material(face, name, self.follows_colour(face, name), || {
             let mut v = [0u32; 4];
             // SAFETY: room for 4 elements.
             unsafe { self.real.glGetMaterialfv(face, name, v.as_mut_ptr().cast()) };

@@ -288,8 +288,13 @@ impl Layer {
         self.written(gl, Object::Renderbuffer(name));
     }
 
-    /// glDeleteTextures.
-    pub fn deleted_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
+    /// Before glDeleteTextures.
+    pub fn deletes_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
+        for &name in textures {
+            if self.hides_texture(name) {
+                self.take_texture(gl, name);
+            }
+        }
         self.targets.offscreen.deleted_textures(gl, textures);
         self.write_bindings.deleted_textures(textures);
     }

@@ -233,9 +233,9 @@ impl Layer {
         let balanced = segments().all(Segment::is_balanced);
         // Empty lists as well reach the driver: Mesa 22.3 flushes current values at each call of a list, and a later glPopAttrib
         // restores only what was flushed.
-        let plain = || segments().all(|s| s.run.is_plain());
-        let passes = segments().next().is_none() || !self.state.makes_pictures() && plain();
-        if balanced && passes {
+        let empty = segments().next().is_none();
+        let plain = !self.state.makes_pictures() && segments().all(|s| s.run.is_plain());
+        if balanced && (empty || plain) {
             let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             call();
             self.state.touch(touch);

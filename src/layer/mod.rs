@@ -222,8 +222,8 @@ impl Layer {
         std::iter::once(&self.targets.atlas).chain(self.diagnostics.proving.atlas())
     }
 
-    /// Whether a texture is one of ours.
-    pub fn owns_texture(&self, name: TextureName) -> bool {
+    /// Whether a texture is one of this layer's.
+    fn owns_texture(&self, name: TextureName) -> bool {
         let proving = self.diagnostics.proving.atlas();
         !name.is_zero()
             && (self.targets.owns_texture(name)
@@ -237,15 +237,6 @@ impl Layer {
             // One of ours may be the program's by now (`yield_taken_names`).
             true => is_own_texture(name),
             false => self.owns_texture(name),
-        }
-    }
-
-    /// The program deletes textures that it has not generated, or that a display list has bound.
-    pub fn deletes_textures(&mut self, gl: &Gl, names: &[TextureName]) {
-        for &name in names {
-            if self.hides_texture(name) {
-                self.take_texture(gl, name);
-            }
         }
     }
 
@@ -291,7 +282,7 @@ impl Layer {
         self.state.has.compatibility || gl.is_es()
     }
 
-    /// The program takes a name that is ours.
+    /// The program takes a name that is ours: binds it, or deletes it, though it has not generated it.
     fn take_texture(&mut self, gl: &Gl, name: TextureName) {
         if !self.owns_texture(name) && self.numbers_textures(gl) {
             gl.free_texture(name);

@@ -10,7 +10,7 @@ pub enum Primitive {
     /// Outside glBegin and glEnd.
     None,
     /// The calls are recorded. The driver is in an empty primitive, so that it refuses commands that are not allowed there. The mode of that
-    /// is never the program's, because Mesa 22.3 loses a fan after an empty fan.
+    /// is never the program's, because Mesa 22.3 loses a fan after an empty fan, but for points under transform feedback.
     Recorded {
         /// The mode of the empty primitive.
         empty: u32,

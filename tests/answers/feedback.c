@@ -13,6 +13,7 @@
  *   clear      the picture is cleared while feedback is active
  *   copy       the picture is read, copied and blitted while feedback is active
  *   offscreen  the draws go to a framebuffer of the program's, which is then shown
+ *   told       GL_FEEDBACK tells the corners of the second draw, in place of its picture
  *   wrong      calls that are not allowed while feedback is active
  *   failed     feedback that has not begun, since its mode is wrong
  *
@@ -204,6 +205,12 @@ static void between(GLuint *objects)
     } else if (is("copy")) {
         pixels("read");
         show_copies();
+    } else if (is("told")) {
+        GLfloat told[256] = {0};
+        glFeedbackBuffer(256, GL_2D, told);
+        glRenderMode(GL_FEEDBACK);
+        bar(feeding, 1);
+        printf("told: %d\n", glRenderMode(GL_RENDER));
     } else if (is("wrong")) {
         wrong();
     } else {

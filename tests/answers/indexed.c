@@ -7,6 +7,7 @@
  *   indexed all        all are the same, by glViewport and glScissor
  *   indexed scissor    scissor rectangles by index, and tests of the second and the third
  *   indexed first      the same, and the test of the first alone
+ *   indexed copied     the same, and the picture is copied, and drawn over in a framebuffer of the program's
  *   indexed list       viewports by index in a display list
  *   indexed range      depth ranges by index */
 #define SURFACE_SIZE
@@ -74,9 +75,9 @@ static void set(const char *mode)
     else
         for (GLuint i = 0; i < COUNT; i++)
             glViewportIndexedfv(i, viewports[i]);
-    if (!strcmp(mode, "scissor") || !strcmp(mode, "first")) {
+    if (!strcmp(mode, "scissor") || !strcmp(mode, "first") || !strcmp(mode, "copied")) {
         glScissorArrayv(0, COUNT, scissors[0]);
-        if (!strcmp(mode, "first"))
+        if (strcmp(mode, "scissor"))
             glEnablei(GL_SCISSOR_TEST, 0);
         else {
             glEnable(GL_SCISSOR_TEST);
@@ -85,6 +86,28 @@ static void set(const char *mode)
     }
     if (!strcmp(mode, "range"))
         glDepthRangeArrayv(0, COUNT, ranges[0]);
+}
+
+static void copied(void)
+{
+    GLuint texture, framebuffer;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 0, 0, WIDTH, HEIGHT, 0);
+    tell("copied");
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    quad(PLACE);
+    tell("drawn over");
+    glClear(GL_COLOR_BUFFER_BIT);
+    tell("cleared again");
+    picture();
+    glBlitFramebuffer(0, 0, 8, 8, 16, 16, 24, 24, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+    tell("deleted");
 }
 
 int main(int argc, char **argv)
@@ -115,6 +138,8 @@ int main(int argc, char **argv)
         tell("drawn");
         picture();
         tell("read");
+        if (!strcmp(mode, "copied"))
+            copied();
         eglSwapBuffers(display, surface);
         tell("swapped");
     }

@@ -192,16 +192,35 @@ static void switch_drawables(struct context *to, int draw, int read)
     W->current(to->handle, to->draw, to->read);
 }
 
+/* Transform feedback and queries of primitives notice it. */
+static void culled_triangle(void)
+{
+    GLint face = 0;
+    GLboolean culled = glIsEnabled(GL_CULL_FACE);
+    glGetIntegerv(GL_CULL_FACE_MODE, &face);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT_AND_BACK);
+    glBegin(GL_TRIANGLES);
+    glVertex2f(0, 0);
+    glVertex2f(0.1f, 0);
+    glVertex2f(0, 0.1f);
+    glEnd();
+    glCullFace((GLenum)face);
+    if (!culled)
+        glDisable(GL_CULL_FACE);
+}
+
 /* Changes that no program could notice: a flush, each attribute group and the current colour touched, a culled triangle. */
 void disturb(void)
 {
     static const GLenum caps[] = {GL_DITHER, GL_DEPTH_TEST, GL_MAP1_INDEX, GL_FOG, GL_LIGHTING, GL_LINE_STIPPLE, GL_POINT_SMOOTH,
                                   GL_POLYGON_STIPPLE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_TEXTURE_GEN_Q, GL_NORMALIZE,
                                   GL_MULTISAMPLE};
-    GLint face = 0;
     GLfloat colour[4];
     glFlush();
     for (size_t i = 0; i < sizeof caps / sizeof *caps; i++) {
+        if (caps[i] == GL_SCISSOR_TEST && has(INDEXED))
+            continue; /* each viewport may have another */
         GLboolean on = glIsEnabled(caps[i]);
         (on ? glDisable : glEnable)(caps[i]);
         (on ? glEnable : glDisable)(caps[i]);
@@ -218,22 +237,8 @@ void disturb(void)
     glGetIntegerv(GL_FOG_HINT, &hint);
     glHint(GL_FOG_HINT, hint == GL_NICEST ? GL_FASTEST : GL_NICEST);
     glHint(GL_FOG_HINT, (GLenum)hint);
-    glGetFloatv(GL_CURRENT_COLOR, colour);
-    glColor4fv(colour);
-    if (bound(GL_TRANSFORM_FEEDBACK_BUFFER_ACTIVE) || (R->now->query && R->now->counted != GL_SAMPLES_PASSED))
-        return; /* it would notice a triangle */
-    GLboolean culled = glIsEnabled(GL_CULL_FACE);
-    glGetIntegerv(GL_CULL_FACE_MODE, &face);
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_FRONT_AND_BACK);
-    glBegin(GL_TRIANGLES);
-    glVertex2f(0, 0);
-    glVertex2f(0.1f, 0);
-    glVertex2f(0, 0.1f);
-    glEnd();
-    glCullFace((GLenum)face);
-    if (!culled)
-        glDisable(GL_CULL_FACE);
+    if (!bound(GL_TRANSFORM_FEEDBACK_BUFFER_ACTIVE) && (!R->now->query || R->now->counted == GL_SAMPLES_PASSED))
+        culled_triangle();
     glGetFloatv(GL_CURRENT_COLOR, colour);
     glColor4fv(colour);
 }

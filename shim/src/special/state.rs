@@ -86,10 +86,7 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
         },
         _ => &[],
     };
-    enter(|gl, l| {
-        l.deletes_textures(gl, names);
-        l.deleted_textures(gl, names);
-    });
+    enter(|gl, l| l.deletes_textures(gl, names));
     // Deleting a bound texture unbinds it.
     peek(|l| l.touch(Touch::TEXTURE));
     // SAFETY: the program's own call.

@@ -228,15 +228,14 @@ pub(in crate::gl) fn light(light: u32, name: u32, ask: impl Fn() -> [u32; 4]) ->
 }
 
 /// glGetMaterial. Only the driver knows it while the material follows the colour, and while a list is compiled: drivers execute vertices of that
-/// later. `driving`: GL_COLOR_MATERIAL_PARAMETER, where GL_COLOR_MATERIAL is on.
+/// later.
 pub(in crate::gl) fn material(
     face: u32,
     name: u32,
-    driving: Option<u32>,
+    follows: bool,
     ask: impl Fn() -> [u32; 4],
 ) -> [u32; 4] {
     let key = Key::Material(face, name);
-    let follows = driving.is_some_and(|parameter| key::drives(parameter, name));
     by_key(|s| (!follows && s.compiling.is_none()).then_some(key), ask)
 }
 

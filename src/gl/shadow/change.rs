@@ -12,9 +12,6 @@ const LATELY: usize = 16;
 /// Lists within lists that are followed; GL_MAX_LIST_NESTING is at least 64.
 const NESTING: usize = 64;
 
-/// Parameters of a material that may follow the colour.
-pub(super) const COLOURS: [u32; 4] = [c::AMBIENT, c::DIFFUSE, c::SPECULAR, c::EMISSION];
-
 /// One change.
 #[derive(Clone, Debug)]
 pub(super) enum Change {
@@ -235,10 +232,10 @@ impl Shadow {
             return self.apply_inside(change, depth);
         }
         match *change {
-            Change::Put(Key::Material(face, name), value) => self.material(face, name, value),
+            Change::Put(Key::Material(face, name), value) => self.put_material(face, name, value),
             Change::Put(key, value) => {
                 self.put(key, value);
-                self.colour_may_be_set(key);
+                self.current_is_set(key);
                 if self.rectangles_by_index && value.is_some() {
                     self.spread(key, value);
                 }
@@ -275,16 +272,7 @@ impl Shadow {
                 let value = known.then_some([unit, 0, 0, 0]);
                 self.put(Key::Value(c::ACTIVE_TEXTURE), value);
             }
-            Change::ColorMaterial(values) => {
-                // What followed until now may not be known any more: the driver has taken the new parameter already.
-                self.forget_material();
-                self.followers_have_colour = false;
-                let names = [c::COLOR_MATERIAL_FACE, c::COLOR_MATERIAL_PARAMETER];
-                for (at, name) in names.into_iter().enumerate() {
-                    let value = values.map(|values| [values[at], 0, 0, 0]);
-                    self.put(Key::Value(name), value);
-                }
-            }
+            Change::ColorMaterial(settings) => self.set_color_material(settings),
             Change::ColorMask(mask) => {
                 self.put(Key::Value(c::COLOR_WRITEMASK), Some(mask));
                 for index in 0..8 {
@@ -316,10 +304,10 @@ impl Shadow {
     /// Between glBegin and glEnd the driver refuses most calls, but is the judge of that.
     fn apply_inside(&mut self, change: &Change, depth: usize) {
         match *change {
-            Change::Put(Key::Material(face, name), value) => self.material(face, name, value),
+            Change::Put(Key::Material(face, name), value) => self.put_material(face, name, value),
             Change::Put(key, value) if key::current_bit(key).is_some() => {
                 self.put(key, value);
-                self.colour_may_be_set(key);
+                self.current_is_set(key);
             }
             Change::Put(key, _) | Change::Bind(key, _) => self.put(key, None),
             Change::Enable(cap, _) if !key::is_of_unit(cap) => self.put(Key::Cap(cap), None),
@@ -349,15 +337,7 @@ impl Shadow {
             (0..16).for_each(|index| self.put(Key::CapAt(cap, index), value));
         }
         if cap == c::COLOR_MATERIAL {
-            self.color_material(before.map(|[on, ..]| on != 0), on);
-        }
-    }
-
-    pub(super) fn forget_material(&mut self) {
-        for face in [c::FRONT, c::BACK] {
-            for name in COLOURS.into_iter().chain([c::SHININESS]) {
-                self.put(Key::Material(face, name), None);
-            }
+            self.switch_color_material(before.map(|[on, ..]| on != 0), on);
         }
     }
 
@@ -435,7 +415,7 @@ impl Shadow {
     pub(super) fn restore(&mut self, pushed: super::stack::Pushed) {
         let lighting = pushed.mask & (c::LIGHTING_BIT | c::CURRENT_BIT | key::bits::ENABLE) != 0;
         if lighting {
-            self.forget_followers_if_any();
+            self.forget_followers();
         }
         for (key, before) in pushed.before {
             let (sure, maybe) = key.saved_with();
@@ -457,7 +437,7 @@ impl Shadow {
         self.followers_have_colour = false;
         if lighting {
             // A driver may let the material follow the colour that it restores.
-            self.forget_followers_if_any();
+            self.forget_followers();
         }
     }
 
@@ -472,7 +452,7 @@ impl Shadow {
             // It does not exist, or only the driver knows it.
             None => self.forget_all(),
         }
-        // Mesa 22.3 lets the material follow the first colour of a list.
+        // Mesa 22.3 lets a list set what follows the colour.
         self.followers_have_colour = false;
     }
 }

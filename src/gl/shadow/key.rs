@@ -211,10 +211,10 @@ pub(super) fn is_indexed(cap: u32) -> bool {
     INDEXED.contains(&cap)
 }
 
-/// Whether a parameter of the material follows the colour while that is GL_COLOR_MATERIAL_PARAMETER.
-pub(super) fn drives(parameter: u32, name: u32) -> bool {
+/// Whether a parameter of the material of a face follows the colour while these are GL_COLOR_MATERIAL_FACE and GL_COLOR_MATERIAL_PARAMETER.
+pub(in crate::gl) fn drives([faces, parameter]: [u32; 2], face: u32, name: u32) -> bool {
     let both = parameter == c::AMBIENT_AND_DIFFUSE && [c::AMBIENT, c::DIFFUSE].contains(&name);
-    parameter == name || both
+    [face, c::FRONT_AND_BACK].contains(&faces) && (parameter == name || both)
 }
 
 impl Key {

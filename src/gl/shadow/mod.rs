@@ -36,7 +36,7 @@ use change::{Change, Summary};
 use core::cell::{Cell, RefCell};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use key::Key;
-pub(super) use key::{Form, UNITS};
+pub(super) use key::{Form, UNITS, drives};
 use lists::CompiledLists;
 use matrices::Matrices;
 use own_names::OwnNames;

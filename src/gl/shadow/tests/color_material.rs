@@ -24,24 +24,63 @@ fn set_colour(gl: &Gl) {
     gl.color_4f(r, g, b, a);
 }
 
+fn set_material(gl: &Gl) {
+    gl.material(c::BACK, c::DIFFUSE, &[0.5; 4]);
+}
+
 #[test]
 fn the_material_keeps_the_colour_that_it_followed() {
     let bits = COLOUR.map(f32::to_bits);
     assert_eq!(kept(set_colour), Some(bits));
     let again = |gl: &Gl| {
-        gl.material(c::BACK, c::DIFFUSE, &[0.0; 4]);
+        set_material(gl);
         set_colour(gl);
         gl.enable(c::COLOR_MATERIAL);
-        gl.material(c::BACK, c::DIFFUSE, &[0.5; 4]);
+        set_material(gl);
     };
     assert_eq!(kept(again), Some(bits), "glMaterial sets nothing meanwhile");
 }
 
 #[test]
 fn only_the_driver_knows_a_material_after_a_list() {
-    let after = |gl: &Gl| {
-        set_colour(gl);
-        gl.call_list(ListName(9));
-    };
-    assert_eq!(kept(after), None);
+    let list = ListName(9);
+    for sets in [set_colour, set_material] {
+        let after = |gl: &Gl| {
+            set_colour(gl);
+            gl.new_list(list, c::COMPILE);
+            sets(gl);
+            gl.end_list();
+            gl.call_list(list);
+        };
+        assert_eq!(kept(after), None);
+    }
+}
+
+/// glColorMaterial makes other parameters follow.
+fn follow(fake: &Fake, parameter: u32) {
+    // SAFETY: no pointers.
+    unsafe { fake.real().glColorMaterial(c::FRONT_AND_BACK, parameter) };
+}
+
+#[test]
+fn what_follows_is_not_known_while_it_does() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    let value = |name| known(&shadow, Key::Material(c::BACK, name)).map(|v| v.map(f32::from_bits));
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.disable(c::COLOR_MATERIAL);
+        gl.material(c::BACK, c::DIFFUSE, &[0.5; 4]);
+        gl.material(c::BACK, c::SPECULAR, &[0.5; 4]);
+        follow(&fake, c::DIFFUSE);
+        assert_eq!(value(c::DIFFUSE), Some([0.5; 4]), "nothing follows yet");
+        gl.enable(c::COLOR_MATERIAL);
+        gl.material(c::BACK, c::DIFFUSE, &[0.25; 4]);
+        assert_eq!(value(c::DIFFUSE), None, "glMaterial has no effect");
+        assert_eq!(value(c::SPECULAR), Some([0.5; 4]));
+        follow(&fake, c::SPECULAR);
+        assert_eq!([c::DIFFUSE, c::SPECULAR].map(value), [None; 2]);
+        gl.material(c::BACK, c::DIFFUSE, &[0.25; 4]);
+        assert_eq!(value(c::DIFFUSE), Some([0.25; 4]), "it follows no more");
+    });
 }
