@@ -143,6 +143,12 @@ fn a_program_may_use_any_name_for_a_texture_in_contexts_that_share() {
     }
 }
 
+#[test]
+fn a_program_may_use_any_name_for_other_objects() {
+    let numbers = windowed("numbers.c", &[]);
+    same(&numbers, &[], &[]);
+}
+
 /// Calls that the driver reports as wrong. The first of them have hooks that work on the layer.
 const WRONG: [&str; 14] = [
     "draw", "elements", "clear", "pixels", "read", "blit", "bind", "buffer", "state", "link",

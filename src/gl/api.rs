@@ -115,19 +115,6 @@ plain! {
     window_pos_2i = glWindowPos2i(x: i32, y: i32);
 }
 
-macro_rules! generate {
-    ($($name:ident = $gl:ident, $held:ident, $kind:ident;)*) => { $(
-        /// One new name.
-        pub fn $name(&self) -> $kind {
-            let mut name = 0u32;
-            // SAFETY: a context is current; the pointer is to one u32 that lives across the call.
-            unsafe { self.real.$gl(1, (&raw mut name).cast()) };
-            Held::$held.count(1);
-            $kind(name)
-        }
-    )* };
-}
-
 /// Commands that take or give memory.
 impl Gl {
     /// # Safety
@@ -162,12 +149,6 @@ impl Gl {
     /// The table behind, for hooks that pass on the program's own arguments.
     pub fn real(&self) -> &'static Real {
         self.real
-    }
-
-    generate! {
-        gen_framebuffer = glGenFramebuffers, Framebuffer, FramebufferName;
-        gen_query = glGenQueries, Query, QueryName;
-        gen_vertex_array = glGenVertexArrays, VertexArray, VertexArrayName;
     }
 
     /// Switches the scissor test of index 0, which cuts clears and copies. That of other viewports stays as the program has set it.

@@ -33,20 +33,6 @@ impl Gl {
         unsafe { self.real.glDeleteSync(fence.0 as Ptr) };
     }
 
-    /// One new buffer. Programs may number their buffers themselves instead of asking for names, and begin with 1: so ours is the
-    /// last of many names, and the others are given back.
-    pub fn gen_buffer(&self) -> BufferName {
-        let mut names = [0u32; 1024];
-        let (count, all) = (names.len() as i32, names.as_mut_ptr());
-        // SAFETY: room for so many names; so many of them, less one, are given back.
-        unsafe {
-            self.real.glGenBuffers(count, all.cast());
-            self.real.glDeleteBuffers(count - 1, all.cast());
-        }
-        Held::Buffer.count(1);
-        BufferName(names[names.len() - 1])
-    }
-
     /// glBufferData without contents, for pixels to be read into.
     pub fn buffer_data_empty(&self, target: u32, bytes: usize) {
         // SAFETY: a context is current; no data is read.

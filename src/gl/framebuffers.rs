@@ -152,12 +152,10 @@ impl Gl {
 
     /// A new renderbuffer with a store, which it leaves bound.
     pub fn renderbuffer(&self, [format, width, height, samples]: Storage) -> RenderbufferName {
-        let mut name = 0u32;
-        // SAFETY: room for one name.
+        let name = self.gen_renderbuffer();
+        // SAFETY: no pointers.
         unsafe {
-            self.real.glGenRenderbuffers(1, (&raw mut name).cast());
-            Held::Framebuffer.count(1);
-            self.real.glBindRenderbuffer(c::RENDERBUFFER, name);
+            self.real.glBindRenderbuffer(c::RENDERBUFFER, name.0);
             if samples > 0 {
                 self.real.glRenderbufferStorageMultisample(
                     c::RENDERBUFFER,
@@ -171,7 +169,7 @@ impl Gl {
                     .glRenderbufferStorage(c::RENDERBUFFER, format as u32, width, height);
             }
         }
-        RenderbufferName(name)
+        name
     }
 
     /// glBindRenderbuffer

@@ -26,6 +26,8 @@ pub struct Recording {
     last: [Option<u32>; VALUES],
     /// Some call may set any current value.
     any: bool,
+    /// Some call is an array element.
+    elements: bool,
 }
 
 /// Texture units whose coordinates the shadow keeps.
@@ -41,6 +43,8 @@ pub(super) enum Sets {
     Value(usize),
     /// The coordinates of the texture unit that its first argument names.
     Unit,
+    /// Those of the arrays that are on.
+    Arrays,
     /// Any.
     Any,
 }
@@ -61,6 +65,7 @@ impl Recording {
         self.calls = 0;
         self.last = [None; VALUES];
         self.any = false;
+        self.elements = false;
     }
 
     /// Number of calls recorded.
@@ -88,6 +93,7 @@ impl Recording {
                     _ => self.any = true,
                 }
             }
+            Sets::Arrays => self.elements = true,
             Sets::Any => self.any = true,
         }
     }
@@ -204,6 +210,9 @@ impl Recording {
                 let slot = r.u32() as usize;
                 // SAFETY: as above.
                 unsafe { note_one(s, slot, &mut r) };
+            }
+            if self.elements {
+                s.forget_arrays();
             }
         });
     }

@@ -18,6 +18,7 @@ pub mod immediate;
 mod indices;
 mod list_names;
 mod object_names;
+mod own_objects;
 mod own_textures;
 mod pixel_store;
 mod pixels;

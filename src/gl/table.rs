@@ -4041,8 +4041,8 @@ real_functions! {
     glEvalCoord2fv(u: Ptr), noted any_current();
     glEvalPoint1(i: i32), noted any_current();
     glEvalPoint2(i: i32, j: i32), noted any_current();
-    glArrayElement(i: i32), noted any_current();
-    glArrayElementEXT(i: i32), noted any_current();
+    glArrayElement(i: i32), noted array_element();
+    glArrayElementEXT(i: i32), noted array_element();
     glVertexAttrib1d(index: u32, x: f64);
     glVertexAttrib1dARB(index: u32, x: f64);
     glVertexAttrib1dNV(index: u32, x: f64), noted any_current();
@@ -5526,11 +5526,11 @@ real_functions! {
     glBindSamplers(first: u32, count: i32, samplers: Ptr), noted anything();
     glDeleteSamplers(count: i32, samplers: Ptr), noted glDeleteSamplers(count, samplers);
     glDeleteProgramPipelines(n: i32, pipelines: Ptr), noted glDeleteProgramPipelines(n, pipelines);
-    glEnableClientState(array: u32);
+    glEnableClientState(array: u32), noted glEnableClientState(array);
     glDisableClientState(array: u32);
-    glClientActiveTexture(texture: u32);
-    glClientActiveTextureARB(texture: u32);
-    glInterleavedArrays(format: u32, stride: i32, pointer: Ptr);
+    glClientActiveTexture(texture: u32), noted glClientActiveTexture(texture);
+    glClientActiveTextureARB(texture: u32), noted glClientActiveTexture(texture);
+    glInterleavedArrays(format: u32, stride: i32, pointer: Ptr), noted glInterleavedArrays(format, stride, pointer);
     glColorPointer(size: i32, type_: u32, stride: i32, pointer: Ptr);
     glSecondaryColorPointer(size: i32, type_: u32, stride: i32, pointer: Ptr);
     glSecondaryColorPointerEXT(size: i32, type_: u32, stride: i32, pointer: Ptr);
@@ -6145,7 +6145,8 @@ pub(super) const fn sets(slot: usize) -> Sets {
         slot::glSecondaryColor3b..=slot::glSecondaryColor3hvNV => Sets::Value(2),
         slot::glFogCoordd..=slot::glFogCoordhvNV => Sets::Value(3),
         slot::glEdgeFlag..=slot::glEdgeFlagv => Sets::Value(4),
-        slot::glEvalCoord1d..=slot::glArrayElementEXT => Sets::Any,
+        slot::glEvalCoord1d..=slot::glEvalPoint2 => Sets::Any,
+        slot::glArrayElement..=slot::glArrayElementEXT => Sets::Arrays,
         slot::glMultiTexCoordP1ui..=slot::glMultiTexCoordP4uiv => Sets::Unit,
         slot::glTexCoordP1ui..=slot::glTexCoordP4uiv => Sets::Value(5),
         slot::glNormalP3ui..=slot::glNormalP3uiv => Sets::Value(1),
@@ -6380,8 +6381,8 @@ pub(super) unsafe fn note_one(shadow: &mut Shadow, slot: usize, reader: &mut Rea
             slot::glEvalCoord2fv => shadow.any_current(),
             slot::glEvalPoint1 => shadow.any_current(),
             slot::glEvalPoint2 => shadow.any_current(),
-            slot::glArrayElement => shadow.any_current(),
-            slot::glArrayElementEXT => shadow.any_current(),
+            slot::glArrayElement => shadow.array_element(),
+            slot::glArrayElementEXT => shadow.array_element(),
             slot::glVertexAttrib1dNV => shadow.any_current(),
             slot::glVertexAttrib1dvNV => shadow.any_current(),
             slot::glVertexAttrib1fNV => shadow.any_current(),

@@ -1,8 +1,8 @@
 //! Transform feedback: the vertices of a draw are written once, and the draw is made in all views.
 //!
 //! While feedback is active, every draw of another view would be written as well. So the program's own call is made first with
-//! rasterisation off, which writes, and the views are drawn while feedback is paused. Queries that count primitives count the views'
-//! own one, as of any draw, and that of written primitives counts the first call alone.
+//! rasterisation off, which writes, and the views are drawn while feedback is paused. Queries of what comes before rasterisation count the first
+//! call alone; the others count the views' own one, as of any draw.
 
 use super::Layer;
 use super::draw::{Draw, Send};
@@ -89,11 +89,10 @@ impl Layer {
         }
         self.state.keep_errors(gl);
         gl.enable(c::RASTERIZER_DISCARD);
-        self.queries.stop_counting(gl);
+        self.queries.start_writing(gl);
         (draw.send)(Send::AsItIs);
         let refused = self.state.keep_errors(gl);
         self.queries.hold_feedback(gl);
-        self.queries.count_again(gl);
         gl.disable(c::RASTERIZER_DISCARD);
         if !refused {
             show(self, draw);

@@ -241,33 +241,38 @@ impl Layer {
             self.state.touch(touch);
             return;
         }
-        // Text: each list is a letter, and all are one run of the same kind. One call sends them all, as they are.
-        let one = segments().next().map(|s| s.run);
-        if let Some(run @ (Run::Draw | Run::Raster)) = one
-            && balanced
-            && segments().all(|s| s.run == run)
-        {
-            let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
-            let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
-            let primitives = segments().all(|s| s.primitives);
-            let lines_or_points = segments().any(|s| s.lines_or_points);
-            let material = segments().any(|s| s.immediate.changes_material());
-            let content = Content {
-                current,
-                primitives,
-                lines_or_points,
-                material,
-            };
-            return self.run(gl, run, touch, content, &mut || {
-                touch_current_values(gl, current);
-                call();
-            });
+        if self.text(gl, &bodies, call) {
+            return;
         }
         for body in &bodies {
             for segment in body.iter() {
                 self.segment(gl, segment, 1);
             }
         }
+    }
+
+    /// Text: each list is a letter, and all are one run of the same kind. One call sends them all, as they are. False where they are something else.
+    fn text(&mut self, gl: &Gl, bodies: &[Body], call: &mut dyn FnMut()) -> bool {
+        let segments = || bodies.iter().flat_map(|b| b.iter());
+        let Some(run @ (Run::Draw | Run::Raster)) = segments().next().map(|s| s.run) else {
+            return false;
+        };
+        if !segments().all(|s| s.run == run && s.is_balanced()) {
+            return false;
+        }
+        let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
+        let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
+        let content = Content {
+            current,
+            primitives: segments().all(|s| s.primitives),
+            lines_or_points: segments().any(|s| s.lines_or_points),
+            material: segments().any(|s| s.immediate.changes_material()),
+        };
+        self.run(gl, run, touch, content, &mut || {
+            touch_current_values(gl, current);
+            call();
+        });
+        true
     }
 
     /// The runs of a list: empty for a list that does not exist, `None` where only the driver knows its contents.
@@ -294,7 +299,11 @@ impl Layer {
                 let base = gl.get_integer(c::LIST_BASE) as u32;
                 let names = segment.names.iter();
                 let names: Vec<ListName> = names.map(|n| ListName(n.wrapping_add(base))).collect();
-                self.nested(gl, &names, depth);
+                let bodies: Option<Vec<Body>> = names.iter().map(|&l| self.body(gl, l)).collect();
+                let send = &mut || gl.call_list(segment.name);
+                if !bodies.is_some_and(|bodies| self.text(gl, &bodies, send)) {
+                    self.nested(gl, &names, depth);
+                }
             }
             Run::State | Run::Draw | Run::Clear | Run::Raster | Run::Read | Run::Copy => {
                 self.run_segment(gl, segment);

@@ -85,6 +85,35 @@ const TARGETS: [u32; 14] = [
     c::CLIPPING_OUTPUT_PRIMITIVES,
 ];
 
+/// Targets that count without rasterisation as well. Of a draw that transform feedback writes, they count the call that writes: drivers may split
+/// primitives differently there.
+const BEFORE_RASTERISATION: [u32; 8] = [
+    c::PRIMITIVES_GENERATED,
+    c::VERTICES_SUBMITTED,
+    c::PRIMITIVES_SUBMITTED,
+    c::VERTEX_SHADER_INVOCATIONS,
+    c::TESS_CONTROL_SHADER_PATCHES,
+    c::TESS_EVALUATION_SHADER_INVOCATIONS,
+    c::GEOMETRY_SHADER_INVOCATIONS,
+    c::GEOMETRY_SHADER_PRIMITIVES_EMITTED,
+];
+
+/// Queries that are ended and begun again together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// Those of [`BEFORE_RASTERISATION`].
+    BeforeRasterisation,
+    /// The others.
+    Rasterised,
+}
+
+fn kind(target: u32) -> Kind {
+    match BEFORE_RASTERISATION.contains(&target) {
+        true => Kind::BeforeRasterisation,
+        false => Kind::Rasterised,
+    }
+}
+
 impl Queries {
     /// Whether draws are being counted.
     pub(super) fn active(&self) -> bool {
@@ -102,7 +131,7 @@ impl Queries {
         if self.pauses > 1 {
             return;
         }
-        self.stop_counting(gl);
+        self.running().iter().for_each(|&kind| self.stop(gl, kind));
         if self.feedback == Feedback::On {
             gl.pause_transform_feedback();
         }
@@ -117,7 +146,17 @@ impl Queries {
         if self.feedback == Feedback::On {
             gl.resume_transform_feedback();
         }
-        self.count_again(gl);
+        for &kind in self.running() {
+            self.go_on(gl, kind);
+        }
+    }
+
+    /// The queries that count now, where none is paused.
+    fn running(&self) -> &'static [Kind] {
+        match self.feedback {
+            Feedback::Held => &[Kind::Rasterised],
+            Feedback::Off | Feedback::On => &[Kind::BeforeRasterisation, Kind::Rasterised],
+        }
     }
 
     /// The program has switched transform feedback.
@@ -130,26 +169,41 @@ impl Queries {
         self.feedback == Feedback::On
     }
 
-    /// Pauses transform feedback while the views of a draw are drawn, which was written before.
+    /// Before the call that writes a draw by transform feedback, without rasterisation.
+    pub(super) fn start_writing(&self, gl: &Gl) {
+        self.stop(gl, Kind::Rasterised);
+    }
+
+    /// After [`Queries::start_writing`] and that call: pauses transform feedback while the views of the draw are drawn.
     pub(super) fn hold_feedback(&mut self, gl: &Gl) {
+        self.stop(gl, Kind::BeforeRasterisation);
+        let written = self
+            .active
+            .iter_mut()
+            .filter(|a| kind(a.target) == Kind::BeforeRasterisation);
+        written.for_each(|a| a.counted = true);
         gl.pause_transform_feedback();
         self.feedback = Feedback::Held;
+        self.go_on(gl, Kind::Rasterised);
     }
 
     /// Goes on after [`Queries::hold_feedback`].
     pub(super) fn release_feedback(&mut self, gl: &Gl) {
         gl.resume_transform_feedback();
         self.feedback = Feedback::On;
+        self.go_on(gl, Kind::BeforeRasterisation);
     }
 
-    /// Ends the queries that count what is drawn.
-    pub(super) fn stop_counting(&self, gl: &Gl) {
-        self.active.iter().for_each(|a| gl.end_query(a.target));
+    /// Ends queries that count what is drawn.
+    fn stop(&self, gl: &Gl, which: Kind) {
+        let stopped = self.active.iter().filter(|a| kind(a.target) == which);
+        stopped.for_each(|a| gl.end_query(a.target));
     }
 
-    /// Goes on after [`Queries::stop_counting`].
-    pub(super) fn count_again(&mut self, gl: &Gl) {
-        for a in &mut self.active {
+    /// Goes on after [`Queries::stop`].
+    fn go_on(&mut self, gl: &Gl, which: Kind) {
+        let stopped = self.active.iter_mut().filter(|a| kind(a.target) == which);
+        for a in stopped {
             let name = if a.counted {
                 let name = self.spare.pop().unwrap_or_else(|| gl.gen_query());
                 a.more.push(name);

@@ -22,15 +22,16 @@ static void fed(void)
 {
     static const GLenum kinds[] = {GL_POINTS, GL_LINES, GL_TRIANGLES};
     static const GLfloat corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    GLuint buffer, query, written = 99, program = feeding();
+    GLuint buffer, queries[2], written = 99, generated = 99, program = feeding();
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, buffer);
     glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, 4096, NULL, GL_DYNAMIC_COPY);
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
-    glGenQueries(1, &query);
+    glGenQueries(2, queries);
     glUseProgram(program);
     for (int k = 0; k < 3; k++) {
-        glBeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, query);
+        glBeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, queries[0]);
+        glBeginQuery(GL_PRIMITIVES_GENERATED, queries[1]);
         glBeginTransformFeedback(kinds[k]);
         for (GLenum mode = GL_POINTS; mode <= GL_POLYGON; mode++) {
             glBegin(mode);
@@ -56,8 +57,10 @@ static void fed(void)
         }
         glEndTransformFeedback();
         glEndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
-        glGetQueryObjectuiv(query, GL_QUERY_RESULT, &written);
-        printf("%u: %u written, error 0x%x\n", kinds[k], written, glGetError());
+        glEndQuery(GL_PRIMITIVES_GENERATED);
+        glGetQueryObjectuiv(queries[0], GL_QUERY_RESULT, &written);
+        glGetQueryObjectuiv(queries[1], GL_QUERY_RESULT, &generated);
+        printf("%u: %u written, %u generated, error 0x%x\n", kinds[k], written, generated, glGetError());
     }
     glUseProgram(0);
 }

@@ -56,6 +56,22 @@ void end_capture(void)
     tell(&R->answers, "%d.%d captured %llx", R->step, R->part, (unsigned long long)hash(bytes, sizeof bytes));
 }
 
+int is_refused(GLenum mode)
+{
+    struct context *c = R->now;
+    GLenum kind = mode == GL_POINTS ? GL_POINTS : mode <= GL_LINE_STRIP ? GL_LINES : GL_TRIANGLES;
+    return !R->list && c->program && bound(GL_TRANSFORM_FEEDBACK_BUFFER_ACTIVE) && !bound(GL_TRANSFORM_FEEDBACK_BUFFER_PAUSED) && kind != c->fed;
+}
+
+/* Begins to capture primitives of a kind, if nothing is captured yet. */
+static void begin_capture(GLenum kind)
+{
+    int before = bound(GL_TRANSFORM_FEEDBACK_BUFFER_ACTIVE);
+    CALL(glBeginTransformFeedback, kind);
+    if (!before)
+        R->now->fed = kind;
+}
+
 static void capture(void)
 {
     struct context *c = R->now;
@@ -71,7 +87,7 @@ static void capture(void)
     case 5: case 6:
         CALL(glUseProgram, c->program);
         CALL(glBindBufferBase, GL_TRANSFORM_FEEDBACK_BUFFER, 0u, c->captured);
-        CALL(glBeginTransformFeedback, ENUM(GL_POINTS, GL_LINES, GL_TRIANGLES, GL_TRIANGLES));
+        begin_capture(ENUM(GL_POINTS, GL_LINES, GL_TRIANGLES, GL_TRIANGLES));
         break;
     case 7: chance(50) ? CALL0(glPauseTransformFeedback) : CALL0(glResumeTransformFeedback); break;
     case 8:

@@ -141,12 +141,14 @@ static void primitive(void)
     /* Mesa 22.3 may crash at the end of a list that has errors of this kind. */
     if (!R->list && !(O.without >> ERRORS & 1) && chance(1))
         mode = 0x123;
+    /* A vertex outside of glBegin and glEnd is undefined. */
+    int refused = is_refused(mode), empty = mode == 0x123 || refused;
     CALL(glBegin, mode);
     R->begin = 1;
     /* In a loop Mesa 22.3 loses edges where an attribute is set for the first time since its last flush, so none is set. */
     R->loop = mode == GL_LINE_LOOP;
-    int n = chance(5) || mode == 0x123 ? 0 : (int)below(14); /* a vertex outside of glBegin and glEnd is undefined */
-    int inside = !R->list && !R->loop && !(O.without >> IN_BEGIN & 1) && chance(8);
+    int n = chance(5) || empty ? 0 : (int)below(14);
+    int inside = !R->list && !R->loop && !(O.without >> IN_BEGIN & 1) && chance(8) && !refused;
     if (n)
         vertex_calls(n / 2);
     if (inside) { /* nearly all of these are errors here */
@@ -168,12 +170,14 @@ static void primitive_of_lists(void)
 {
     if (R->executes)
         return;
-    CALL(glBegin, PICK(GL_TRIANGLES, GL_QUADS, GL_LINE_STRIP, GL_POINTS));
+    GLenum mode = PICK(GL_TRIANGLES, GL_QUADS, GL_LINE_STRIP, GL_POINTS);
+    int empty = is_refused(mode);
+    CALL(glBegin, mode);
     R->begin = 1;
-    vertex_calls((int)below(3));
-    if (!R->list)
+    vertex_calls(empty ? 0 : (int)below(3));
+    if (!R->list && !empty)
         CALL(glCallList, 111 + below(2));
-    vertex_calls((int)below(3));
+    vertex_calls(empty ? 0 : (int)below(3));
     R->part = 0;
     R->begin = 0;
     CALL0(glEnd);

@@ -37,6 +37,7 @@ struct context {
     int conditional; /* between glBeginConditionalRender and its end */
     unsigned asked; /* bits of occlusion queries that have ended */
     GLuint program, captured; /* transform feedback; 0 before its first call */
+    GLenum fed; /* the kind of primitives that it takes, if it is active */
     struct worker *worker; /* the thread that it is current on; null: the sequence's */
 };
 
@@ -147,6 +148,7 @@ struct generator {
 extern const struct generator state_calls[], draw_calls[], pixel_calls[], object_calls[], query_calls[], swap_calls[], list_calls[],
     indexed_calls[], capture_calls[];
 void any_call(void);        /* a call from any table (main.c) */
+int is_refused(GLenum mode); /* whether transform feedback refuses glBegin (calls_captures.c) */
 void vertex_calls(int n);   /* legal calls between glBegin and glEnd (calls_draw.c) */
 void disturb(void);
 void after_primitive(void); /* flushes the primitive in a list (calls_draw.c) */

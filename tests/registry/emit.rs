@@ -114,6 +114,7 @@ fn notes_of_recorded(commands: &[Command]) -> String {
         "TEXCOORD" => "Value(5)",
         "MULTITEX" => "Unit",
         _ if c.note == "any_current" => "Any",
+        _ if c.note == "array_element" => "Arrays",
         _ => "Nothing",
     };
     let recorded = |c: &Command| c.class == "imm" || c.name == "glCallList";

@@ -19,6 +19,7 @@ impl Shadow {
     }
 
     pub(in crate::gl) unsafe fn glEnableVertexAttribArray(&mut self, index: u32) {
+        self.attribute_on();
         self.set_attribute(c::VERTEX_ATTRIB_ARRAY_ENABLED, index, true);
     }
 

@@ -9,6 +9,7 @@ use crate::gl::consts as c;
 const MOST: usize = 4096;
 /// Changes of a list before another one that may be of the same value.
 const LATELY: usize = 16;
+const LIST_BASE: Key = Key::Value(c::LIST_BASE);
 /// Lists within lists that are followed; GL_MAX_LIST_NESTING is at least 64.
 const NESTING: usize = 64;
 
@@ -51,8 +52,10 @@ pub(super) enum Change {
 pub(super) struct Summary {
     /// The current values that it may set, by [`key::current_bit`].
     pub(super) currents: u32,
-    /// It may set the material, or a colour that the material follows.
+    /// It may set any parameter of the material, or which ones follow the colour.
     pub(super) material: bool,
+    /// It may set the parameters of the material that follow the colour.
+    pub(super) followers: bool,
     /// It may begin a primitive that it does not end.
     pub(super) open: bool,
 }
@@ -62,28 +65,42 @@ impl Summary {
     pub(super) const ANYTHING: Summary = Summary {
         currents: u32::MAX,
         material: true,
+        followers: true,
         open: true,
     };
 
-    /// Of these changes. `called` tells of lists that they call.
-    pub(super) fn of(changes: &[Change], called: impl Fn(&Change) -> Summary) -> Summary {
+    /// Of these changes. `called` tells of lists that they call, with the list base where it is known; `base` is that at their end.
+    pub(super) fn of(
+        changes: &[Change],
+        base: Option<u32>,
+        called: impl Fn(&Change, Option<u32>) -> Summary,
+    ) -> Summary {
         let mut all = Summary::default();
+        let sets_base = |change: &Change| matches!(change, Change::Put(LIST_BASE, _));
+        let mut base = base.filter(|_| !changes.iter().any(sets_base));
+        let same = base;
         for change in changes {
             match change {
+                Change::Put(LIST_BASE, value) => base = value.map(|[base, ..]| base),
                 Change::Put(key, _) => {
                     let bit = key::current_bit(*key).map_or(0, |bit| 1 << bit);
                     all.currents |= bit;
-                    all.material |= matches!(key, Key::Material(..)) || bit == key::COLOR_BIT;
+                    all.material |= matches!(key, Key::Material(..));
+                    all.followers |= bit == key::COLOR_BIT;
                 }
                 Change::Begin(_) => all.open = true,
                 Change::End => all.open = false,
-                Change::Enable(..) | Change::ColorMaterial(_) | Change::PopAttrib => {
-                    all.material = true;
+                Change::Enable(..) => all.followers = true,
+                Change::ColorMaterial(_) => all.material = true,
+                Change::PopAttrib => {
+                    all.followers = true;
+                    base = same;
                 }
                 Change::CallList(_) | Change::CallLists(_) | Change::ForgetAll => {
-                    let called = called(change);
+                    let called = called(change, base);
                     all.currents |= called.currents;
                     all.material |= called.material;
+                    all.followers |= called.followers;
                     all.open |= called.open;
                 }
                 _ => {}
@@ -127,6 +144,15 @@ impl Compiling {
         if self.currents & 1 << bit == 0 {
             self.currents |= 1 << bit;
             self.changes.push(Change::Put(key, None));
+        }
+    }
+
+    /// Mesa 22.3 loses a material within a primitive if an evaluator follows.
+    fn forget_materials(&mut self) {
+        for change in &mut self.changes {
+            if let Change::Put(Key::Material(..), value) = change {
+                *value = None;
+            }
         }
     }
 
@@ -184,35 +210,48 @@ impl Shadow {
             executes,
             changes: Vec::new(),
             currents: 0,
+            popped: 0,
+            evaluates: false,
         });
     }
 
     pub(super) fn end_list(&mut self) {
         let Some(list) = &self.compiling else { return };
-        let summary = Summary::of(&list.changes, |change| self.summary_of(change));
+        let base = self.values.known(LIST_BASE).map(|[base, ..]| base);
+        let summary = Summary::of(&list.changes, base, |change, base| {
+            self.summary_of(change, base)
+        });
         // The driver refuses it between a glBegin and a glEnd of the list.
         if summary.open && self.integer(c::LIST_INDEX) != 0 {
             return;
         }
-        if let Some(list) = self.compiling.take() {
+        if let Some(mut list) = self.compiling.take() {
+            if list.evaluates {
+                list.forget_materials();
+            }
             self.lists.compiled(list.list, list.changes, summary);
             if list.executes {
-                self.forget_executed(summary);
+                // What was restored may be which parameters follow the colour.
+                let material = summary.material || list.popped & c::LIGHTING_BIT != 0;
+                self.forget_executed(Summary {
+                    material,
+                    ..summary
+                });
             }
         }
     }
 
     /// What the lists that a change calls may do.
-    fn summary_of(&self, change: &Change) -> Summary {
+    fn summary_of(&self, change: &Change, base: Option<u32>) -> Summary {
         match *change {
             Change::CallList(list) => self.lists.summary(list),
             Change::CallLists(ref names) => {
-                let Some([base, ..]) = self.values.known(Key::Value(c::LIST_BASE)) else {
+                let Some(base) = base else {
                     return Summary::ANYTHING;
                 };
                 let of = |&name: &u32| Change::CallList(name.wrapping_add(base));
                 let all: Vec<Change> = names.iter().map(of).collect();
-                Summary::of(&all, |change| self.summary_of(change))
+                Summary::of(&all, None, |change, base| self.summary_of(change, base))
             }
             _ => Summary::ANYTHING,
         }
@@ -222,7 +261,10 @@ impl Shadow {
     fn forget_executed(&mut self, summary: Summary) {
         if summary.material {
             self.forget_material();
+        }
+        if summary.followers {
             self.followers_have_colour = false;
+            self.set_followers(None);
         }
         self.forget_currents(summary.currents);
     }
@@ -257,6 +299,7 @@ impl Shadow {
             }
             Change::EnableAt(cap, index, on) => {
                 if !std::mem::replace(&mut self.indexed, true) {
+                    self.attribs.indices_begin();
                     for cap in key::INDEXED {
                         (0..16).for_each(|index| self.put(Key::CapAt(cap, index), None));
                     }
@@ -395,7 +438,11 @@ impl Shadow {
     }
 
     fn pop_attrib(&mut self) {
-        let Some(pushed) = self.attribs.pop() else {
+        let pushed = self.attribs.pop();
+        if let Some(list) = &mut self.compiling {
+            list.popped |= pushed.as_ref().map_or(u32::MAX, |pushed| pushed.mask);
+        }
+        let Some(pushed) = pushed else {
             if self.attribs.base != Some(0) {
                 // It was pushed before anything was known.
                 self.forget_all();
@@ -416,6 +463,9 @@ impl Shadow {
         let lighting = pushed.mask & (c::LIGHTING_BIT | c::CURRENT_BIT | key::bits::ENABLE) != 0;
         if lighting {
             self.forget_followers();
+        }
+        if pushed.before_indices {
+            self.forget_indices(pushed.mask);
         }
         for (key, before) in pushed.before {
             let (sure, maybe) = key.saved_with();
@@ -439,6 +489,17 @@ impl Shadow {
             // A driver may let the material follow the colour that it restores.
             self.forget_followers();
         }
+    }
+
+    /// What glPopAttrib restores by index, only the driver knows.
+    fn forget_indices(&mut self, mask: u32) {
+        let keys = self.values.iter().map(|(key, _)| key);
+        let restored = |key: &Key| {
+            let (sure, maybe) = key.saved_with();
+            key.is_by_index() && mask & (sure | maybe) != 0
+        };
+        let keys: Vec<Key> = keys.filter(restored).collect();
+        keys.into_iter().for_each(|key| self.put(key, None));
     }
 
     fn call_list(&mut self, list: u32, depth: usize) {

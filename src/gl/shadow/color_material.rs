@@ -72,7 +72,7 @@ impl Shadow {
     }
 
     /// Asks for the settings that are not known.
-    fn set_followers(&mut self, colour: Option<[u32; 4]>) {
+    pub(super) fn set_followers(&mut self, colour: Option<[u32; 4]>) {
         let settings = SETTINGS.map(|name| {
             let known = self.values.known(Key::Value(name));
             let value = known.unwrap_or_else(|| {

@@ -128,6 +128,11 @@ impl Shadow {
         if index == 0 {
             self.change(Change::Put(Key::Value(c::COLOR_WRITEMASK), Some(mask)));
         }
+        if self.compiling.is_some() {
+            // Mesa 22.3 does not execute it while it compiles it.
+            self.put(Key::At(c::COLOR_WRITEMASK, index), None);
+            self.put(Key::Value(c::COLOR_WRITEMASK), None);
+        }
     }
 
     pub(in crate::gl) unsafe fn glClipControl(&mut self, origin: u32, depth: u32) {

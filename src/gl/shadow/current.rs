@@ -248,6 +248,9 @@ impl Shadow {
 
     /// A call that may set any of them.
     pub(in crate::gl) unsafe fn any_current(&mut self) {
+        if let Some(list) = &mut self.compiling {
+            list.evaluates = true;
+        }
         self.forget_current();
     }
 
@@ -255,7 +258,7 @@ impl Shadow {
     /// specification does not define.
     pub(in crate::gl) unsafe fn listed_arrays(&mut self) {
         if self.compiling.is_some() {
-            self.forget_current();
+            self.forget_arrays();
         }
     }
 

@@ -241,6 +241,14 @@ impl Key {
         }
     }
 
+    /// Whether it is kept only once values are set by their index.
+    pub(super) fn is_by_index(self) -> bool {
+        matches!(
+            self,
+            Key::CapAt(..) | Key::At(c::VIEWPORT | c::SCISSOR_BOX, _)
+        )
+    }
+
     /// The bits of glPushAttrib with which glPopAttrib is certain to restore it (OpenGL 4.6 compatibility, table 21.1 and the tables of state;
     /// measured where drivers differ), and those with which it may.
     pub(super) fn saved_with(self) -> (u32, u32) {

@@ -8,6 +8,7 @@
 mod arrays;
 mod ask;
 mod change;
+mod client_arrays;
 mod color_material;
 mod commands;
 mod current;
@@ -33,6 +34,7 @@ pub(super) use ask::{
     tex_gen, uniform, uniform_changes, value, value_at,
 };
 use change::{Change, Summary};
+use client_arrays::ClientArrays;
 use core::cell::{Cell, RefCell};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use key::Key;
@@ -78,6 +80,10 @@ struct Compiling {
     changes: Vec<Change>,
     /// The current values that it changes, by [`key::current_bit`].
     currents: u32,
+    /// The bits of the attributes that it has popped while it was compiled and executed.
+    popped: u32,
+    /// It has evaluators.
+    evaluates: bool,
 }
 
 /// The state of one context, as far as it is known.
@@ -95,6 +101,7 @@ pub(super) struct Shadow {
     deleted: u64,
     attribs: Stack,
     client: Stack,
+    client_arrays: ClientArrays,
     matrices: Matrices,
     compiling: Option<Compiling>,
     lists: CompiledLists,
@@ -141,6 +148,7 @@ impl ContextShadow {
             deleted: DELETED.load(Relaxed),
             attribs: Stack::default(),
             client: Stack::default(),
+            client_arrays: ClientArrays::default(),
             matrices: Matrices::default(),
             compiling: None,
             lists: shared.lists,
@@ -205,6 +213,7 @@ fn with<R>(work: impl FnOnce(&mut Shadow) -> R) -> Option<R> {
     if shadow.changed.load(Relaxed) {
         shadow.changed.store(false, Relaxed);
         kept.forget_all();
+        kept.client_arrays.any();
     }
     Some(work(&mut kept))
 }
@@ -342,9 +351,6 @@ impl Shadow {
 
     /// GL_ATTRIB_STACK_DEPTH, asked for once.
     fn attrib_depth(&mut self) -> Option<usize> {
-        if self.compiling.is_some() {
-            return None;
-        }
         let pushed = self.attribs.len();
         if self.attribs.base.is_none() {
             let depth = self.integer(c::ATTRIB_STACK_DEPTH) as usize;

@@ -105,7 +105,9 @@ impl Shadow {
     }
 
     fn rectangle(&mut self, name: u32, index: u32, value: Option<[u32; 4]>) {
-        self.rectangles_by_index = true;
+        if !std::mem::replace(&mut self.rectangles_by_index, true) {
+            self.attribs.indices_begin();
+        }
         self.change(Change::Put(Key::At(name, index), value));
         if index == 0 {
             // Whole numbers are answered for it.

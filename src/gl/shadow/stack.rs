@@ -12,6 +12,8 @@ pub(super) struct Pushed {
     pub(super) before: Vec<(Key, Entry)>,
     /// Objects were deleted since, which are not bound again.
     pub(super) deleted: bool,
+    /// Only since then values are kept by their index.
+    pub(super) before_indices: bool,
     /// The matrix mode, if it was known.
     pub(super) mode: Option<u32>,
 }
@@ -34,6 +36,7 @@ impl Stack {
             mask,
             before: Vec::new(),
             deleted: false,
+            before_indices: false,
             mode,
         });
     }
@@ -56,6 +59,11 @@ impl Stack {
     /// Objects are deleted.
     pub(super) fn taint_bindings(&mut self) {
         self.pushed.iter_mut().for_each(|p| p.deleted = true);
+    }
+
+    /// From now on values are kept by their index.
+    pub(super) fn indices_begin(&mut self) {
+        self.pushed.iter_mut().for_each(|p| p.before_indices = true);
     }
 
     /// All may have changed, the depth too.

@@ -156,6 +156,27 @@ fn a_list_changes_the_state_when_it_is_called() {
     });
 }
 
+/// Mesa 22.3 compiles glColorMaski and does not execute it.
+#[test]
+fn a_colour_mask_by_index_in_an_executed_list_is_not_known() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    let mask = Key::Value(c::COLOR_WRITEMASK);
+    current(&shadow, || {
+        let (gl, list) = (fake.gl(), crate::gl::ListName(7));
+        // SAFETY: no pointers.
+        let set = |mask: u8| unsafe { fake.real().glColorMaski(0, mask, mask, mask, mask) };
+        set(1);
+        assert!(known(&shadow, mask).is_some());
+        gl.new_list(list, c::COMPILE_AND_EXECUTE);
+        set(0);
+        gl.end_list();
+        assert_eq!(known(&shadow, mask), None);
+        gl.call_list(list);
+        assert_eq!(known(&shadow, mask), Some([0; 4]));
+    });
+}
+
 /// Calls between the glBegin and the glEnd of a list are refused when the list is called, as others are; those that only set materials are not
 /// kept as a primitive.
 #[test]
@@ -196,6 +217,10 @@ fn a_list_may_have_primitives() {
         gl.disable(c::DEPTH_TEST);
         assert_eq!(known_on(c::DEPTH_TEST), Some(0));
         // A material for each of many primitives.
+        let ambient = || {
+            let ambient = known(&shadow, Key::Material(c::FRONT, c::AMBIENT));
+            ambient.map(|[red, ..]| f32::from_bits(red))
+        };
         gl.new_list(list(8), c::COMPILE);
         for shade in 0..10_000 {
             gl.begin(c::POINTS);
@@ -210,8 +235,17 @@ fn a_list_may_have_primitives() {
         gl.end_list();
         gl.call_list(list(8));
         assert_eq!(known_on(c::DEPTH_TEST), Some(0), "the list is kept");
-        let ambient = known(&shadow, Key::Material(c::FRONT, c::AMBIENT));
-        assert_eq!(ambient.map(|[red, ..]| f32::from_bits(red)), Some(9999.0));
+        assert_eq!(ambient(), Some(9999.0));
+        // Mesa 22.3 loses a material before an evaluator.
+        gl.new_list(list(9), c::COMPILE);
+        gl.begin(c::POINTS);
+        gl.material(c::FRONT, c::AMBIENT, &[0.5; 4]);
+        // SAFETY: no pointers.
+        unsafe { gl.real().glEvalPoint1(0) };
+        gl.end();
+        gl.end_list();
+        gl.call_list(list(9));
+        assert_eq!(ambient(), None);
     });
 }
 

@@ -56,6 +56,50 @@ fn only_the_driver_knows_a_material_after_a_list() {
     }
 }
 
+/// A list that is executed while it is compiled sets what follows the colour, and nothing else of the material, unless it calls glMaterial or
+/// pops what follows. In a new context GL_AMBIENT_AND_DIFFUSE of both faces follows.
+#[test]
+fn an_executed_list_sets_what_follows() {
+    type Commands = fn(&Gl);
+    let cases: [(Commands, [bool; 2]); 5] = [
+        (|gl| gl.viewport(0, 0, 8, 8), [true, true]),
+        (set_colour, [true, false]),
+        (set_material, [false, false]),
+        (
+            |gl| {
+                gl.push_attrib(c::CURRENT_BIT);
+                set_colour(gl);
+                gl.pop_attrib();
+            },
+            [true, false],
+        ),
+        (
+            |gl| {
+                gl.push_attrib(c::LIGHTING_BIT);
+                gl.pop_attrib();
+            },
+            [false, false],
+        ),
+    ];
+    for (case, (commands, keeps)) in cases.into_iter().enumerate() {
+        let fake = Fake::new().window(64, 32);
+        let shadow = shadow(&fake);
+        current(&shadow, || {
+            let gl = fake.gl();
+            gl.disable(c::COLOR_MATERIAL);
+            for name in [c::SPECULAR, c::DIFFUSE] {
+                gl.material(c::BACK, name, &[0.5; 4]);
+            }
+            gl.new_list(ListName(9), c::COMPILE_AND_EXECUTE);
+            commands(&gl);
+            gl.end_list();
+        });
+        let after =
+            [c::SPECULAR, c::DIFFUSE].map(|name| known(&shadow, Key::Material(c::BACK, name)));
+        assert_eq!(after.map(|value| value.is_some()), keeps, "case {case}");
+    }
+}
+
 /// glColorMaterial makes other parameters follow.
 fn follow(fake: &Fake, parameter: u32) {
     // SAFETY: no pointers.

@@ -56,12 +56,75 @@ fn they_are_those_of_the_last_call() {
             real.glFogCoordd(0.25);
             assert_eq!(known(&shadow, FOG), floats([quarter, 0.0, 0.0, 0.0]));
             real.glColor3f(half, half, half);
-            real.glArrayElement(0);
+            real.glEvalPoint1(0);
             for key in [COLOR, FOG] {
-                assert_eq!(known(&shadow, key), None, "an array may have set it");
+                assert_eq!(known(&shadow, key), None, "an evaluator may set it");
             }
         }
     });
+}
+
+/// An element sets the values of the arrays that are on.
+#[test]
+fn an_array_element_makes_unknown_what_its_arrays_set() {
+    type Enable = fn(&Fake);
+    // SAFETY: of each: no pointers that are read.
+    let cases: [(Enable, [bool; 4]); 7] = [
+        (|_| (), [true; 4]),
+        (
+            |fake| unsafe { fake.real().glEnableClientState(c::COLOR_ARRAY) },
+            [false, true, true, true],
+        ),
+        (
+            |fake| unsafe {
+                fake.real().glEnableClientState(c::TEXTURE_COORD_ARRAY);
+                // It may be on again after a glPopClientAttrib.
+                fake.real().glDisableClientState(c::TEXTURE_COORD_ARRAY);
+            },
+            [true, true, false, true],
+        ),
+        (
+            |fake| unsafe {
+                fake.real().glClientActiveTexture(c::TEXTURE0 + 1);
+                fake.real().glEnableClientState(c::TEXTURE_COORD_ARRAY);
+            },
+            [true, true, false, false],
+        ),
+        (
+            |fake| unsafe {
+                const C4F_N3F_V3F: u32 = 0x2A26;
+                let none = core::ptr::null_mut();
+                fake.real().glInterleavedArrays(C4F_N3F_V3F, 0, none);
+            },
+            [false, false, false, true],
+        ),
+        (
+            |fake| unsafe { fake.real().glEnableVertexAttribArray(3) },
+            [false; 4],
+        ),
+        (
+            |fake| fake.gl().bind_vertex_array(fake.gl().gen_vertex_array()),
+            [false; 4],
+        ),
+    ];
+    for (case, (enable, keeps)) in cases.into_iter().enumerate() {
+        let fake = Fake::new().window(64, 32);
+        let shadow = shadow(&fake);
+        current(&shadow, || {
+            let gl = fake.gl();
+            gl.bind_vertex_array(crate::gl::VertexArrayName::ZERO);
+            enable(&fake);
+            gl.color_4f(0.5, 0.5, 0.5, 1.0);
+            gl.normal_3f(0.0, 1.0, 0.0);
+            gl.multi_tex_coord_4f(c::TEXTURE0, 0.5, 0.5, 0.0, 1.0);
+            gl.multi_tex_coord_4f(c::TEXTURE0 + 1, 0.5, 0.5, 0.0, 1.0);
+            // SAFETY: the fake driver reads no arrays.
+            unsafe { fake.real().glArrayElement(0) };
+            let keys = [COLOR, NORMAL, coordinates(0), coordinates(1)];
+            let known = keys.map(|key| known(&shadow, key).is_some());
+            assert_eq!(known, keeps, "case {case}");
+        });
+    }
 }
 
 /// glPopAttrib makes those unknown that were changed. Setting one to itself is no change.
@@ -145,10 +208,13 @@ fn a_list_makes_unknown_what_it_sets() {
         (
             |fake| {
                 // SAFETY: the fake driver reads no arrays.
-                unsafe { fake.real().glDrawArrays(c::POINTS, 0, 1) };
+                unsafe {
+                    fake.real().glEnableClientState(c::COLOR_ARRAY);
+                    fake.real().glDrawArrays(c::POINTS, 0, 1);
+                }
             },
             false,
-            false,
+            true,
         ),
         (|fake| fake.gl().viewport(0, 0, 8, 8), true, true),
     ];
@@ -158,6 +224,7 @@ fn a_list_makes_unknown_what_it_sets() {
         let gl = fake.gl();
         let list = crate::gl::ListName(7);
         current(&shadow, || {
+            gl.bind_vertex_array(crate::gl::VertexArrayName::ZERO);
             gl.normal_3f(0.0, 1.0, 0.0);
             gl.color_4f(0.5, 0.5, 0.5, 1.0);
             let questions = asked(&fake, |gl| {

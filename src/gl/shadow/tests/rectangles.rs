@@ -99,3 +99,32 @@ fn they_are_asked_for_once() {
         assert_eq!(known(&shadow, viewport(2)), bits([1.0, 2.0, 3.0, 4.0]));
     });
 }
+
+/// What glPopAttrib restores was not kept by its index when it was pushed.
+#[test]
+fn they_are_not_known_after_a_pop_of_what_was_pushed_before() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    current(&shadow, || {
+        let gl = fake.gl();
+        for _ in 0..2 {
+            gl.push_attrib(c::ALL_ATTRIB_BITS);
+            gl.viewport(1, 2, 3, 4);
+            gl.enable(c::BLEND);
+        }
+        // SAFETY: no pointers.
+        unsafe { fake.real().glViewportIndexedf(1, 5.0, 6.0, 7.0, 8.0) };
+        gl.enablei(c::BLEND, 1);
+        let blends = Key::CapAt(c::BLEND, 0);
+        for _ in 0..2 {
+            gl.get_floats_indexed(c::VIEWPORT, 0);
+            gl.is_enabledi(c::BLEND, 0);
+            assert!(known(&shadow, viewport(0)).is_some() && known(&shadow, blends).is_some());
+            gl.pop_attrib();
+            assert_eq!(
+                [known(&shadow, viewport(0)), known(&shadow, blends)],
+                [None; 2]
+            );
+        }
+    });
+}
