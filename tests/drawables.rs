@@ -200,6 +200,11 @@ fn a_context_is_current_without_a_drawable() {
 }
 
 #[test]
+fn a_context_is_current_before_it_has_a_drawable() {
+    same(&["egl-before"]);
+}
+
+#[test]
 fn a_window_is_swapped_by_another_thread() {
     same(&["thread"]);
 }

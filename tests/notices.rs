@@ -109,14 +109,32 @@ fn texts(folder: &Path, licence: &str) -> BTreeSet<String> {
     texts.filter(|text| text.len() > SHORTEST).collect()
 }
 
+/// What cargo tells of the crates of all targets. Those of other systems need not be there.
+fn packages() -> Vec<Value> {
+    let of = |target| {
+        let words = [
+            "metadata",
+            "--format-version",
+            "1",
+            "--filter-platform",
+            target,
+        ];
+        let mut all: Value = serde_json::from_str(&cargo(&words)).expect("JSON");
+        let Value::Array(packages) = all["packages"].take() else {
+            panic!("no crates");
+        };
+        packages
+    };
+    TARGETS.into_iter().flat_map(of).collect()
+}
+
 /// The notices of all crates, those with the same texts together.
 fn notices() -> String {
-    let metadata: Value =
-        serde_json::from_str(&cargo(&["metadata", "--format-version", "1"])).expect("JSON");
+    let packages = packages();
     let linked = linked();
     assert!(linked.len() > 50, "{linked:?}");
     let mut crates_by_text = BTreeMap::<_, BTreeSet<String>>::new();
-    for package in metadata["packages"].as_array().expect("crates") {
+    for package in packages.iter() {
         let field = |name: &str| package[name].as_str().unwrap_or_default().to_owned();
         if !linked.contains(&(field("name"), field("version"))) {
             continue;

@@ -139,7 +139,8 @@ fn explain(bare: &Side, layer: &Side, seed: u64, without: &str) -> String {
 }
 
 /// Whether Mesa alone gives other answers, and the layer differs in nothing else: when calls come in between that no program could notice
-/// (`--disturb`), when lists are compiled in pieces (`--apart`), or when the sequence is repeated. Some results of Mesa 22.3 depend on
+/// (`--disturb`), when lists are compiled in pieces (`--apart`), when new memory holds something else (`MALLOC_PERTURB_` of the C library), or
+/// when the sequence is repeated. Some results of Mesa 22.3 depend on
 /// earlier draws: the texture coordinates of pictures, the edges of a loop, the state that glPopAttrib restores, the current values after a
 /// list; others depend on uninitialised memory. Such a sequence has no right answer.
 fn is_nondeterministic(bare: &Side, layer: &Side, wrong: &Wrong, without: &str) -> bool {
@@ -156,6 +157,13 @@ fn is_nondeterministic(bare: &Side, layer: &Side, wrong: &Wrong, without: &str) 
         return varies_in_its_batch(bare, wrong, without);
     }
     others.extend([words(bare, &["--disturb"]), words(bare, &["--apart"])]);
+    let memory = |byte: &str| {
+        let mut command = bare.command(wrong.seed, 1, without, &[]);
+        command.env("MALLOC_PERTURB_", byte);
+        let (lines, _) = bare.lines(command);
+        self::words(&lines.join(" "))
+    };
+    others.extend(["85", "170"].map(memory));
     explains(&others, &expected, &actual)
 }
 

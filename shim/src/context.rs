@@ -343,6 +343,14 @@ fn take(key: Key, drawables: Option<Pair>) -> Option<[CurrentDrawable; 2]> {
         return None;
     }
     deep::rebind_new_libraries();
+    let taken = take_record(key, drawables);
+    if taken.is_none() {
+        registry::is_unseen(key);
+    }
+    taken
+}
+
+fn take_record(key: Key, drawables: Option<Pair>) -> Option<[CurrentDrawable; 2]> {
     let current = match drawables {
         Some(Pair { draw, read }) => {
             let current = |drawable| {

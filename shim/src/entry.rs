@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1882] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1884] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -630,7 +630,9 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1882] = [
     AtomicPtr::new(first_glMultiTexGenfvEXT as *mut ()),
     AtomicPtr::new(first_glMultiTexGeniEXT as *mut ()),
     AtomicPtr::new(first_glMultiTexGenivEXT as *mut ()),
+    AtomicPtr::new(first_glDisableClientStateIndexedEXT as *mut ()),
     AtomicPtr::new(first_glDisableClientStateiEXT as *mut ()),
+    AtomicPtr::new(first_glEnableClientStateIndexedEXT as *mut ()),
     AtomicPtr::new(first_glEnableClientStateiEXT as *mut ()),
     AtomicPtr::new(first_glBindFragmentShaderATI as *mut ()),
     AtomicPtr::new(first_glVertexBlendARB as *mut ()),
@@ -1893,7 +1895,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1882] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1882] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1884] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2516,7 +2518,9 @@ pub(crate) static HOOK: [Option<crate::Address>; 1882] = [
     Some(crate::Address(hook_glMultiTexGenfvEXT as *const ())),
     Some(crate::Address(hook_glMultiTexGeniEXT as *const ())),
     Some(crate::Address(hook_glMultiTexGenivEXT as *const ())),
+    Some(crate::Address(hook_glDisableClientStateIndexedEXT as *const ())),
     Some(crate::Address(hook_glDisableClientStateiEXT as *const ())),
+    Some(crate::Address(hook_glEnableClientStateIndexedEXT as *const ())),
     Some(crate::Address(hook_glEnableClientStateiEXT as *const ())),
     Some(crate::Address(hook_glBindFragmentShaderATI as *const ())),
     Some(crate::Address(hook_glVertexBlendARB as *const ())),
@@ -3780,7 +3784,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1882] = [
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1882] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1884] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -4403,7 +4407,9 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1882] = [
     Some(zeros_glMultiTexGenfvEXT),
     Some(zeros_glMultiTexGeniEXT),
     Some(zeros_glMultiTexGenivEXT),
+    Some(zeros_glDisableClientStateIndexedEXT),
     Some(zeros_glDisableClientStateiEXT),
+    Some(zeros_glEnableClientStateIndexedEXT),
     Some(zeros_glEnableClientStateiEXT),
     Some(zeros_glBindFragmentShaderATI),
     Some(zeros_glVertexBlendARB),
@@ -5666,171 +5672,171 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1882] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
-    (b"OSMesaCreateContext", 1829, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1831, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1830, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1832, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1833, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1828, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglBindTexImage", 1810, crate::Address(eglBindTexImage as *const ())),
-    (b"eglCopyBuffers", 1807, crate::Address(eglCopyBuffers as *const ())),
-    (b"eglCreateContext", 1812, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1819, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1820, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1818, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1813, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1821, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1815, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1816, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1817, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1823, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1811, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglPostSubBufferNV", 1804, crate::Address(eglPostSubBufferNV as *const ())),
-    (b"eglReleaseThread", 1814, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1801, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersRegion2NOK", 1806, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
-    (b"eglSwapBuffersRegionNOK", 1805, crate::Address(eglSwapBuffersRegionNOK as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1803, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1802, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"eglTerminate", 1822, crate::Address(eglTerminate as *const ())),
-    (b"eglWaitClient", 1809, crate::Address(eglWaitClient as *const ())),
-    (b"eglWaitGL", 1808, crate::Address(eglWaitGL as *const ())),
-    (b"glAccum", 1412, crate::Address(glAccum as *const ())),
-    (b"glActiveStencilFaceEXT", 821, crate::Address(glActiveStencilFaceEXT as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1831] = [
+    (b"OSMesaCreateContext", 1831, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1833, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1832, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1834, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1835, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1830, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglBindTexImage", 1812, crate::Address(eglBindTexImage as *const ())),
+    (b"eglCopyBuffers", 1809, crate::Address(eglCopyBuffers as *const ())),
+    (b"eglCreateContext", 1814, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1821, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1822, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1820, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1815, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1823, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1817, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1818, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1819, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1825, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1813, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglPostSubBufferNV", 1806, crate::Address(eglPostSubBufferNV as *const ())),
+    (b"eglReleaseThread", 1816, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1803, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersRegion2NOK", 1808, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
+    (b"eglSwapBuffersRegionNOK", 1807, crate::Address(eglSwapBuffersRegionNOK as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1805, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1804, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"eglTerminate", 1824, crate::Address(eglTerminate as *const ())),
+    (b"eglWaitClient", 1811, crate::Address(eglWaitClient as *const ())),
+    (b"eglWaitGL", 1810, crate::Address(eglWaitGL as *const ())),
+    (b"glAccum", 1414, crate::Address(glAccum as *const ())),
+    (b"glActiveStencilFaceEXT", 823, crate::Address(glActiveStencilFaceEXT as *const ())),
     (b"glActiveTexture", 556, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 557, crate::Address(glActiveTextureARB as *const ())),
-    (b"glAlphaFunc", 726, crate::Address(glAlphaFunc as *const ())),
-    (b"glAlphaFuncQCOM", 831, crate::Address(glAlphaFuncQCOM as *const ())),
+    (b"glAlphaFunc", 728, crate::Address(glAlphaFunc as *const ())),
+    (b"glAlphaFuncQCOM", 833, crate::Address(glAlphaFuncQCOM as *const ())),
     (b"glArrayElement", 261, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 262, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 455, crate::Address(glBegin as *const ())),
-    (b"glBeginConditionalRender", 1564, crate::Address(glBeginConditionalRender as *const ())),
-    (b"glBeginConditionalRenderNV", 1565, crate::Address(glBeginConditionalRenderNV as *const ())),
-    (b"glBeginQuery", 1576, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1577, crate::Address(glBeginQueryARB as *const ())),
-    (b"glBeginQueryEXT", 1557, crate::Address(glBeginQueryEXT as *const ())),
-    (b"glBeginQueryIndexed", 1573, crate::Address(glBeginQueryIndexed as *const ())),
-    (b"glBeginTransformFeedback", 712, crate::Address(glBeginTransformFeedback as *const ())),
-    (b"glBeginTransformFeedbackEXT", 713, crate::Address(glBeginTransformFeedbackEXT as *const ())),
-    (b"glBeginTransformFeedbackNV", 714, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindBuffer", 1673, crate::Address(glBindBuffer as *const ())),
-    (b"glBindBufferARB", 1674, crate::Address(glBindBufferARB as *const ())),
-    (b"glBindBufferBase", 1675, crate::Address(glBindBufferBase as *const ())),
-    (b"glBindBufferBaseEXT", 1676, crate::Address(glBindBufferBaseEXT as *const ())),
-    (b"glBindBufferBaseNV", 1677, crate::Address(glBindBufferBaseNV as *const ())),
-    (b"glBindBufferRange", 1678, crate::Address(glBindBufferRange as *const ())),
-    (b"glBindBufferRangeEXT", 1679, crate::Address(glBindBufferRangeEXT as *const ())),
-    (b"glBindBufferRangeNV", 1680, crate::Address(glBindBufferRangeNV as *const ())),
-    (b"glBindBuffersBase", 1681, crate::Address(glBindBuffersBase as *const ())),
-    (b"glBindBuffersRange", 1682, crate::Address(glBindBuffersRange as *const ())),
-    (b"glBindFragmentShaderATI", 624, crate::Address(glBindFragmentShaderATI as *const ())),
-    (b"glBindFramebuffer", 1429, crate::Address(glBindFramebuffer as *const ())),
-    (b"glBindFramebufferEXT", 1430, crate::Address(glBindFramebufferEXT as *const ())),
-    (b"glBindImageTexture", 995, crate::Address(glBindImageTexture as *const ())),
-    (b"glBindImageTextureEXT", 997, crate::Address(glBindImageTextureEXT as *const ())),
-    (b"glBindImageTextures", 996, crate::Address(glBindImageTextures as *const ())),
+    (b"glBeginConditionalRender", 1566, crate::Address(glBeginConditionalRender as *const ())),
+    (b"glBeginConditionalRenderNV", 1567, crate::Address(glBeginConditionalRenderNV as *const ())),
+    (b"glBeginQuery", 1578, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1579, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginQueryEXT", 1559, crate::Address(glBeginQueryEXT as *const ())),
+    (b"glBeginQueryIndexed", 1575, crate::Address(glBeginQueryIndexed as *const ())),
+    (b"glBeginTransformFeedback", 714, crate::Address(glBeginTransformFeedback as *const ())),
+    (b"glBeginTransformFeedbackEXT", 715, crate::Address(glBeginTransformFeedbackEXT as *const ())),
+    (b"glBeginTransformFeedbackNV", 716, crate::Address(glBeginTransformFeedbackNV as *const ())),
+    (b"glBindBuffer", 1675, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1676, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindBufferBase", 1677, crate::Address(glBindBufferBase as *const ())),
+    (b"glBindBufferBaseEXT", 1678, crate::Address(glBindBufferBaseEXT as *const ())),
+    (b"glBindBufferBaseNV", 1679, crate::Address(glBindBufferBaseNV as *const ())),
+    (b"glBindBufferRange", 1680, crate::Address(glBindBufferRange as *const ())),
+    (b"glBindBufferRangeEXT", 1681, crate::Address(glBindBufferRangeEXT as *const ())),
+    (b"glBindBufferRangeNV", 1682, crate::Address(glBindBufferRangeNV as *const ())),
+    (b"glBindBuffersBase", 1683, crate::Address(glBindBuffersBase as *const ())),
+    (b"glBindBuffersRange", 1684, crate::Address(glBindBuffersRange as *const ())),
+    (b"glBindFragmentShaderATI", 626, crate::Address(glBindFragmentShaderATI as *const ())),
+    (b"glBindFramebuffer", 1431, crate::Address(glBindFramebuffer as *const ())),
+    (b"glBindFramebufferEXT", 1432, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBindImageTexture", 997, crate::Address(glBindImageTexture as *const ())),
+    (b"glBindImageTextureEXT", 999, crate::Address(glBindImageTextureEXT as *const ())),
+    (b"glBindImageTextures", 998, crate::Address(glBindImageTextures as *const ())),
     (b"glBindMultiTextureEXT", 560, crate::Address(glBindMultiTextureEXT as *const ())),
     (b"glBindProgramARB", 606, crate::Address(glBindProgramARB as *const ())),
     (b"glBindProgramNV", 607, crate::Address(glBindProgramNV as *const ())),
-    (b"glBindProgramPipeline", 626, crate::Address(glBindProgramPipeline as *const ())),
-    (b"glBindProgramPipelineEXT", 627, crate::Address(glBindProgramPipelineEXT as *const ())),
-    (b"glBindRenderbuffer", 1656, crate::Address(glBindRenderbuffer as *const ())),
-    (b"glBindRenderbufferEXT", 1668, crate::Address(glBindRenderbufferEXT as *const ())),
-    (b"glBindSampler", 1742, crate::Address(glBindSampler as *const ())),
-    (b"glBindSamplers", 1743, crate::Address(glBindSamplers as *const ())),
-    (b"glBindTexture", 1423, crate::Address(glBindTexture as *const ())),
-    (b"glBindTextureEXT", 1424, crate::Address(glBindTextureEXT as *const ())),
+    (b"glBindProgramPipeline", 628, crate::Address(glBindProgramPipeline as *const ())),
+    (b"glBindProgramPipelineEXT", 629, crate::Address(glBindProgramPipelineEXT as *const ())),
+    (b"glBindRenderbuffer", 1658, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindRenderbufferEXT", 1670, crate::Address(glBindRenderbufferEXT as *const ())),
+    (b"glBindSampler", 1744, crate::Address(glBindSampler as *const ())),
+    (b"glBindSamplers", 1745, crate::Address(glBindSamplers as *const ())),
+    (b"glBindTexture", 1425, crate::Address(glBindTexture as *const ())),
+    (b"glBindTextureEXT", 1426, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 559, crate::Address(glBindTextureUnit as *const ())),
     (b"glBindTextures", 558, crate::Address(glBindTextures as *const ())),
-    (b"glBindTransformFeedback", 722, crate::Address(glBindTransformFeedback as *const ())),
-    (b"glBindTransformFeedbackNV", 723, crate::Address(glBindTransformFeedbackNV as *const ())),
-    (b"glBindVertexArray", 1737, crate::Address(glBindVertexArray as *const ())),
-    (b"glBindVertexArrayOES", 1738, crate::Address(glBindVertexArrayOES as *const ())),
-    (b"glBitmap", 1413, crate::Address(glBitmap as *const ())),
-    (b"glBlendColor", 755, crate::Address(glBlendColor as *const ())),
-    (b"glBlendColorEXT", 756, crate::Address(glBlendColorEXT as *const ())),
-    (b"glBlendEquation", 741, crate::Address(glBlendEquation as *const ())),
-    (b"glBlendEquationEXT", 742, crate::Address(glBlendEquationEXT as *const ())),
-    (b"glBlendEquationIndexedAMD", 751, crate::Address(glBlendEquationIndexedAMD as *const ())),
-    (b"glBlendEquationSeparate", 743, crate::Address(glBlendEquationSeparate as *const ())),
-    (b"glBlendEquationSeparateEXT", 744, crate::Address(glBlendEquationSeparateEXT as *const ())),
-    (b"glBlendEquationSeparateIndexedAMD", 746, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
-    (b"glBlendEquationSeparatei", 745, crate::Address(glBlendEquationSeparatei as *const ())),
-    (b"glBlendEquationSeparateiARB", 747, crate::Address(glBlendEquationSeparateiARB as *const ())),
-    (b"glBlendEquationSeparateiEXT", 748, crate::Address(glBlendEquationSeparateiEXT as *const ())),
-    (b"glBlendEquationSeparateiOES", 749, crate::Address(glBlendEquationSeparateiOES as *const ())),
-    (b"glBlendEquationi", 750, crate::Address(glBlendEquationi as *const ())),
-    (b"glBlendEquationiARB", 752, crate::Address(glBlendEquationiARB as *const ())),
-    (b"glBlendEquationiEXT", 753, crate::Address(glBlendEquationiEXT as *const ())),
-    (b"glBlendEquationiOES", 754, crate::Address(glBlendEquationiOES as *const ())),
-    (b"glBlendFunc", 727, crate::Address(glBlendFunc as *const ())),
-    (b"glBlendFuncIndexedAMD", 737, crate::Address(glBlendFuncIndexedAMD as *const ())),
-    (b"glBlendFuncSeparate", 728, crate::Address(glBlendFuncSeparate as *const ())),
-    (b"glBlendFuncSeparateEXT", 729, crate::Address(glBlendFuncSeparateEXT as *const ())),
-    (b"glBlendFuncSeparateINGR", 730, crate::Address(glBlendFuncSeparateINGR as *const ())),
-    (b"glBlendFuncSeparateIndexedAMD", 732, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
-    (b"glBlendFuncSeparatei", 731, crate::Address(glBlendFuncSeparatei as *const ())),
-    (b"glBlendFuncSeparateiARB", 733, crate::Address(glBlendFuncSeparateiARB as *const ())),
-    (b"glBlendFuncSeparateiEXT", 734, crate::Address(glBlendFuncSeparateiEXT as *const ())),
-    (b"glBlendFuncSeparateiOES", 735, crate::Address(glBlendFuncSeparateiOES as *const ())),
-    (b"glBlendFunci", 736, crate::Address(glBlendFunci as *const ())),
-    (b"glBlendFunciARB", 738, crate::Address(glBlendFunciARB as *const ())),
-    (b"glBlendFunciEXT", 739, crate::Address(glBlendFunciEXT as *const ())),
-    (b"glBlendFunciOES", 740, crate::Address(glBlendFunciOES as *const ())),
-    (b"glBlendParameteriNV", 830, crate::Address(glBlendParameteriNV as *const ())),
-    (b"glBlitFramebuffer", 1447, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferANGLE", 1556, crate::Address(glBlitFramebufferANGLE as *const ())),
-    (b"glBlitFramebufferEXT", 1448, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 1449, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 1450, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1685, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1686, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferStorage", 1688, crate::Address(glBufferStorage as *const ())),
-    (b"glBufferStorageEXT", 1689, crate::Address(glBufferStorageEXT as *const ())),
-    (b"glBufferSubData", 1692, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1693, crate::Address(glBufferSubDataARB as *const ())),
-    (b"glCallList", 1418, crate::Address(glCallList as *const ())),
-    (b"glCallLists", 1419, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1507, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1508, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glBindTransformFeedback", 724, crate::Address(glBindTransformFeedback as *const ())),
+    (b"glBindTransformFeedbackNV", 725, crate::Address(glBindTransformFeedbackNV as *const ())),
+    (b"glBindVertexArray", 1739, crate::Address(glBindVertexArray as *const ())),
+    (b"glBindVertexArrayOES", 1740, crate::Address(glBindVertexArrayOES as *const ())),
+    (b"glBitmap", 1415, crate::Address(glBitmap as *const ())),
+    (b"glBlendColor", 757, crate::Address(glBlendColor as *const ())),
+    (b"glBlendColorEXT", 758, crate::Address(glBlendColorEXT as *const ())),
+    (b"glBlendEquation", 743, crate::Address(glBlendEquation as *const ())),
+    (b"glBlendEquationEXT", 744, crate::Address(glBlendEquationEXT as *const ())),
+    (b"glBlendEquationIndexedAMD", 753, crate::Address(glBlendEquationIndexedAMD as *const ())),
+    (b"glBlendEquationSeparate", 745, crate::Address(glBlendEquationSeparate as *const ())),
+    (b"glBlendEquationSeparateEXT", 746, crate::Address(glBlendEquationSeparateEXT as *const ())),
+    (b"glBlendEquationSeparateIndexedAMD", 748, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
+    (b"glBlendEquationSeparatei", 747, crate::Address(glBlendEquationSeparatei as *const ())),
+    (b"glBlendEquationSeparateiARB", 749, crate::Address(glBlendEquationSeparateiARB as *const ())),
+    (b"glBlendEquationSeparateiEXT", 750, crate::Address(glBlendEquationSeparateiEXT as *const ())),
+    (b"glBlendEquationSeparateiOES", 751, crate::Address(glBlendEquationSeparateiOES as *const ())),
+    (b"glBlendEquationi", 752, crate::Address(glBlendEquationi as *const ())),
+    (b"glBlendEquationiARB", 754, crate::Address(glBlendEquationiARB as *const ())),
+    (b"glBlendEquationiEXT", 755, crate::Address(glBlendEquationiEXT as *const ())),
+    (b"glBlendEquationiOES", 756, crate::Address(glBlendEquationiOES as *const ())),
+    (b"glBlendFunc", 729, crate::Address(glBlendFunc as *const ())),
+    (b"glBlendFuncIndexedAMD", 739, crate::Address(glBlendFuncIndexedAMD as *const ())),
+    (b"glBlendFuncSeparate", 730, crate::Address(glBlendFuncSeparate as *const ())),
+    (b"glBlendFuncSeparateEXT", 731, crate::Address(glBlendFuncSeparateEXT as *const ())),
+    (b"glBlendFuncSeparateINGR", 732, crate::Address(glBlendFuncSeparateINGR as *const ())),
+    (b"glBlendFuncSeparateIndexedAMD", 734, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
+    (b"glBlendFuncSeparatei", 733, crate::Address(glBlendFuncSeparatei as *const ())),
+    (b"glBlendFuncSeparateiARB", 735, crate::Address(glBlendFuncSeparateiARB as *const ())),
+    (b"glBlendFuncSeparateiEXT", 736, crate::Address(glBlendFuncSeparateiEXT as *const ())),
+    (b"glBlendFuncSeparateiOES", 737, crate::Address(glBlendFuncSeparateiOES as *const ())),
+    (b"glBlendFunci", 738, crate::Address(glBlendFunci as *const ())),
+    (b"glBlendFunciARB", 740, crate::Address(glBlendFunciARB as *const ())),
+    (b"glBlendFunciEXT", 741, crate::Address(glBlendFunciEXT as *const ())),
+    (b"glBlendFunciOES", 742, crate::Address(glBlendFunciOES as *const ())),
+    (b"glBlendParameteriNV", 832, crate::Address(glBlendParameteriNV as *const ())),
+    (b"glBlitFramebuffer", 1449, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferANGLE", 1558, crate::Address(glBlitFramebufferANGLE as *const ())),
+    (b"glBlitFramebufferEXT", 1450, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 1451, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 1452, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBufferData", 1687, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1688, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferStorage", 1690, crate::Address(glBufferStorage as *const ())),
+    (b"glBufferStorageEXT", 1691, crate::Address(glBufferStorageEXT as *const ())),
+    (b"glBufferSubData", 1694, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1695, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glCallList", 1420, crate::Address(glCallList as *const ())),
+    (b"glCallLists", 1421, crate::Address(glCallLists as *const ())),
+    (b"glCheckFramebufferStatus", 1509, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1510, crate::Address(glCheckFramebufferStatusEXT as *const ())),
     (b"glClampColor", 610, crate::Address(glClampColor as *const ())),
     (b"glClampColorARB", 611, crate::Address(glClampColorARB as *const ())),
-    (b"glClear", 1300, crate::Address(glClear as *const ())),
-    (b"glClearAccum", 757, crate::Address(glClearAccum as *const ())),
-    (b"glClearBufferData", 1709, crate::Address(glClearBufferData as *const ())),
-    (b"glClearBufferSubData", 1710, crate::Address(glClearBufferSubData as *const ())),
-    (b"glClearBufferfi", 1301, crate::Address(glClearBufferfi as *const ())),
-    (b"glClearBufferfv", 1302, crate::Address(glClearBufferfv as *const ())),
-    (b"glClearBufferiv", 1303, crate::Address(glClearBufferiv as *const ())),
-    (b"glClearBufferuiv", 1304, crate::Address(glClearBufferuiv as *const ())),
-    (b"glClearColor", 758, crate::Address(glClearColor as *const ())),
-    (b"glClearColorIiEXT", 816, crate::Address(glClearColorIiEXT as *const ())),
-    (b"glClearColorIuiEXT", 817, crate::Address(glClearColorIuiEXT as *const ())),
-    (b"glClearDepth", 759, crate::Address(glClearDepth as *const ())),
-    (b"glClearDepthdNV", 818, crate::Address(glClearDepthdNV as *const ())),
-    (b"glClearDepthf", 760, crate::Address(glClearDepthf as *const ())),
-    (b"glClearDepthfOES", 761, crate::Address(glClearDepthfOES as *const ())),
-    (b"glClearIndex", 762, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedBufferData", 1711, crate::Address(glClearNamedBufferData as *const ())),
-    (b"glClearNamedBufferDataEXT", 1702, crate::Address(glClearNamedBufferDataEXT as *const ())),
-    (b"glClearNamedBufferSubData", 1712, crate::Address(glClearNamedBufferSubData as *const ())),
-    (b"glClearNamedBufferSubDataEXT", 1703, crate::Address(glClearNamedBufferSubDataEXT as *const ())),
-    (b"glClearNamedFramebufferfi", 1454, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 1451, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 1452, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 1453, crate::Address(glClearNamedFramebufferuiv as *const ())),
-    (b"glClearStencil", 763, crate::Address(glClearStencil as *const ())),
-    (b"glClearTexImage", 905, crate::Address(glClearTexImage as *const ())),
-    (b"glClearTexImageEXT", 906, crate::Address(glClearTexImageEXT as *const ())),
-    (b"glClearTexSubImage", 907, crate::Address(glClearTexSubImage as *const ())),
-    (b"glClearTexSubImageEXT", 908, crate::Address(glClearTexSubImageEXT as *const ())),
-    (b"glClientActiveTexture", 1748, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1749, crate::Address(glClientActiveTextureARB as *const ())),
-    (b"glClientAttribDefaultEXT", 1735, crate::Address(glClientAttribDefaultEXT as *const ())),
+    (b"glClear", 1302, crate::Address(glClear as *const ())),
+    (b"glClearAccum", 759, crate::Address(glClearAccum as *const ())),
+    (b"glClearBufferData", 1711, crate::Address(glClearBufferData as *const ())),
+    (b"glClearBufferSubData", 1712, crate::Address(glClearBufferSubData as *const ())),
+    (b"glClearBufferfi", 1303, crate::Address(glClearBufferfi as *const ())),
+    (b"glClearBufferfv", 1304, crate::Address(glClearBufferfv as *const ())),
+    (b"glClearBufferiv", 1305, crate::Address(glClearBufferiv as *const ())),
+    (b"glClearBufferuiv", 1306, crate::Address(glClearBufferuiv as *const ())),
+    (b"glClearColor", 760, crate::Address(glClearColor as *const ())),
+    (b"glClearColorIiEXT", 818, crate::Address(glClearColorIiEXT as *const ())),
+    (b"glClearColorIuiEXT", 819, crate::Address(glClearColorIuiEXT as *const ())),
+    (b"glClearDepth", 761, crate::Address(glClearDepth as *const ())),
+    (b"glClearDepthdNV", 820, crate::Address(glClearDepthdNV as *const ())),
+    (b"glClearDepthf", 762, crate::Address(glClearDepthf as *const ())),
+    (b"glClearDepthfOES", 763, crate::Address(glClearDepthfOES as *const ())),
+    (b"glClearIndex", 764, crate::Address(glClearIndex as *const ())),
+    (b"glClearNamedBufferData", 1713, crate::Address(glClearNamedBufferData as *const ())),
+    (b"glClearNamedBufferDataEXT", 1704, crate::Address(glClearNamedBufferDataEXT as *const ())),
+    (b"glClearNamedBufferSubData", 1714, crate::Address(glClearNamedBufferSubData as *const ())),
+    (b"glClearNamedBufferSubDataEXT", 1705, crate::Address(glClearNamedBufferSubDataEXT as *const ())),
+    (b"glClearNamedFramebufferfi", 1456, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 1453, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 1454, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 1455, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearStencil", 765, crate::Address(glClearStencil as *const ())),
+    (b"glClearTexImage", 907, crate::Address(glClearTexImage as *const ())),
+    (b"glClearTexImageEXT", 908, crate::Address(glClearTexImageEXT as *const ())),
+    (b"glClearTexSubImage", 909, crate::Address(glClearTexSubImage as *const ())),
+    (b"glClearTexSubImageEXT", 910, crate::Address(glClearTexSubImageEXT as *const ())),
+    (b"glClientActiveTexture", 1750, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1751, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClientAttribDefaultEXT", 1737, crate::Address(glClientAttribDefaultEXT as *const ())),
     (b"glClipControl", 604, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 605, crate::Address(glClipControlEXT as *const ())),
-    (b"glClipPlane", 764, crate::Address(glClipPlane as *const ())),
+    (b"glClipPlane", 766, crate::Address(glClipPlane as *const ())),
     (b"glColor3b", 30, crate::Address(glColor3b as *const ())),
     (b"glColor3bv", 31, crate::Address(glColor3bv as *const ())),
     (b"glColor3d", 32, crate::Address(glColor3d as *const ())),
@@ -5867,115 +5873,115 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glColor4uiv", 59, crate::Address(glColor4uiv as *const ())),
     (b"glColor4us", 60, crate::Address(glColor4us as *const ())),
     (b"glColor4usv", 61, crate::Address(glColor4usv as *const ())),
-    (b"glColorMask", 765, crate::Address(glColorMask as *const ())),
-    (b"glColorMaskIndexedEXT", 767, crate::Address(glColorMaskIndexedEXT as *const ())),
-    (b"glColorMaski", 766, crate::Address(glColorMaski as *const ())),
-    (b"glColorMaskiEXT", 768, crate::Address(glColorMaskiEXT as *const ())),
-    (b"glColorMaskiOES", 769, crate::Address(glColorMaskiOES as *const ())),
+    (b"glColorMask", 767, crate::Address(glColorMask as *const ())),
+    (b"glColorMaskIndexedEXT", 769, crate::Address(glColorMaskIndexedEXT as *const ())),
+    (b"glColorMaski", 768, crate::Address(glColorMaski as *const ())),
+    (b"glColorMaskiEXT", 770, crate::Address(glColorMaskiEXT as *const ())),
+    (b"glColorMaskiOES", 771, crate::Address(glColorMaskiOES as *const ())),
     (b"glColorMaterial", 569, crate::Address(glColorMaterial as *const ())),
     (b"glColorP3ui", 441, crate::Address(glColorP3ui as *const ())),
     (b"glColorP3uiv", 442, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 443, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 444, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1751, crate::Address(glColorPointer as *const ())),
-    (b"glCompressedMultiTexImage1DEXT", 866, crate::Address(glCompressedMultiTexImage1DEXT as *const ())),
-    (b"glCompressedMultiTexImage2DEXT", 867, crate::Address(glCompressedMultiTexImage2DEXT as *const ())),
-    (b"glCompressedMultiTexImage3DEXT", 868, crate::Address(glCompressedMultiTexImage3DEXT as *const ())),
-    (b"glCompressedMultiTexSubImage1DEXT", 869, crate::Address(glCompressedMultiTexSubImage1DEXT as *const ())),
-    (b"glCompressedMultiTexSubImage2DEXT", 870, crate::Address(glCompressedMultiTexSubImage2DEXT as *const ())),
-    (b"glCompressedMultiTexSubImage3DEXT", 871, crate::Address(glCompressedMultiTexSubImage3DEXT as *const ())),
-    (b"glCompressedTexImage1D", 842, crate::Address(glCompressedTexImage1D as *const ())),
-    (b"glCompressedTexImage1DARB", 843, crate::Address(glCompressedTexImage1DARB as *const ())),
-    (b"glCompressedTexImage2D", 844, crate::Address(glCompressedTexImage2D as *const ())),
-    (b"glCompressedTexImage2DARB", 845, crate::Address(glCompressedTexImage2DARB as *const ())),
-    (b"glCompressedTexImage3D", 846, crate::Address(glCompressedTexImage3D as *const ())),
-    (b"glCompressedTexImage3DARB", 847, crate::Address(glCompressedTexImage3DARB as *const ())),
-    (b"glCompressedTexImage3DOES", 891, crate::Address(glCompressedTexImage3DOES as *const ())),
-    (b"glCompressedTexSubImage1D", 848, crate::Address(glCompressedTexSubImage1D as *const ())),
-    (b"glCompressedTexSubImage1DARB", 849, crate::Address(glCompressedTexSubImage1DARB as *const ())),
-    (b"glCompressedTexSubImage2D", 850, crate::Address(glCompressedTexSubImage2D as *const ())),
-    (b"glCompressedTexSubImage2DARB", 851, crate::Address(glCompressedTexSubImage2DARB as *const ())),
-    (b"glCompressedTexSubImage3D", 852, crate::Address(glCompressedTexSubImage3D as *const ())),
-    (b"glCompressedTexSubImage3DARB", 853, crate::Address(glCompressedTexSubImage3DARB as *const ())),
-    (b"glCompressedTexSubImage3DOES", 892, crate::Address(glCompressedTexSubImage3DOES as *const ())),
-    (b"glCompressedTextureImage1DEXT", 860, crate::Address(glCompressedTextureImage1DEXT as *const ())),
-    (b"glCompressedTextureImage2DEXT", 861, crate::Address(glCompressedTextureImage2DEXT as *const ())),
-    (b"glCompressedTextureImage3DEXT", 862, crate::Address(glCompressedTextureImage3DEXT as *const ())),
-    (b"glCompressedTextureSubImage1D", 897, crate::Address(glCompressedTextureSubImage1D as *const ())),
-    (b"glCompressedTextureSubImage1DEXT", 863, crate::Address(glCompressedTextureSubImage1DEXT as *const ())),
-    (b"glCompressedTextureSubImage2D", 898, crate::Address(glCompressedTextureSubImage2D as *const ())),
-    (b"glCompressedTextureSubImage2DEXT", 864, crate::Address(glCompressedTextureSubImage2DEXT as *const ())),
-    (b"glCompressedTextureSubImage3D", 899, crate::Address(glCompressedTextureSubImage3D as *const ())),
-    (b"glCompressedTextureSubImage3DEXT", 865, crate::Address(glCompressedTextureSubImage3DEXT as *const ())),
-    (b"glCopyBufferSubData", 1704, crate::Address(glCopyBufferSubData as *const ())),
-    (b"glCopyBufferSubDataNV", 1705, crate::Address(glCopyBufferSubDataNV as *const ())),
-    (b"glCopyColorSubTable", 1553, crate::Address(glCopyColorSubTable as *const ())),
-    (b"glCopyColorSubTableEXT", 1554, crate::Address(glCopyColorSubTableEXT as *const ())),
-    (b"glCopyColorTable", 1545, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1546, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1547, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1548, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1549, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1550, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
-    (b"glCopyImageSubData", 986, crate::Address(glCopyImageSubData as *const ())),
-    (b"glCopyImageSubDataEXT", 987, crate::Address(glCopyImageSubDataEXT as *const ())),
-    (b"glCopyImageSubDataNV", 989, crate::Address(glCopyImageSubDataNV as *const ())),
-    (b"glCopyImageSubDataOES", 988, crate::Address(glCopyImageSubDataOES as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1537, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1538, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
-    (b"glCopyMultiTexSubImage1DEXT", 1539, crate::Address(glCopyMultiTexSubImage1DEXT as *const ())),
-    (b"glCopyMultiTexSubImage2DEXT", 1540, crate::Address(glCopyMultiTexSubImage2DEXT as *const ())),
-    (b"glCopyMultiTexSubImage3DEXT", 1552, crate::Address(glCopyMultiTexSubImage3DEXT as *const ())),
-    (b"glCopyNamedBufferSubData", 1706, crate::Address(glCopyNamedBufferSubData as *const ())),
-    (b"glCopyPixels", 1415, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1518, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1519, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1520, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1521, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1522, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1523, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1524, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1525, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1541, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1542, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTexSubImage3DOES", 1543, crate::Address(glCopyTexSubImage3DOES as *const ())),
-    (b"glCopyTextureImage1DEXT", 1533, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1534, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1531, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage1DEXT", 1535, crate::Address(glCopyTextureSubImage1DEXT as *const ())),
-    (b"glCopyTextureSubImage2D", 1532, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage2DEXT", 1536, crate::Address(glCopyTextureSubImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage3D", 1544, crate::Address(glCopyTextureSubImage3D as *const ())),
-    (b"glCopyTextureSubImage3DEXT", 1551, crate::Address(glCopyTextureSubImage3DEXT as *const ())),
-    (b"glCoverFillPathInstancedNV", 1390, crate::Address(glCoverFillPathInstancedNV as *const ())),
-    (b"glCoverFillPathNV", 1391, crate::Address(glCoverFillPathNV as *const ())),
-    (b"glCoverStrokePathInstancedNV", 1392, crate::Address(glCoverStrokePathInstancedNV as *const ())),
-    (b"glCoverStrokePathNV", 1393, crate::Address(glCoverStrokePathNV as *const ())),
-    (b"glCreateTextures", 982, crate::Address(glCreateTextures as *const ())),
-    (b"glCullFace", 770, crate::Address(glCullFace as *const ())),
-    (b"glDebugMessageCallback", 1622, crate::Address(glDebugMessageCallback as *const ())),
-    (b"glDebugMessageCallbackARB", 1623, crate::Address(glDebugMessageCallbackARB as *const ())),
-    (b"glDebugMessageCallbackKHR", 1624, crate::Address(glDebugMessageCallbackKHR as *const ())),
-    (b"glDeleteBuffers", 1683, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1684, crate::Address(glDeleteBuffersARB as *const ())),
-    (b"glDeleteFramebuffers", 1431, crate::Address(glDeleteFramebuffers as *const ())),
-    (b"glDeleteFramebuffersEXT", 1432, crate::Address(glDeleteFramebuffersEXT as *const ())),
-    (b"glDeleteLists", 1420, crate::Address(glDeleteLists as *const ())),
-    (b"glDeleteProgram", 1298, crate::Address(glDeleteProgram as *const ())),
-    (b"glDeleteProgramPipelines", 1745, crate::Address(glDeleteProgramPipelines as *const ())),
-    (b"glDeleteQueries", 1580, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1581, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteRenderbuffers", 1671, crate::Address(glDeleteRenderbuffers as *const ())),
-    (b"glDeleteRenderbuffersEXT", 1672, crate::Address(glDeleteRenderbuffersEXT as *const ())),
-    (b"glDeleteSamplers", 1744, crate::Address(glDeleteSamplers as *const ())),
-    (b"glDeleteTextures", 1425, crate::Address(glDeleteTextures as *const ())),
-    (b"glDeleteTransformFeedbacks", 724, crate::Address(glDeleteTransformFeedbacks as *const ())),
-    (b"glDeleteTransformFeedbacksNV", 725, crate::Address(glDeleteTransformFeedbacksNV as *const ())),
-    (b"glDeleteVertexArrays", 1739, crate::Address(glDeleteVertexArrays as *const ())),
-    (b"glDeleteVertexArraysAPPLE", 1740, crate::Address(glDeleteVertexArraysAPPLE as *const ())),
-    (b"glDeleteVertexArraysOES", 1741, crate::Address(glDeleteVertexArraysOES as *const ())),
-    (b"glDepthBoundsEXT", 771, crate::Address(glDepthBoundsEXT as *const ())),
-    (b"glDepthBoundsdNV", 819, crate::Address(glDepthBoundsdNV as *const ())),
+    (b"glColorPointer", 1753, crate::Address(glColorPointer as *const ())),
+    (b"glCompressedMultiTexImage1DEXT", 868, crate::Address(glCompressedMultiTexImage1DEXT as *const ())),
+    (b"glCompressedMultiTexImage2DEXT", 869, crate::Address(glCompressedMultiTexImage2DEXT as *const ())),
+    (b"glCompressedMultiTexImage3DEXT", 870, crate::Address(glCompressedMultiTexImage3DEXT as *const ())),
+    (b"glCompressedMultiTexSubImage1DEXT", 871, crate::Address(glCompressedMultiTexSubImage1DEXT as *const ())),
+    (b"glCompressedMultiTexSubImage2DEXT", 872, crate::Address(glCompressedMultiTexSubImage2DEXT as *const ())),
+    (b"glCompressedMultiTexSubImage3DEXT", 873, crate::Address(glCompressedMultiTexSubImage3DEXT as *const ())),
+    (b"glCompressedTexImage1D", 844, crate::Address(glCompressedTexImage1D as *const ())),
+    (b"glCompressedTexImage1DARB", 845, crate::Address(glCompressedTexImage1DARB as *const ())),
+    (b"glCompressedTexImage2D", 846, crate::Address(glCompressedTexImage2D as *const ())),
+    (b"glCompressedTexImage2DARB", 847, crate::Address(glCompressedTexImage2DARB as *const ())),
+    (b"glCompressedTexImage3D", 848, crate::Address(glCompressedTexImage3D as *const ())),
+    (b"glCompressedTexImage3DARB", 849, crate::Address(glCompressedTexImage3DARB as *const ())),
+    (b"glCompressedTexImage3DOES", 893, crate::Address(glCompressedTexImage3DOES as *const ())),
+    (b"glCompressedTexSubImage1D", 850, crate::Address(glCompressedTexSubImage1D as *const ())),
+    (b"glCompressedTexSubImage1DARB", 851, crate::Address(glCompressedTexSubImage1DARB as *const ())),
+    (b"glCompressedTexSubImage2D", 852, crate::Address(glCompressedTexSubImage2D as *const ())),
+    (b"glCompressedTexSubImage2DARB", 853, crate::Address(glCompressedTexSubImage2DARB as *const ())),
+    (b"glCompressedTexSubImage3D", 854, crate::Address(glCompressedTexSubImage3D as *const ())),
+    (b"glCompressedTexSubImage3DARB", 855, crate::Address(glCompressedTexSubImage3DARB as *const ())),
+    (b"glCompressedTexSubImage3DOES", 894, crate::Address(glCompressedTexSubImage3DOES as *const ())),
+    (b"glCompressedTextureImage1DEXT", 862, crate::Address(glCompressedTextureImage1DEXT as *const ())),
+    (b"glCompressedTextureImage2DEXT", 863, crate::Address(glCompressedTextureImage2DEXT as *const ())),
+    (b"glCompressedTextureImage3DEXT", 864, crate::Address(glCompressedTextureImage3DEXT as *const ())),
+    (b"glCompressedTextureSubImage1D", 899, crate::Address(glCompressedTextureSubImage1D as *const ())),
+    (b"glCompressedTextureSubImage1DEXT", 865, crate::Address(glCompressedTextureSubImage1DEXT as *const ())),
+    (b"glCompressedTextureSubImage2D", 900, crate::Address(glCompressedTextureSubImage2D as *const ())),
+    (b"glCompressedTextureSubImage2DEXT", 866, crate::Address(glCompressedTextureSubImage2DEXT as *const ())),
+    (b"glCompressedTextureSubImage3D", 901, crate::Address(glCompressedTextureSubImage3D as *const ())),
+    (b"glCompressedTextureSubImage3DEXT", 867, crate::Address(glCompressedTextureSubImage3DEXT as *const ())),
+    (b"glCopyBufferSubData", 1706, crate::Address(glCopyBufferSubData as *const ())),
+    (b"glCopyBufferSubDataNV", 1707, crate::Address(glCopyBufferSubDataNV as *const ())),
+    (b"glCopyColorSubTable", 1555, crate::Address(glCopyColorSubTable as *const ())),
+    (b"glCopyColorSubTableEXT", 1556, crate::Address(glCopyColorSubTableEXT as *const ())),
+    (b"glCopyColorTable", 1547, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1548, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1549, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1550, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1551, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1552, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyImageSubData", 988, crate::Address(glCopyImageSubData as *const ())),
+    (b"glCopyImageSubDataEXT", 989, crate::Address(glCopyImageSubDataEXT as *const ())),
+    (b"glCopyImageSubDataNV", 991, crate::Address(glCopyImageSubDataNV as *const ())),
+    (b"glCopyImageSubDataOES", 990, crate::Address(glCopyImageSubDataOES as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1539, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1540, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyMultiTexSubImage1DEXT", 1541, crate::Address(glCopyMultiTexSubImage1DEXT as *const ())),
+    (b"glCopyMultiTexSubImage2DEXT", 1542, crate::Address(glCopyMultiTexSubImage2DEXT as *const ())),
+    (b"glCopyMultiTexSubImage3DEXT", 1554, crate::Address(glCopyMultiTexSubImage3DEXT as *const ())),
+    (b"glCopyNamedBufferSubData", 1708, crate::Address(glCopyNamedBufferSubData as *const ())),
+    (b"glCopyPixels", 1417, crate::Address(glCopyPixels as *const ())),
+    (b"glCopyTexImage1D", 1520, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1521, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1522, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1523, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1524, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1525, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1526, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1527, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1543, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1544, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTexSubImage3DOES", 1545, crate::Address(glCopyTexSubImage3DOES as *const ())),
+    (b"glCopyTextureImage1DEXT", 1535, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1536, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1533, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage1DEXT", 1537, crate::Address(glCopyTextureSubImage1DEXT as *const ())),
+    (b"glCopyTextureSubImage2D", 1534, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage2DEXT", 1538, crate::Address(glCopyTextureSubImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage3D", 1546, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCopyTextureSubImage3DEXT", 1553, crate::Address(glCopyTextureSubImage3DEXT as *const ())),
+    (b"glCoverFillPathInstancedNV", 1392, crate::Address(glCoverFillPathInstancedNV as *const ())),
+    (b"glCoverFillPathNV", 1393, crate::Address(glCoverFillPathNV as *const ())),
+    (b"glCoverStrokePathInstancedNV", 1394, crate::Address(glCoverStrokePathInstancedNV as *const ())),
+    (b"glCoverStrokePathNV", 1395, crate::Address(glCoverStrokePathNV as *const ())),
+    (b"glCreateTextures", 984, crate::Address(glCreateTextures as *const ())),
+    (b"glCullFace", 772, crate::Address(glCullFace as *const ())),
+    (b"glDebugMessageCallback", 1624, crate::Address(glDebugMessageCallback as *const ())),
+    (b"glDebugMessageCallbackARB", 1625, crate::Address(glDebugMessageCallbackARB as *const ())),
+    (b"glDebugMessageCallbackKHR", 1626, crate::Address(glDebugMessageCallbackKHR as *const ())),
+    (b"glDeleteBuffers", 1685, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1686, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteFramebuffers", 1433, crate::Address(glDeleteFramebuffers as *const ())),
+    (b"glDeleteFramebuffersEXT", 1434, crate::Address(glDeleteFramebuffersEXT as *const ())),
+    (b"glDeleteLists", 1422, crate::Address(glDeleteLists as *const ())),
+    (b"glDeleteProgram", 1300, crate::Address(glDeleteProgram as *const ())),
+    (b"glDeleteProgramPipelines", 1747, crate::Address(glDeleteProgramPipelines as *const ())),
+    (b"glDeleteQueries", 1582, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1583, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1673, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1674, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteSamplers", 1746, crate::Address(glDeleteSamplers as *const ())),
+    (b"glDeleteTextures", 1427, crate::Address(glDeleteTextures as *const ())),
+    (b"glDeleteTransformFeedbacks", 726, crate::Address(glDeleteTransformFeedbacks as *const ())),
+    (b"glDeleteTransformFeedbacksNV", 727, crate::Address(glDeleteTransformFeedbacksNV as *const ())),
+    (b"glDeleteVertexArrays", 1741, crate::Address(glDeleteVertexArrays as *const ())),
+    (b"glDeleteVertexArraysAPPLE", 1742, crate::Address(glDeleteVertexArraysAPPLE as *const ())),
+    (b"glDeleteVertexArraysOES", 1743, crate::Address(glDeleteVertexArraysOES as *const ())),
+    (b"glDepthBoundsEXT", 773, crate::Address(glDepthBoundsEXT as *const ())),
+    (b"glDepthBoundsdNV", 821, crate::Address(glDepthBoundsdNV as *const ())),
     (b"glDepthFunc", 543, crate::Address(glDepthFunc as *const ())),
     (b"glDepthMask", 542, crate::Address(glDepthMask as *const ())),
     (b"glDepthRange", 544, crate::Address(glDepthRange as *const ())),
@@ -5991,115 +5997,117 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glDepthRangef", 545, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 546, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 531, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1747, crate::Address(glDisableClientState as *const ())),
-    (b"glDisableClientStateiEXT", 622, crate::Address(glDisableClientStateiEXT as *const ())),
+    (b"glDisableClientState", 1749, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientStateIndexedEXT", 622, crate::Address(glDisableClientStateIndexedEXT as *const ())),
+    (b"glDisableClientStateiEXT", 623, crate::Address(glDisableClientStateiEXT as *const ())),
     (b"glDisableIndexedEXT", 538, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexArrayAttrib", 1769, crate::Address(glDisableVertexArrayAttrib as *const ())),
-    (b"glDisableVertexArrayAttribEXT", 1770, crate::Address(glDisableVertexArrayAttribEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1765, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1766, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexArrayAttrib", 1771, crate::Address(glDisableVertexArrayAttrib as *const ())),
+    (b"glDisableVertexArrayAttribEXT", 1772, crate::Address(glDisableVertexArrayAttribEXT as *const ())),
+    (b"glDisableVertexAttribArray", 1767, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1768, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 537, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 539, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 540, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 541, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1513, crate::Address(glDiscardFramebufferEXT as *const ())),
-    (b"glDispatchCompute", 1005, crate::Address(glDispatchCompute as *const ())),
-    (b"glDispatchComputeGroupSizeARB", 1007, crate::Address(glDispatchComputeGroupSizeARB as *const ())),
-    (b"glDispatchComputeIndirect", 1006, crate::Address(glDispatchComputeIndirect as *const ())),
-    (b"glDrawArrays", 1305, crate::Address(glDrawArrays as *const ())),
-    (b"glDrawArraysEXT", 1306, crate::Address(glDrawArraysEXT as *const ())),
-    (b"glDrawArraysIndirect", 1341, crate::Address(glDrawArraysIndirect as *const ())),
-    (b"glDrawArraysInstanced", 1322, crate::Address(glDrawArraysInstanced as *const ())),
-    (b"glDrawArraysInstancedANGLE", 1323, crate::Address(glDrawArraysInstancedANGLE as *const ())),
-    (b"glDrawArraysInstancedARB", 1324, crate::Address(glDrawArraysInstancedARB as *const ())),
-    (b"glDrawArraysInstancedBaseInstance", 1335, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
-    (b"glDrawArraysInstancedBaseInstanceEXT", 1336, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawArraysInstancedEXT", 1325, crate::Address(glDrawArraysInstancedEXT as *const ())),
-    (b"glDrawArraysInstancedNV", 1326, crate::Address(glDrawArraysInstancedNV as *const ())),
-    (b"glDrawBuffer", 1434, crate::Address(glDrawBuffer as *const ())),
-    (b"glDrawBuffers", 1435, crate::Address(glDrawBuffers as *const ())),
-    (b"glDrawBuffersARB", 1436, crate::Address(glDrawBuffersARB as *const ())),
-    (b"glDrawBuffersATI", 1437, crate::Address(glDrawBuffersATI as *const ())),
-    (b"glDrawBuffersEXT", 1438, crate::Address(glDrawBuffersEXT as *const ())),
-    (b"glDrawBuffersNV", 1433, crate::Address(glDrawBuffersNV as *const ())),
-    (b"glDrawElementArrayAPPLE", 1380, crate::Address(glDrawElementArrayAPPLE as *const ())),
-    (b"glDrawElementArrayATI", 1384, crate::Address(glDrawElementArrayATI as *const ())),
-    (b"glDrawElements", 1307, crate::Address(glDrawElements as *const ())),
-    (b"glDrawElementsBaseVertex", 1314, crate::Address(glDrawElementsBaseVertex as *const ())),
-    (b"glDrawElementsBaseVertexEXT", 1315, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
-    (b"glDrawElementsBaseVertexOES", 1316, crate::Address(glDrawElementsBaseVertexOES as *const ())),
-    (b"glDrawElementsIndirect", 1342, crate::Address(glDrawElementsIndirect as *const ())),
-    (b"glDrawElementsInstanced", 1327, crate::Address(glDrawElementsInstanced as *const ())),
-    (b"glDrawElementsInstancedANGLE", 1328, crate::Address(glDrawElementsInstancedANGLE as *const ())),
-    (b"glDrawElementsInstancedARB", 1329, crate::Address(glDrawElementsInstancedARB as *const ())),
-    (b"glDrawElementsInstancedBaseInstance", 1337, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseInstanceEXT", 1338, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertex", 1332, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1339, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1340, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexEXT", 1333, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexOES", 1334, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
-    (b"glDrawElementsInstancedEXT", 1330, crate::Address(glDrawElementsInstancedEXT as *const ())),
-    (b"glDrawElementsInstancedNV", 1331, crate::Address(glDrawElementsInstancedNV as *const ())),
-    (b"glDrawMeshArraysSUN", 1386, crate::Address(glDrawMeshArraysSUN as *const ())),
-    (b"glDrawMeshTasksIndirectNV", 1376, crate::Address(glDrawMeshTasksIndirectNV as *const ())),
-    (b"glDrawMeshTasksNV", 1377, crate::Address(glDrawMeshTasksNV as *const ())),
-    (b"glDrawPixels", 1414, crate::Address(glDrawPixels as *const ())),
-    (b"glDrawRangeElementArrayAPPLE", 1381, crate::Address(glDrawRangeElementArrayAPPLE as *const ())),
-    (b"glDrawRangeElementArrayATI", 1385, crate::Address(glDrawRangeElementArrayATI as *const ())),
-    (b"glDrawRangeElements", 1308, crate::Address(glDrawRangeElements as *const ())),
-    (b"glDrawRangeElementsBaseVertex", 1317, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
-    (b"glDrawRangeElementsBaseVertexEXT", 1318, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
-    (b"glDrawRangeElementsBaseVertexOES", 1319, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
-    (b"glDrawRangeElementsEXT", 1309, crate::Address(glDrawRangeElementsEXT as *const ())),
-    (b"glDrawTexfOES", 1402, crate::Address(glDrawTexfOES as *const ())),
-    (b"glDrawTexfvOES", 1403, crate::Address(glDrawTexfvOES as *const ())),
-    (b"glDrawTexiOES", 1404, crate::Address(glDrawTexiOES as *const ())),
-    (b"glDrawTexivOES", 1405, crate::Address(glDrawTexivOES as *const ())),
-    (b"glDrawTexsOES", 1406, crate::Address(glDrawTexsOES as *const ())),
-    (b"glDrawTexsvOES", 1407, crate::Address(glDrawTexsvOES as *const ())),
-    (b"glDrawTextureNV", 1387, crate::Address(glDrawTextureNV as *const ())),
-    (b"glDrawTexxOES", 1408, crate::Address(glDrawTexxOES as *const ())),
-    (b"glDrawTexxvOES", 1409, crate::Address(glDrawTexxvOES as *const ())),
-    (b"glDrawTransformFeedback", 1349, crate::Address(glDrawTransformFeedback as *const ())),
-    (b"glDrawTransformFeedbackEXT", 1350, crate::Address(glDrawTransformFeedbackEXT as *const ())),
-    (b"glDrawTransformFeedbackInstanced", 1352, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
-    (b"glDrawTransformFeedbackInstancedEXT", 1353, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
-    (b"glDrawTransformFeedbackNV", 1351, crate::Address(glDrawTransformFeedbackNV as *const ())),
-    (b"glDrawTransformFeedbackStream", 1354, crate::Address(glDrawTransformFeedbackStream as *const ())),
-    (b"glDrawTransformFeedbackStreamInstanced", 1355, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
-    (b"glDrawVkImageNV", 1388, crate::Address(glDrawVkImageNV as *const ())),
-    (b"glEGLImageTargetRenderbufferStorageOES", 1662, crate::Address(glEGLImageTargetRenderbufferStorageOES as *const ())),
-    (b"glEGLImageTargetTexStorageEXT", 946, crate::Address(glEGLImageTargetTexStorageEXT as *const ())),
-    (b"glEGLImageTargetTexture2DOES", 893, crate::Address(glEGLImageTargetTexture2DOES as *const ())),
-    (b"glEGLImageTargetTextureStorageEXT", 934, crate::Address(glEGLImageTargetTextureStorageEXT as *const ())),
+    (b"glDiscardFramebufferEXT", 1515, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDispatchCompute", 1007, crate::Address(glDispatchCompute as *const ())),
+    (b"glDispatchComputeGroupSizeARB", 1009, crate::Address(glDispatchComputeGroupSizeARB as *const ())),
+    (b"glDispatchComputeIndirect", 1008, crate::Address(glDispatchComputeIndirect as *const ())),
+    (b"glDrawArrays", 1307, crate::Address(glDrawArrays as *const ())),
+    (b"glDrawArraysEXT", 1308, crate::Address(glDrawArraysEXT as *const ())),
+    (b"glDrawArraysIndirect", 1343, crate::Address(glDrawArraysIndirect as *const ())),
+    (b"glDrawArraysInstanced", 1324, crate::Address(glDrawArraysInstanced as *const ())),
+    (b"glDrawArraysInstancedANGLE", 1325, crate::Address(glDrawArraysInstancedANGLE as *const ())),
+    (b"glDrawArraysInstancedARB", 1326, crate::Address(glDrawArraysInstancedARB as *const ())),
+    (b"glDrawArraysInstancedBaseInstance", 1337, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
+    (b"glDrawArraysInstancedBaseInstanceEXT", 1338, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawArraysInstancedEXT", 1327, crate::Address(glDrawArraysInstancedEXT as *const ())),
+    (b"glDrawArraysInstancedNV", 1328, crate::Address(glDrawArraysInstancedNV as *const ())),
+    (b"glDrawBuffer", 1436, crate::Address(glDrawBuffer as *const ())),
+    (b"glDrawBuffers", 1437, crate::Address(glDrawBuffers as *const ())),
+    (b"glDrawBuffersARB", 1438, crate::Address(glDrawBuffersARB as *const ())),
+    (b"glDrawBuffersATI", 1439, crate::Address(glDrawBuffersATI as *const ())),
+    (b"glDrawBuffersEXT", 1440, crate::Address(glDrawBuffersEXT as *const ())),
+    (b"glDrawBuffersNV", 1435, crate::Address(glDrawBuffersNV as *const ())),
+    (b"glDrawElementArrayAPPLE", 1382, crate::Address(glDrawElementArrayAPPLE as *const ())),
+    (b"glDrawElementArrayATI", 1386, crate::Address(glDrawElementArrayATI as *const ())),
+    (b"glDrawElements", 1309, crate::Address(glDrawElements as *const ())),
+    (b"glDrawElementsBaseVertex", 1316, crate::Address(glDrawElementsBaseVertex as *const ())),
+    (b"glDrawElementsBaseVertexEXT", 1317, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
+    (b"glDrawElementsBaseVertexOES", 1318, crate::Address(glDrawElementsBaseVertexOES as *const ())),
+    (b"glDrawElementsIndirect", 1344, crate::Address(glDrawElementsIndirect as *const ())),
+    (b"glDrawElementsInstanced", 1329, crate::Address(glDrawElementsInstanced as *const ())),
+    (b"glDrawElementsInstancedANGLE", 1330, crate::Address(glDrawElementsInstancedANGLE as *const ())),
+    (b"glDrawElementsInstancedARB", 1331, crate::Address(glDrawElementsInstancedARB as *const ())),
+    (b"glDrawElementsInstancedBaseInstance", 1339, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseInstanceEXT", 1340, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertex", 1334, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1341, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1342, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexEXT", 1335, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexOES", 1336, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
+    (b"glDrawElementsInstancedEXT", 1332, crate::Address(glDrawElementsInstancedEXT as *const ())),
+    (b"glDrawElementsInstancedNV", 1333, crate::Address(glDrawElementsInstancedNV as *const ())),
+    (b"glDrawMeshArraysSUN", 1388, crate::Address(glDrawMeshArraysSUN as *const ())),
+    (b"glDrawMeshTasksIndirectNV", 1378, crate::Address(glDrawMeshTasksIndirectNV as *const ())),
+    (b"glDrawMeshTasksNV", 1379, crate::Address(glDrawMeshTasksNV as *const ())),
+    (b"glDrawPixels", 1416, crate::Address(glDrawPixels as *const ())),
+    (b"glDrawRangeElementArrayAPPLE", 1383, crate::Address(glDrawRangeElementArrayAPPLE as *const ())),
+    (b"glDrawRangeElementArrayATI", 1387, crate::Address(glDrawRangeElementArrayATI as *const ())),
+    (b"glDrawRangeElements", 1310, crate::Address(glDrawRangeElements as *const ())),
+    (b"glDrawRangeElementsBaseVertex", 1319, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
+    (b"glDrawRangeElementsBaseVertexEXT", 1320, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
+    (b"glDrawRangeElementsBaseVertexOES", 1321, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
+    (b"glDrawRangeElementsEXT", 1311, crate::Address(glDrawRangeElementsEXT as *const ())),
+    (b"glDrawTexfOES", 1404, crate::Address(glDrawTexfOES as *const ())),
+    (b"glDrawTexfvOES", 1405, crate::Address(glDrawTexfvOES as *const ())),
+    (b"glDrawTexiOES", 1406, crate::Address(glDrawTexiOES as *const ())),
+    (b"glDrawTexivOES", 1407, crate::Address(glDrawTexivOES as *const ())),
+    (b"glDrawTexsOES", 1408, crate::Address(glDrawTexsOES as *const ())),
+    (b"glDrawTexsvOES", 1409, crate::Address(glDrawTexsvOES as *const ())),
+    (b"glDrawTextureNV", 1389, crate::Address(glDrawTextureNV as *const ())),
+    (b"glDrawTexxOES", 1410, crate::Address(glDrawTexxOES as *const ())),
+    (b"glDrawTexxvOES", 1411, crate::Address(glDrawTexxvOES as *const ())),
+    (b"glDrawTransformFeedback", 1351, crate::Address(glDrawTransformFeedback as *const ())),
+    (b"glDrawTransformFeedbackEXT", 1352, crate::Address(glDrawTransformFeedbackEXT as *const ())),
+    (b"glDrawTransformFeedbackInstanced", 1354, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
+    (b"glDrawTransformFeedbackInstancedEXT", 1355, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
+    (b"glDrawTransformFeedbackNV", 1353, crate::Address(glDrawTransformFeedbackNV as *const ())),
+    (b"glDrawTransformFeedbackStream", 1356, crate::Address(glDrawTransformFeedbackStream as *const ())),
+    (b"glDrawTransformFeedbackStreamInstanced", 1357, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
+    (b"glDrawVkImageNV", 1390, crate::Address(glDrawVkImageNV as *const ())),
+    (b"glEGLImageTargetRenderbufferStorageOES", 1664, crate::Address(glEGLImageTargetRenderbufferStorageOES as *const ())),
+    (b"glEGLImageTargetTexStorageEXT", 948, crate::Address(glEGLImageTargetTexStorageEXT as *const ())),
+    (b"glEGLImageTargetTexture2DOES", 895, crate::Address(glEGLImageTargetTexture2DOES as *const ())),
+    (b"glEGLImageTargetTextureStorageEXT", 936, crate::Address(glEGLImageTargetTextureStorageEXT as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1756, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1758, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 530, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1746, crate::Address(glEnableClientState as *const ())),
-    (b"glEnableClientStateiEXT", 623, crate::Address(glEnableClientStateiEXT as *const ())),
+    (b"glEnableClientState", 1748, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientStateIndexedEXT", 624, crate::Address(glEnableClientStateIndexedEXT as *const ())),
+    (b"glEnableClientStateiEXT", 625, crate::Address(glEnableClientStateiEXT as *const ())),
     (b"glEnableIndexedEXT", 533, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexArrayAttrib", 1771, crate::Address(glEnableVertexArrayAttrib as *const ())),
-    (b"glEnableVertexArrayAttribEXT", 1772, crate::Address(glEnableVertexArrayAttribEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1763, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1764, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexArrayAttrib", 1773, crate::Address(glEnableVertexArrayAttrib as *const ())),
+    (b"glEnableVertexArrayAttribEXT", 1774, crate::Address(glEnableVertexArrayAttribEXT as *const ())),
+    (b"glEnableVertexAttribArray", 1765, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1766, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 532, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 534, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 535, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 536, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 456, crate::Address(glEnd as *const ())),
-    (b"glEndConditionalRender", 1566, crate::Address(glEndConditionalRender as *const ())),
-    (b"glEndConditionalRenderNV", 1567, crate::Address(glEndConditionalRenderNV as *const ())),
-    (b"glEndConditionalRenderNVX", 1568, crate::Address(glEndConditionalRenderNVX as *const ())),
-    (b"glEndList", 1417, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1578, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1579, crate::Address(glEndQueryARB as *const ())),
-    (b"glEndQueryEXT", 1558, crate::Address(glEndQueryEXT as *const ())),
-    (b"glEndQueryIndexed", 1574, crate::Address(glEndQueryIndexed as *const ())),
-    (b"glEndTransformFeedback", 715, crate::Address(glEndTransformFeedback as *const ())),
-    (b"glEndTransformFeedbackEXT", 716, crate::Address(glEndTransformFeedbackEXT as *const ())),
-    (b"glEndTransformFeedbackNV", 717, crate::Address(glEndTransformFeedbackNV as *const ())),
+    (b"glEndConditionalRender", 1568, crate::Address(glEndConditionalRender as *const ())),
+    (b"glEndConditionalRenderNV", 1569, crate::Address(glEndConditionalRenderNV as *const ())),
+    (b"glEndConditionalRenderNVX", 1570, crate::Address(glEndConditionalRenderNVX as *const ())),
+    (b"glEndList", 1419, crate::Address(glEndList as *const ())),
+    (b"glEndQuery", 1580, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1581, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndQueryEXT", 1560, crate::Address(glEndQueryEXT as *const ())),
+    (b"glEndQueryIndexed", 1576, crate::Address(glEndQueryIndexed as *const ())),
+    (b"glEndTransformFeedback", 717, crate::Address(glEndTransformFeedback as *const ())),
+    (b"glEndTransformFeedbackEXT", 718, crate::Address(glEndTransformFeedbackEXT as *const ())),
+    (b"glEndTransformFeedbackNV", 719, crate::Address(glEndTransformFeedbackNV as *const ())),
     (b"glEvalCoord1d", 251, crate::Address(glEvalCoord1d as *const ())),
     (b"glEvalCoord1dv", 252, crate::Address(glEvalCoord1dv as *const ())),
     (b"glEvalCoord1f", 253, crate::Address(glEvalCoord1f as *const ())),
@@ -6108,22 +6116,22 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glEvalCoord2dv", 256, crate::Address(glEvalCoord2dv as *const ())),
     (b"glEvalCoord2f", 257, crate::Address(glEvalCoord2f as *const ())),
     (b"glEvalCoord2fv", 258, crate::Address(glEvalCoord2fv as *const ())),
-    (b"glEvalMapsNV", 1389, crate::Address(glEvalMapsNV as *const ())),
-    (b"glEvalMesh1", 1364, crate::Address(glEvalMesh1 as *const ())),
-    (b"glEvalMesh2", 1365, crate::Address(glEvalMesh2 as *const ())),
+    (b"glEvalMapsNV", 1391, crate::Address(glEvalMapsNV as *const ())),
+    (b"glEvalMesh1", 1366, crate::Address(glEvalMesh1 as *const ())),
+    (b"glEvalMesh2", 1367, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 259, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 260, crate::Address(glEvalPoint2 as *const ())),
-    (b"glEvaluateDepthValuesARB", 1669, crate::Address(glEvaluateDepthValuesARB as *const ())),
-    (b"glFeedbackBuffer", 1649, crate::Address(glFeedbackBuffer as *const ())),
-    (b"glFinish", 1561, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1562, crate::Address(glFlush as *const ())),
-    (b"glFlushMappedBufferRange", 1724, crate::Address(glFlushMappedBufferRange as *const ())),
-    (b"glFlushMappedBufferRangeAPPLE", 1725, crate::Address(glFlushMappedBufferRangeAPPLE as *const ())),
-    (b"glFlushMappedBufferRangeEXT", 1726, crate::Address(glFlushMappedBufferRangeEXT as *const ())),
-    (b"glFlushMappedNamedBufferRange", 1727, crate::Address(glFlushMappedNamedBufferRange as *const ())),
-    (b"glFlushMappedNamedBufferRangeEXT", 1700, crate::Address(glFlushMappedNamedBufferRangeEXT as *const ())),
-    (b"glFogCoordPointer", 1757, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1758, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glEvaluateDepthValuesARB", 1671, crate::Address(glEvaluateDepthValuesARB as *const ())),
+    (b"glFeedbackBuffer", 1651, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFinish", 1563, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1564, crate::Address(glFlush as *const ())),
+    (b"glFlushMappedBufferRange", 1726, crate::Address(glFlushMappedBufferRange as *const ())),
+    (b"glFlushMappedBufferRangeAPPLE", 1727, crate::Address(glFlushMappedBufferRangeAPPLE as *const ())),
+    (b"glFlushMappedBufferRangeEXT", 1728, crate::Address(glFlushMappedBufferRangeEXT as *const ())),
+    (b"glFlushMappedNamedBufferRange", 1729, crate::Address(glFlushMappedNamedBufferRange as *const ())),
+    (b"glFlushMappedNamedBufferRangeEXT", 1702, crate::Address(glFlushMappedNamedBufferRangeEXT as *const ())),
+    (b"glFogCoordPointer", 1759, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1760, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -6138,146 +6146,146 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glFogfv", 577, crate::Address(glFogfv as *const ())),
     (b"glFogi", 578, crate::Address(glFogi as *const ())),
     (b"glFogiv", 579, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 1444, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 1445, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1509, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferParameteriMESA", 1504, crate::Address(glFramebufferParameteriMESA as *const ())),
-    (b"glFramebufferPixelLocalStorageSizeEXT", 1516, crate::Address(glFramebufferPixelLocalStorageSizeEXT as *const ())),
-    (b"glFramebufferReadBufferEXT", 1446, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1477, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1478, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferSampleLocationsfvARB", 1501, crate::Address(glFramebufferSampleLocationsfvARB as *const ())),
-    (b"glFramebufferSampleLocationsfvNV", 1502, crate::Address(glFramebufferSampleLocationsfvNV as *const ())),
-    (b"glFramebufferSamplePositionsfvAMD", 1503, crate::Address(glFramebufferSamplePositionsfvAMD as *const ())),
-    (b"glFramebufferTexture", 1464, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1468, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1469, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1470, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DDownsampleIMG", 1498, crate::Address(glFramebufferTexture2DDownsampleIMG as *const ())),
-    (b"glFramebufferTexture2DEXT", 1471, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture2DMultisampleEXT", 1463, crate::Address(glFramebufferTexture2DMultisampleEXT as *const ())),
-    (b"glFramebufferTexture2DMultisampleIMG", 1499, crate::Address(glFramebufferTexture2DMultisampleIMG as *const ())),
-    (b"glFramebufferTexture3D", 1472, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1473, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTexture3DOES", 1462, crate::Address(glFramebufferTexture3DOES as *const ())),
-    (b"glFramebufferTextureARB", 1465, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1466, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureFaceARB", 1494, crate::Address(glFramebufferTextureFaceARB as *const ())),
-    (b"glFramebufferTextureFaceEXT", 1495, crate::Address(glFramebufferTextureFaceEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1474, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1475, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerDownsampleIMG", 1500, crate::Address(glFramebufferTextureLayerDownsampleIMG as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1476, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureMultisampleMultiviewOVR", 1496, crate::Address(glFramebufferTextureMultisampleMultiviewOVR as *const ())),
-    (b"glFramebufferTextureMultiviewOVR", 1497, crate::Address(glFramebufferTextureMultiviewOVR as *const ())),
-    (b"glFramebufferTextureOES", 1467, crate::Address(glFramebufferTextureOES as *const ())),
-    (b"glFrontFace", 772, crate::Address(glFrontFace as *const ())),
+    (b"glFramebufferDrawBufferEXT", 1446, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 1447, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1511, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferParameteriMESA", 1506, crate::Address(glFramebufferParameteriMESA as *const ())),
+    (b"glFramebufferPixelLocalStorageSizeEXT", 1518, crate::Address(glFramebufferPixelLocalStorageSizeEXT as *const ())),
+    (b"glFramebufferReadBufferEXT", 1448, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1479, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1480, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferSampleLocationsfvARB", 1503, crate::Address(glFramebufferSampleLocationsfvARB as *const ())),
+    (b"glFramebufferSampleLocationsfvNV", 1504, crate::Address(glFramebufferSampleLocationsfvNV as *const ())),
+    (b"glFramebufferSamplePositionsfvAMD", 1505, crate::Address(glFramebufferSamplePositionsfvAMD as *const ())),
+    (b"glFramebufferTexture", 1466, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1470, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1471, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1472, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DDownsampleIMG", 1500, crate::Address(glFramebufferTexture2DDownsampleIMG as *const ())),
+    (b"glFramebufferTexture2DEXT", 1473, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture2DMultisampleEXT", 1465, crate::Address(glFramebufferTexture2DMultisampleEXT as *const ())),
+    (b"glFramebufferTexture2DMultisampleIMG", 1501, crate::Address(glFramebufferTexture2DMultisampleIMG as *const ())),
+    (b"glFramebufferTexture3D", 1474, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1475, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTexture3DOES", 1464, crate::Address(glFramebufferTexture3DOES as *const ())),
+    (b"glFramebufferTextureARB", 1467, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1468, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureFaceARB", 1496, crate::Address(glFramebufferTextureFaceARB as *const ())),
+    (b"glFramebufferTextureFaceEXT", 1497, crate::Address(glFramebufferTextureFaceEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1476, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1477, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerDownsampleIMG", 1502, crate::Address(glFramebufferTextureLayerDownsampleIMG as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1478, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureMultisampleMultiviewOVR", 1498, crate::Address(glFramebufferTextureMultisampleMultiviewOVR as *const ())),
+    (b"glFramebufferTextureMultiviewOVR", 1499, crate::Address(glFramebufferTextureMultiviewOVR as *const ())),
+    (b"glFramebufferTextureOES", 1469, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFrontFace", 774, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 477, crate::Address(glFrustum as *const ())),
-    (b"glGenFramebuffers", 1652, crate::Address(glGenFramebuffers as *const ())),
-    (b"glGenFramebuffersEXT", 1653, crate::Address(glGenFramebuffersEXT as *const ())),
-    (b"glGenLists", 1421, crate::Address(glGenLists as *const ())),
-    (b"glGenRenderbuffers", 1654, crate::Address(glGenRenderbuffers as *const ())),
-    (b"glGenRenderbuffersEXT", 1655, crate::Address(glGenRenderbuffersEXT as *const ())),
-    (b"glGenTextures", 1651, crate::Address(glGenTextures as *const ())),
-    (b"glGenerateMipmap", 979, crate::Address(glGenerateMipmap as *const ())),
-    (b"glGenerateMipmapEXT", 980, crate::Address(glGenerateMipmapEXT as *const ())),
-    (b"glGenerateMultiTexMipmapEXT", 991, crate::Address(glGenerateMultiTexMipmapEXT as *const ())),
-    (b"glGenerateTextureMipmap", 981, crate::Address(glGenerateTextureMipmap as *const ())),
-    (b"glGenerateTextureMipmapEXT", 990, crate::Address(glGenerateTextureMipmapEXT as *const ())),
-    (b"glGetBooleanv", 1456, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetClipPlane", 1612, crate::Address(glGetClipPlane as *const ())),
-    (b"glGetCompressedMultiTexImageEXT", 998, crate::Address(glGetCompressedMultiTexImageEXT as *const ())),
-    (b"glGetCompressedTexImage", 1630, crate::Address(glGetCompressedTexImage as *const ())),
-    (b"glGetCompressedTexImageARB", 1631, crate::Address(glGetCompressedTexImageARB as *const ())),
-    (b"glGetCompressedTextureImage", 994, crate::Address(glGetCompressedTextureImage as *const ())),
-    (b"glGetCompressedTextureImageEXT", 999, crate::Address(glGetCompressedTextureImageEXT as *const ())),
-    (b"glGetCompressedTextureSubImage", 1004, crate::Address(glGetCompressedTextureSubImage as *const ())),
-    (b"glGetDoublev", 1458, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1563, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 1457, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1505, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1506, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameterfvAMD", 1515, crate::Address(glGetFramebufferParameterfvAMD as *const ())),
-    (b"glGetFramebufferParameteriv", 1510, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetFramebufferParameterivEXT", 1443, crate::Address(glGetFramebufferParameterivEXT as *const ())),
-    (b"glGetFramebufferParameterivMESA", 1514, crate::Address(glGetFramebufferParameterivMESA as *const ())),
-    (b"glGetFramebufferPixelLocalStorageSizeEXT", 1517, crate::Address(glGetFramebufferPixelLocalStorageSizeEXT as *const ())),
-    (b"glGetInteger64v", 1459, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 1460, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 1461, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerIndexedvEXT", 1621, crate::Address(glGetIntegerIndexedvEXT as *const ())),
-    (b"glGetIntegeri_v", 1620, crate::Address(glGetIntegeri_v as *const ())),
-    (b"glGetIntegerv", 1455, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetLightfv", 1604, crate::Address(glGetLightfv as *const ())),
-    (b"glGetLightiv", 1605, crate::Address(glGetLightiv as *const ())),
-    (b"glGetMapdv", 1613, crate::Address(glGetMapdv as *const ())),
-    (b"glGetMapfv", 1614, crate::Address(glGetMapfv as *const ())),
-    (b"glGetMapiv", 1615, crate::Address(glGetMapiv as *const ())),
-    (b"glGetMaterialfv", 1606, crate::Address(glGetMaterialfv as *const ())),
-    (b"glGetMaterialiv", 1607, crate::Address(glGetMaterialiv as *const ())),
-    (b"glGetMultiTexImageEXT", 1000, crate::Address(glGetMultiTexImageEXT as *const ())),
-    (b"glGetPixelMapfv", 1616, crate::Address(glGetPixelMapfv as *const ())),
-    (b"glGetPixelMapuiv", 1617, crate::Address(glGetPixelMapuiv as *const ())),
-    (b"glGetPixelMapusv", 1618, crate::Address(glGetPixelMapusv as *const ())),
-    (b"glGetPointerv", 1625, crate::Address(glGetPointerv as *const ())),
-    (b"glGetPointervEXT", 1626, crate::Address(glGetPointervEXT as *const ())),
-    (b"glGetPointervKHR", 1627, crate::Address(glGetPointervKHR as *const ())),
-    (b"glGetPolygonStipple", 1619, crate::Address(glGetPolygonStipple as *const ())),
-    (b"glGetProgramiv", 1299, crate::Address(glGetProgramiv as *const ())),
-    (b"glGetQueryBufferObjecti64v", 1569, crate::Address(glGetQueryBufferObjecti64v as *const ())),
-    (b"glGetQueryBufferObjectiv", 1570, crate::Address(glGetQueryBufferObjectiv as *const ())),
-    (b"glGetQueryBufferObjectui64v", 1571, crate::Address(glGetQueryBufferObjectui64v as *const ())),
-    (b"glGetQueryBufferObjectuiv", 1572, crate::Address(glGetQueryBufferObjectuiv as *const ())),
-    (b"glGetQueryIndexediv", 1575, crate::Address(glGetQueryIndexediv as *const ())),
-    (b"glGetQueryObjecti64v", 1589, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1590, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1584, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1585, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1586, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1591, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1592, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1587, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1588, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryObjectuivEXT", 1560, crate::Address(glGetQueryObjectuivEXT as *const ())),
-    (b"glGetQueryiv", 1582, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1583, crate::Address(glGetQueryivARB as *const ())),
-    (b"glGetQueryivEXT", 1559, crate::Address(glGetQueryivEXT as *const ())),
-    (b"glGetTexEnvfv", 1602, crate::Address(glGetTexEnvfv as *const ())),
-    (b"glGetTexEnviv", 1603, crate::Address(glGetTexEnviv as *const ())),
-    (b"glGetTexGendv", 1599, crate::Address(glGetTexGendv as *const ())),
-    (b"glGetTexGenfv", 1600, crate::Address(glGetTexGenfv as *const ())),
-    (b"glGetTexGeniv", 1601, crate::Address(glGetTexGeniv as *const ())),
-    (b"glGetTexImage", 1628, crate::Address(glGetTexImage as *const ())),
-    (b"glGetTexLevelParameterfv", 1610, crate::Address(glGetTexLevelParameterfv as *const ())),
-    (b"glGetTexLevelParameteriv", 1611, crate::Address(glGetTexLevelParameteriv as *const ())),
-    (b"glGetTexParameterfv", 1608, crate::Address(glGetTexParameterfv as *const ())),
-    (b"glGetTexParameteriv", 1609, crate::Address(glGetTexParameteriv as *const ())),
-    (b"glGetTextureImage", 992, crate::Address(glGetTextureImage as *const ())),
-    (b"glGetTextureImageEXT", 1001, crate::Address(glGetTextureImageEXT as *const ())),
-    (b"glGetTextureSubImage", 993, crate::Address(glGetTextureSubImage as *const ())),
-    (b"glGetUniformfv", 1633, crate::Address(glGetUniformfv as *const ())),
-    (b"glGetUniformfvARB", 1634, crate::Address(glGetUniformfvARB as *const ())),
-    (b"glGetUniformiv", 1635, crate::Address(glGetUniformiv as *const ())),
-    (b"glGetUniformivARB", 1636, crate::Address(glGetUniformivARB as *const ())),
-    (b"glGetVertexAttribPointerv", 1646, crate::Address(glGetVertexAttribPointerv as *const ())),
-    (b"glGetVertexAttribPointervARB", 1647, crate::Address(glGetVertexAttribPointervARB as *const ())),
-    (b"glGetVertexAttribPointervNV", 1648, crate::Address(glGetVertexAttribPointervNV as *const ())),
-    (b"glGetVertexAttribdv", 1637, crate::Address(glGetVertexAttribdv as *const ())),
-    (b"glGetVertexAttribdvARB", 1638, crate::Address(glGetVertexAttribdvARB as *const ())),
-    (b"glGetVertexAttribdvNV", 1639, crate::Address(glGetVertexAttribdvNV as *const ())),
-    (b"glGetVertexAttribfv", 1640, crate::Address(glGetVertexAttribfv as *const ())),
-    (b"glGetVertexAttribfvARB", 1641, crate::Address(glGetVertexAttribfvARB as *const ())),
-    (b"glGetVertexAttribfvNV", 1642, crate::Address(glGetVertexAttribfvNV as *const ())),
-    (b"glGetVertexAttribiv", 1643, crate::Address(glGetVertexAttribiv as *const ())),
-    (b"glGetVertexAttribivARB", 1644, crate::Address(glGetVertexAttribivARB as *const ())),
-    (b"glGetVertexAttribivNV", 1645, crate::Address(glGetVertexAttribivNV as *const ())),
-    (b"glGetnCompressedTexImage", 1632, crate::Address(glGetnCompressedTexImage as *const ())),
-    (b"glGetnCompressedTexImageARB", 1003, crate::Address(glGetnCompressedTexImageARB as *const ())),
-    (b"glGetnTexImage", 1629, crate::Address(glGetnTexImage as *const ())),
-    (b"glGetnTexImageARB", 1002, crate::Address(glGetnTexImageARB as *const ())),
+    (b"glGenFramebuffers", 1654, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1655, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenLists", 1423, crate::Address(glGenLists as *const ())),
+    (b"glGenRenderbuffers", 1656, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1657, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1653, crate::Address(glGenTextures as *const ())),
+    (b"glGenerateMipmap", 981, crate::Address(glGenerateMipmap as *const ())),
+    (b"glGenerateMipmapEXT", 982, crate::Address(glGenerateMipmapEXT as *const ())),
+    (b"glGenerateMultiTexMipmapEXT", 993, crate::Address(glGenerateMultiTexMipmapEXT as *const ())),
+    (b"glGenerateTextureMipmap", 983, crate::Address(glGenerateTextureMipmap as *const ())),
+    (b"glGenerateTextureMipmapEXT", 992, crate::Address(glGenerateTextureMipmapEXT as *const ())),
+    (b"glGetBooleanv", 1458, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetClipPlane", 1614, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetCompressedMultiTexImageEXT", 1000, crate::Address(glGetCompressedMultiTexImageEXT as *const ())),
+    (b"glGetCompressedTexImage", 1632, crate::Address(glGetCompressedTexImage as *const ())),
+    (b"glGetCompressedTexImageARB", 1633, crate::Address(glGetCompressedTexImageARB as *const ())),
+    (b"glGetCompressedTextureImage", 996, crate::Address(glGetCompressedTextureImage as *const ())),
+    (b"glGetCompressedTextureImageEXT", 1001, crate::Address(glGetCompressedTextureImageEXT as *const ())),
+    (b"glGetCompressedTextureSubImage", 1006, crate::Address(glGetCompressedTextureSubImage as *const ())),
+    (b"glGetDoublev", 1460, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1565, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 1459, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1507, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1508, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameterfvAMD", 1517, crate::Address(glGetFramebufferParameterfvAMD as *const ())),
+    (b"glGetFramebufferParameteriv", 1512, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetFramebufferParameterivEXT", 1445, crate::Address(glGetFramebufferParameterivEXT as *const ())),
+    (b"glGetFramebufferParameterivMESA", 1516, crate::Address(glGetFramebufferParameterivMESA as *const ())),
+    (b"glGetFramebufferPixelLocalStorageSizeEXT", 1519, crate::Address(glGetFramebufferPixelLocalStorageSizeEXT as *const ())),
+    (b"glGetInteger64v", 1461, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1462, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1463, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1623, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1622, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerv", 1457, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetLightfv", 1606, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1607, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1615, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1616, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1617, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1608, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1609, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetMultiTexImageEXT", 1002, crate::Address(glGetMultiTexImageEXT as *const ())),
+    (b"glGetPixelMapfv", 1618, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1619, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1620, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1627, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1628, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1629, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1621, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetProgramiv", 1301, crate::Address(glGetProgramiv as *const ())),
+    (b"glGetQueryBufferObjecti64v", 1571, crate::Address(glGetQueryBufferObjecti64v as *const ())),
+    (b"glGetQueryBufferObjectiv", 1572, crate::Address(glGetQueryBufferObjectiv as *const ())),
+    (b"glGetQueryBufferObjectui64v", 1573, crate::Address(glGetQueryBufferObjectui64v as *const ())),
+    (b"glGetQueryBufferObjectuiv", 1574, crate::Address(glGetQueryBufferObjectuiv as *const ())),
+    (b"glGetQueryIndexediv", 1577, crate::Address(glGetQueryIndexediv as *const ())),
+    (b"glGetQueryObjecti64v", 1591, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1592, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1586, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1587, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1588, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1593, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1594, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1589, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1590, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryObjectuivEXT", 1562, crate::Address(glGetQueryObjectuivEXT as *const ())),
+    (b"glGetQueryiv", 1584, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1585, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetQueryivEXT", 1561, crate::Address(glGetQueryivEXT as *const ())),
+    (b"glGetTexEnvfv", 1604, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1605, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1601, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1602, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1603, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1630, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1612, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1613, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1610, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1611, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetTextureImage", 994, crate::Address(glGetTextureImage as *const ())),
+    (b"glGetTextureImageEXT", 1003, crate::Address(glGetTextureImageEXT as *const ())),
+    (b"glGetTextureSubImage", 995, crate::Address(glGetTextureSubImage as *const ())),
+    (b"glGetUniformfv", 1635, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1636, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1637, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1638, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1648, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1649, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1650, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1639, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1640, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1641, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1642, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1643, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1644, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1645, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1646, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1647, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnCompressedTexImage", 1634, crate::Address(glGetnCompressedTexImage as *const ())),
+    (b"glGetnCompressedTexImageARB", 1005, crate::Address(glGetnCompressedTexImageARB as *const ())),
+    (b"glGetnTexImage", 1631, crate::Address(glGetnTexImage as *const ())),
+    (b"glGetnTexImageARB", 1004, crate::Address(glGetnTexImageARB as *const ())),
     (b"glHint", 600, crate::Address(glHint as *const ())),
-    (b"glIndexMask", 773, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1759, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexMask", 775, crate::Address(glIndexMask as *const ())),
+    (b"glIndexPointer", 1761, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -6288,24 +6296,24 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glIndexsv", 243, crate::Address(glIndexsv as *const ())),
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
-    (b"glInitNames", 774, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1750, crate::Address(glInterleavedArrays as *const ())),
-    (b"glInvalidateBufferData", 1707, crate::Address(glInvalidateBufferData as *const ())),
-    (b"glInvalidateBufferSubData", 1708, crate::Address(glInvalidateBufferSubData as *const ())),
-    (b"glInvalidateFramebuffer", 1511, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1512, crate::Address(glInvalidateSubFramebuffer as *const ())),
-    (b"glInvalidateTexImage", 931, crate::Address(glInvalidateTexImage as *const ())),
-    (b"glInvalidateTexSubImage", 932, crate::Address(glInvalidateTexSubImage as *const ())),
-    (b"glIsEnabled", 1593, crate::Address(glIsEnabled as *const ())),
-    (b"glIsEnabledIndexedEXT", 1595, crate::Address(glIsEnabledIndexedEXT as *const ())),
-    (b"glIsEnabledi", 1594, crate::Address(glIsEnabledi as *const ())),
-    (b"glIsEnablediEXT", 1596, crate::Address(glIsEnablediEXT as *const ())),
-    (b"glIsEnablediNV", 1597, crate::Address(glIsEnablediNV as *const ())),
-    (b"glIsEnablediOES", 1598, crate::Address(glIsEnablediOES as *const ())),
-    (b"glIsFramebuffer", 1427, crate::Address(glIsFramebuffer as *const ())),
-    (b"glIsFramebufferEXT", 1428, crate::Address(glIsFramebufferEXT as *const ())),
-    (b"glIsList", 1422, crate::Address(glIsList as *const ())),
-    (b"glIsTexture", 1426, crate::Address(glIsTexture as *const ())),
+    (b"glInitNames", 776, crate::Address(glInitNames as *const ())),
+    (b"glInterleavedArrays", 1752, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateBufferData", 1709, crate::Address(glInvalidateBufferData as *const ())),
+    (b"glInvalidateBufferSubData", 1710, crate::Address(glInvalidateBufferSubData as *const ())),
+    (b"glInvalidateFramebuffer", 1513, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1514, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glInvalidateTexImage", 933, crate::Address(glInvalidateTexImage as *const ())),
+    (b"glInvalidateTexSubImage", 934, crate::Address(glInvalidateTexSubImage as *const ())),
+    (b"glIsEnabled", 1595, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1597, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1596, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1598, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1599, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1600, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsFramebuffer", 1429, crate::Address(glIsFramebuffer as *const ())),
+    (b"glIsFramebufferEXT", 1430, crate::Address(glIsFramebufferEXT as *const ())),
+    (b"glIsList", 1424, crate::Address(glIsList as *const ())),
+    (b"glIsTexture", 1428, crate::Address(glIsTexture as *const ())),
     (b"glLightModelf", 565, crate::Address(glLightModelf as *const ())),
     (b"glLightModelfv", 566, crate::Address(glLightModelfv as *const ())),
     (b"glLightModeli", 567, crate::Address(glLightModeli as *const ())),
@@ -6314,37 +6322,37 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glLightfv", 562, crate::Address(glLightfv as *const ())),
     (b"glLighti", 563, crate::Address(glLighti as *const ())),
     (b"glLightiv", 564, crate::Address(glLightiv as *const ())),
-    (b"glLineStipple", 779, crate::Address(glLineStipple as *const ())),
+    (b"glLineStipple", 781, crate::Address(glLineStipple as *const ())),
     (b"glLineWidth", 601, crate::Address(glLineWidth as *const ())),
-    (b"glLinkProgram", 1292, crate::Address(glLinkProgram as *const ())),
-    (b"glLinkProgramARB", 1293, crate::Address(glLinkProgramARB as *const ())),
-    (b"glListBase", 780, crate::Address(glListBase as *const ())),
+    (b"glLinkProgram", 1294, crate::Address(glLinkProgram as *const ())),
+    (b"glLinkProgramARB", 1295, crate::Address(glLinkProgramARB as *const ())),
+    (b"glListBase", 782, crate::Address(glListBase as *const ())),
     (b"glLoadIdentity", 458, crate::Address(glLoadIdentity as *const ())),
     (b"glLoadMatrixd", 459, crate::Address(glLoadMatrixd as *const ())),
     (b"glLoadMatrixf", 460, crate::Address(glLoadMatrixf as *const ())),
-    (b"glLoadName", 775, crate::Address(glLoadName as *const ())),
+    (b"glLoadName", 777, crate::Address(glLoadName as *const ())),
     (b"glLoadTransposeMatrixd", 461, crate::Address(glLoadTransposeMatrixd as *const ())),
     (b"glLoadTransposeMatrixdARB", 462, crate::Address(glLoadTransposeMatrixdARB as *const ())),
     (b"glLoadTransposeMatrixf", 463, crate::Address(glLoadTransposeMatrixf as *const ())),
     (b"glLoadTransposeMatrixfARB", 464, crate::Address(glLoadTransposeMatrixfARB as *const ())),
-    (b"glLogicOp", 781, crate::Address(glLogicOp as *const ())),
-    (b"glMap1d", 782, crate::Address(glMap1d as *const ())),
-    (b"glMap1f", 783, crate::Address(glMap1f as *const ())),
-    (b"glMap2d", 784, crate::Address(glMap2d as *const ())),
-    (b"glMap2f", 785, crate::Address(glMap2f as *const ())),
-    (b"glMapBuffer", 1713, crate::Address(glMapBuffer as *const ())),
-    (b"glMapBufferARB", 1714, crate::Address(glMapBufferARB as *const ())),
-    (b"glMapBufferOES", 1715, crate::Address(glMapBufferOES as *const ())),
-    (b"glMapBufferRange", 1717, crate::Address(glMapBufferRange as *const ())),
-    (b"glMapBufferRangeEXT", 1718, crate::Address(glMapBufferRangeEXT as *const ())),
-    (b"glMapGrid1d", 786, crate::Address(glMapGrid1d as *const ())),
-    (b"glMapGrid1f", 787, crate::Address(glMapGrid1f as *const ())),
-    (b"glMapGrid2d", 788, crate::Address(glMapGrid2d as *const ())),
-    (b"glMapGrid2f", 789, crate::Address(glMapGrid2f as *const ())),
-    (b"glMapNamedBuffer", 1716, crate::Address(glMapNamedBuffer as *const ())),
-    (b"glMapNamedBufferEXT", 1697, crate::Address(glMapNamedBufferEXT as *const ())),
-    (b"glMapNamedBufferRange", 1719, crate::Address(glMapNamedBufferRange as *const ())),
-    (b"glMapNamedBufferRangeEXT", 1698, crate::Address(glMapNamedBufferRangeEXT as *const ())),
+    (b"glLogicOp", 783, crate::Address(glLogicOp as *const ())),
+    (b"glMap1d", 784, crate::Address(glMap1d as *const ())),
+    (b"glMap1f", 785, crate::Address(glMap1f as *const ())),
+    (b"glMap2d", 786, crate::Address(glMap2d as *const ())),
+    (b"glMap2f", 787, crate::Address(glMap2f as *const ())),
+    (b"glMapBuffer", 1715, crate::Address(glMapBuffer as *const ())),
+    (b"glMapBufferARB", 1716, crate::Address(glMapBufferARB as *const ())),
+    (b"glMapBufferOES", 1717, crate::Address(glMapBufferOES as *const ())),
+    (b"glMapBufferRange", 1719, crate::Address(glMapBufferRange as *const ())),
+    (b"glMapBufferRangeEXT", 1720, crate::Address(glMapBufferRangeEXT as *const ())),
+    (b"glMapGrid1d", 788, crate::Address(glMapGrid1d as *const ())),
+    (b"glMapGrid1f", 789, crate::Address(glMapGrid1f as *const ())),
+    (b"glMapGrid2d", 790, crate::Address(glMapGrid2d as *const ())),
+    (b"glMapGrid2f", 791, crate::Address(glMapGrid2f as *const ())),
+    (b"glMapNamedBuffer", 1718, crate::Address(glMapNamedBuffer as *const ())),
+    (b"glMapNamedBufferEXT", 1699, crate::Address(glMapNamedBufferEXT as *const ())),
+    (b"glMapNamedBufferRange", 1721, crate::Address(glMapNamedBufferRange as *const ())),
+    (b"glMapNamedBufferRangeEXT", 1700, crate::Address(glMapNamedBufferRangeEXT as *const ())),
     (b"glMaterialf", 246, crate::Address(glMaterialf as *const ())),
     (b"glMaterialfv", 247, crate::Address(glMaterialfv as *const ())),
     (b"glMateriali", 248, crate::Address(glMateriali as *const ())),
@@ -6368,51 +6376,51 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glMatrixMultfEXT", 485, crate::Address(glMatrixMultfEXT as *const ())),
     (b"glMatrixOrthoEXT", 487, crate::Address(glMatrixOrthoEXT as *const ())),
     (b"glMatrixPopEXT", 488, crate::Address(glMatrixPopEXT as *const ())),
-    (b"glMatrixPushEXT", 815, crate::Address(glMatrixPushEXT as *const ())),
+    (b"glMatrixPushEXT", 817, crate::Address(glMatrixPushEXT as *const ())),
     (b"glMatrixRotatedEXT", 489, crate::Address(glMatrixRotatedEXT as *const ())),
     (b"glMatrixRotatefEXT", 490, crate::Address(glMatrixRotatefEXT as *const ())),
     (b"glMatrixScaledEXT", 491, crate::Address(glMatrixScaledEXT as *const ())),
     (b"glMatrixScalefEXT", 492, crate::Address(glMatrixScalefEXT as *const ())),
     (b"glMatrixTranslatedEXT", 493, crate::Address(glMatrixTranslatedEXT as *const ())),
     (b"glMatrixTranslatefEXT", 494, crate::Address(glMatrixTranslatefEXT as *const ())),
-    (b"glMemoryBarrier", 1728, crate::Address(glMemoryBarrier as *const ())),
-    (b"glMemoryBarrierByRegion", 1730, crate::Address(glMemoryBarrierByRegion as *const ())),
-    (b"glMemoryBarrierEXT", 1729, crate::Address(glMemoryBarrierEXT as *const ())),
-    (b"glMinSampleShading", 804, crate::Address(glMinSampleShading as *const ())),
-    (b"glMinSampleShadingARB", 805, crate::Address(glMinSampleShadingARB as *const ())),
-    (b"glMinSampleShadingOES", 806, crate::Address(glMinSampleShadingOES as *const ())),
+    (b"glMemoryBarrier", 1730, crate::Address(glMemoryBarrier as *const ())),
+    (b"glMemoryBarrierByRegion", 1732, crate::Address(glMemoryBarrierByRegion as *const ())),
+    (b"glMemoryBarrierEXT", 1731, crate::Address(glMemoryBarrierEXT as *const ())),
+    (b"glMinSampleShading", 806, crate::Address(glMinSampleShading as *const ())),
+    (b"glMinSampleShadingARB", 807, crate::Address(glMinSampleShadingARB as *const ())),
+    (b"glMinSampleShadingOES", 808, crate::Address(glMinSampleShadingOES as *const ())),
     (b"glMultMatrixd", 465, crate::Address(glMultMatrixd as *const ())),
     (b"glMultMatrixf", 466, crate::Address(glMultMatrixf as *const ())),
     (b"glMultTransposeMatrixd", 467, crate::Address(glMultTransposeMatrixd as *const ())),
     (b"glMultTransposeMatrixdARB", 468, crate::Address(glMultTransposeMatrixdARB as *const ())),
     (b"glMultTransposeMatrixf", 469, crate::Address(glMultTransposeMatrixf as *const ())),
     (b"glMultTransposeMatrixfARB", 470, crate::Address(glMultTransposeMatrixfARB as *const ())),
-    (b"glMultiDrawArrays", 1310, crate::Address(glMultiDrawArrays as *const ())),
-    (b"glMultiDrawArraysEXT", 1311, crate::Address(glMultiDrawArraysEXT as *const ())),
-    (b"glMultiDrawArraysIndirect", 1343, crate::Address(glMultiDrawArraysIndirect as *const ())),
-    (b"glMultiDrawArraysIndirectAMD", 1344, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
-    (b"glMultiDrawArraysIndirectBindlessCountNV", 1372, crate::Address(glMultiDrawArraysIndirectBindlessCountNV as *const ())),
-    (b"glMultiDrawArraysIndirectBindlessNV", 1373, crate::Address(glMultiDrawArraysIndirectBindlessNV as *const ())),
-    (b"glMultiDrawArraysIndirectCount", 1366, crate::Address(glMultiDrawArraysIndirectCount as *const ())),
-    (b"glMultiDrawArraysIndirectCountARB", 1367, crate::Address(glMultiDrawArraysIndirectCountARB as *const ())),
-    (b"glMultiDrawArraysIndirectEXT", 1345, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
-    (b"glMultiDrawElementArrayAPPLE", 1382, crate::Address(glMultiDrawElementArrayAPPLE as *const ())),
-    (b"glMultiDrawElements", 1312, crate::Address(glMultiDrawElements as *const ())),
-    (b"glMultiDrawElementsBaseVertex", 1320, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
-    (b"glMultiDrawElementsBaseVertexEXT", 1321, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
-    (b"glMultiDrawElementsEXT", 1313, crate::Address(glMultiDrawElementsEXT as *const ())),
-    (b"glMultiDrawElementsIndirect", 1346, crate::Address(glMultiDrawElementsIndirect as *const ())),
-    (b"glMultiDrawElementsIndirectAMD", 1347, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
-    (b"glMultiDrawElementsIndirectBindlessCountNV", 1374, crate::Address(glMultiDrawElementsIndirectBindlessCountNV as *const ())),
-    (b"glMultiDrawElementsIndirectBindlessNV", 1375, crate::Address(glMultiDrawElementsIndirectBindlessNV as *const ())),
-    (b"glMultiDrawElementsIndirectCount", 1368, crate::Address(glMultiDrawElementsIndirectCount as *const ())),
-    (b"glMultiDrawElementsIndirectCountARB", 1369, crate::Address(glMultiDrawElementsIndirectCountARB as *const ())),
-    (b"glMultiDrawElementsIndirectEXT", 1348, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
-    (b"glMultiDrawMeshTasksIndirectCountNV", 1378, crate::Address(glMultiDrawMeshTasksIndirectCountNV as *const ())),
-    (b"glMultiDrawMeshTasksIndirectNV", 1379, crate::Address(glMultiDrawMeshTasksIndirectNV as *const ())),
-    (b"glMultiDrawRangeElementArrayAPPLE", 1383, crate::Address(glMultiDrawRangeElementArrayAPPLE as *const ())),
-    (b"glMultiModeDrawArraysIBM", 1370, crate::Address(glMultiModeDrawArraysIBM as *const ())),
-    (b"glMultiModeDrawElementsIBM", 1371, crate::Address(glMultiModeDrawElementsIBM as *const ())),
+    (b"glMultiDrawArrays", 1312, crate::Address(glMultiDrawArrays as *const ())),
+    (b"glMultiDrawArraysEXT", 1313, crate::Address(glMultiDrawArraysEXT as *const ())),
+    (b"glMultiDrawArraysIndirect", 1345, crate::Address(glMultiDrawArraysIndirect as *const ())),
+    (b"glMultiDrawArraysIndirectAMD", 1346, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
+    (b"glMultiDrawArraysIndirectBindlessCountNV", 1374, crate::Address(glMultiDrawArraysIndirectBindlessCountNV as *const ())),
+    (b"glMultiDrawArraysIndirectBindlessNV", 1375, crate::Address(glMultiDrawArraysIndirectBindlessNV as *const ())),
+    (b"glMultiDrawArraysIndirectCount", 1368, crate::Address(glMultiDrawArraysIndirectCount as *const ())),
+    (b"glMultiDrawArraysIndirectCountARB", 1369, crate::Address(glMultiDrawArraysIndirectCountARB as *const ())),
+    (b"glMultiDrawArraysIndirectEXT", 1347, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
+    (b"glMultiDrawElementArrayAPPLE", 1384, crate::Address(glMultiDrawElementArrayAPPLE as *const ())),
+    (b"glMultiDrawElements", 1314, crate::Address(glMultiDrawElements as *const ())),
+    (b"glMultiDrawElementsBaseVertex", 1322, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
+    (b"glMultiDrawElementsBaseVertexEXT", 1323, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
+    (b"glMultiDrawElementsEXT", 1315, crate::Address(glMultiDrawElementsEXT as *const ())),
+    (b"glMultiDrawElementsIndirect", 1348, crate::Address(glMultiDrawElementsIndirect as *const ())),
+    (b"glMultiDrawElementsIndirectAMD", 1349, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
+    (b"glMultiDrawElementsIndirectBindlessCountNV", 1376, crate::Address(glMultiDrawElementsIndirectBindlessCountNV as *const ())),
+    (b"glMultiDrawElementsIndirectBindlessNV", 1377, crate::Address(glMultiDrawElementsIndirectBindlessNV as *const ())),
+    (b"glMultiDrawElementsIndirectCount", 1370, crate::Address(glMultiDrawElementsIndirectCount as *const ())),
+    (b"glMultiDrawElementsIndirectCountARB", 1371, crate::Address(glMultiDrawElementsIndirectCountARB as *const ())),
+    (b"glMultiDrawElementsIndirectEXT", 1350, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
+    (b"glMultiDrawMeshTasksIndirectCountNV", 1380, crate::Address(glMultiDrawMeshTasksIndirectCountNV as *const ())),
+    (b"glMultiDrawMeshTasksIndirectNV", 1381, crate::Address(glMultiDrawMeshTasksIndirectNV as *const ())),
+    (b"glMultiDrawRangeElementArrayAPPLE", 1385, crate::Address(glMultiDrawRangeElementArrayAPPLE as *const ())),
+    (b"glMultiModeDrawArraysIBM", 1372, crate::Address(glMultiModeDrawArraysIBM as *const ())),
+    (b"glMultiModeDrawElementsIBM", 1373, crate::Address(glMultiModeDrawElementsIBM as *const ())),
     (b"glMultiTexCoord1d", 118, crate::Address(glMultiTexCoord1d as *const ())),
     (b"glMultiTexCoord1dARB", 119, crate::Address(glMultiTexCoord1dARB as *const ())),
     (b"glMultiTexCoord1dv", 120, crate::Address(glMultiTexCoord1dv as *const ())),
@@ -6503,50 +6511,50 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glMultiTexGenfvEXT", 619, crate::Address(glMultiTexGenfvEXT as *const ())),
     (b"glMultiTexGeniEXT", 620, crate::Address(glMultiTexGeniEXT as *const ())),
     (b"glMultiTexGenivEXT", 621, crate::Address(glMultiTexGenivEXT as *const ())),
-    (b"glMultiTexImage1DEXT", 872, crate::Address(glMultiTexImage1DEXT as *const ())),
-    (b"glMultiTexImage2DEXT", 873, crate::Address(glMultiTexImage2DEXT as *const ())),
-    (b"glMultiTexImage3DEXT", 874, crate::Address(glMultiTexImage3DEXT as *const ())),
-    (b"glMultiTexParameterIivEXT", 977, crate::Address(glMultiTexParameterIivEXT as *const ())),
-    (b"glMultiTexParameterIuivEXT", 978, crate::Address(glMultiTexParameterIuivEXT as *const ())),
-    (b"glMultiTexParameterfEXT", 973, crate::Address(glMultiTexParameterfEXT as *const ())),
-    (b"glMultiTexParameterfvEXT", 974, crate::Address(glMultiTexParameterfvEXT as *const ())),
-    (b"glMultiTexParameteriEXT", 975, crate::Address(glMultiTexParameteriEXT as *const ())),
-    (b"glMultiTexParameterivEXT", 976, crate::Address(glMultiTexParameterivEXT as *const ())),
-    (b"glMultiTexSubImage1DEXT", 875, crate::Address(glMultiTexSubImage1DEXT as *const ())),
-    (b"glMultiTexSubImage2DEXT", 876, crate::Address(glMultiTexSubImage2DEXT as *const ())),
-    (b"glMultiTexSubImage3DEXT", 877, crate::Address(glMultiTexSubImage3DEXT as *const ())),
-    (b"glNamedBufferData", 1687, crate::Address(glNamedBufferData as *const ())),
-    (b"glNamedBufferDataEXT", 1696, crate::Address(glNamedBufferDataEXT as *const ())),
-    (b"glNamedBufferStorage", 1690, crate::Address(glNamedBufferStorage as *const ())),
-    (b"glNamedBufferStorageEXT", 1691, crate::Address(glNamedBufferStorageEXT as *const ())),
-    (b"glNamedBufferSubData", 1694, crate::Address(glNamedBufferSubData as *const ())),
-    (b"glNamedBufferSubDataEXT", 1695, crate::Address(glNamedBufferSubDataEXT as *const ())),
-    (b"glNamedCopyBufferSubDataEXT", 1701, crate::Address(glNamedCopyBufferSubDataEXT as *const ())),
-    (b"glNamedFramebufferDrawBuffer", 1440, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
-    (b"glNamedFramebufferDrawBuffers", 1441, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferParameteri", 1489, crate::Address(glNamedFramebufferParameteri as *const ())),
-    (b"glNamedFramebufferParameteriEXT", 1490, crate::Address(glNamedFramebufferParameteriEXT as *const ())),
-    (b"glNamedFramebufferReadBuffer", 1442, crate::Address(glNamedFramebufferReadBuffer as *const ())),
-    (b"glNamedFramebufferRenderbuffer", 1481, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
-    (b"glNamedFramebufferRenderbufferEXT", 1488, crate::Address(glNamedFramebufferRenderbufferEXT as *const ())),
-    (b"glNamedFramebufferSampleLocationsfvARB", 1491, crate::Address(glNamedFramebufferSampleLocationsfvARB as *const ())),
-    (b"glNamedFramebufferSampleLocationsfvNV", 1492, crate::Address(glNamedFramebufferSampleLocationsfvNV as *const ())),
-    (b"glNamedFramebufferSamplePositionsfvAMD", 1493, crate::Address(glNamedFramebufferSamplePositionsfvAMD as *const ())),
-    (b"glNamedFramebufferTexture", 1479, crate::Address(glNamedFramebufferTexture as *const ())),
-    (b"glNamedFramebufferTexture1DEXT", 1482, crate::Address(glNamedFramebufferTexture1DEXT as *const ())),
-    (b"glNamedFramebufferTexture2DEXT", 1483, crate::Address(glNamedFramebufferTexture2DEXT as *const ())),
-    (b"glNamedFramebufferTexture3DEXT", 1484, crate::Address(glNamedFramebufferTexture3DEXT as *const ())),
-    (b"glNamedFramebufferTextureEXT", 1485, crate::Address(glNamedFramebufferTextureEXT as *const ())),
-    (b"glNamedFramebufferTextureFaceEXT", 1486, crate::Address(glNamedFramebufferTextureFaceEXT as *const ())),
-    (b"glNamedFramebufferTextureLayer", 1480, crate::Address(glNamedFramebufferTextureLayer as *const ())),
-    (b"glNamedFramebufferTextureLayerEXT", 1487, crate::Address(glNamedFramebufferTextureLayerEXT as *const ())),
-    (b"glNamedRenderbufferStorage", 909, crate::Address(glNamedRenderbufferStorage as *const ())),
-    (b"glNamedRenderbufferStorageEXT", 911, crate::Address(glNamedRenderbufferStorageEXT as *const ())),
-    (b"glNamedRenderbufferStorageMultisample", 910, crate::Address(glNamedRenderbufferStorageMultisample as *const ())),
-    (b"glNamedRenderbufferStorageMultisampleAdvancedAMD", 912, crate::Address(glNamedRenderbufferStorageMultisampleAdvancedAMD as *const ())),
-    (b"glNamedRenderbufferStorageMultisampleCoverageEXT", 913, crate::Address(glNamedRenderbufferStorageMultisampleCoverageEXT as *const ())),
-    (b"glNamedRenderbufferStorageMultisampleEXT", 914, crate::Address(glNamedRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glNewList", 1416, crate::Address(glNewList as *const ())),
+    (b"glMultiTexImage1DEXT", 874, crate::Address(glMultiTexImage1DEXT as *const ())),
+    (b"glMultiTexImage2DEXT", 875, crate::Address(glMultiTexImage2DEXT as *const ())),
+    (b"glMultiTexImage3DEXT", 876, crate::Address(glMultiTexImage3DEXT as *const ())),
+    (b"glMultiTexParameterIivEXT", 979, crate::Address(glMultiTexParameterIivEXT as *const ())),
+    (b"glMultiTexParameterIuivEXT", 980, crate::Address(glMultiTexParameterIuivEXT as *const ())),
+    (b"glMultiTexParameterfEXT", 975, crate::Address(glMultiTexParameterfEXT as *const ())),
+    (b"glMultiTexParameterfvEXT", 976, crate::Address(glMultiTexParameterfvEXT as *const ())),
+    (b"glMultiTexParameteriEXT", 977, crate::Address(glMultiTexParameteriEXT as *const ())),
+    (b"glMultiTexParameterivEXT", 978, crate::Address(glMultiTexParameterivEXT as *const ())),
+    (b"glMultiTexSubImage1DEXT", 877, crate::Address(glMultiTexSubImage1DEXT as *const ())),
+    (b"glMultiTexSubImage2DEXT", 878, crate::Address(glMultiTexSubImage2DEXT as *const ())),
+    (b"glMultiTexSubImage3DEXT", 879, crate::Address(glMultiTexSubImage3DEXT as *const ())),
+    (b"glNamedBufferData", 1689, crate::Address(glNamedBufferData as *const ())),
+    (b"glNamedBufferDataEXT", 1698, crate::Address(glNamedBufferDataEXT as *const ())),
+    (b"glNamedBufferStorage", 1692, crate::Address(glNamedBufferStorage as *const ())),
+    (b"glNamedBufferStorageEXT", 1693, crate::Address(glNamedBufferStorageEXT as *const ())),
+    (b"glNamedBufferSubData", 1696, crate::Address(glNamedBufferSubData as *const ())),
+    (b"glNamedBufferSubDataEXT", 1697, crate::Address(glNamedBufferSubDataEXT as *const ())),
+    (b"glNamedCopyBufferSubDataEXT", 1703, crate::Address(glNamedCopyBufferSubDataEXT as *const ())),
+    (b"glNamedFramebufferDrawBuffer", 1442, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffers", 1443, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
+    (b"glNamedFramebufferParameteri", 1491, crate::Address(glNamedFramebufferParameteri as *const ())),
+    (b"glNamedFramebufferParameteriEXT", 1492, crate::Address(glNamedFramebufferParameteriEXT as *const ())),
+    (b"glNamedFramebufferReadBuffer", 1444, crate::Address(glNamedFramebufferReadBuffer as *const ())),
+    (b"glNamedFramebufferRenderbuffer", 1483, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
+    (b"glNamedFramebufferRenderbufferEXT", 1490, crate::Address(glNamedFramebufferRenderbufferEXT as *const ())),
+    (b"glNamedFramebufferSampleLocationsfvARB", 1493, crate::Address(glNamedFramebufferSampleLocationsfvARB as *const ())),
+    (b"glNamedFramebufferSampleLocationsfvNV", 1494, crate::Address(glNamedFramebufferSampleLocationsfvNV as *const ())),
+    (b"glNamedFramebufferSamplePositionsfvAMD", 1495, crate::Address(glNamedFramebufferSamplePositionsfvAMD as *const ())),
+    (b"glNamedFramebufferTexture", 1481, crate::Address(glNamedFramebufferTexture as *const ())),
+    (b"glNamedFramebufferTexture1DEXT", 1484, crate::Address(glNamedFramebufferTexture1DEXT as *const ())),
+    (b"glNamedFramebufferTexture2DEXT", 1485, crate::Address(glNamedFramebufferTexture2DEXT as *const ())),
+    (b"glNamedFramebufferTexture3DEXT", 1486, crate::Address(glNamedFramebufferTexture3DEXT as *const ())),
+    (b"glNamedFramebufferTextureEXT", 1487, crate::Address(glNamedFramebufferTextureEXT as *const ())),
+    (b"glNamedFramebufferTextureFaceEXT", 1488, crate::Address(glNamedFramebufferTextureFaceEXT as *const ())),
+    (b"glNamedFramebufferTextureLayer", 1482, crate::Address(glNamedFramebufferTextureLayer as *const ())),
+    (b"glNamedFramebufferTextureLayerEXT", 1489, crate::Address(glNamedFramebufferTextureLayerEXT as *const ())),
+    (b"glNamedRenderbufferStorage", 911, crate::Address(glNamedRenderbufferStorage as *const ())),
+    (b"glNamedRenderbufferStorageEXT", 913, crate::Address(glNamedRenderbufferStorageEXT as *const ())),
+    (b"glNamedRenderbufferStorageMultisample", 912, crate::Address(glNamedRenderbufferStorageMultisample as *const ())),
+    (b"glNamedRenderbufferStorageMultisampleAdvancedAMD", 914, crate::Address(glNamedRenderbufferStorageMultisampleAdvancedAMD as *const ())),
+    (b"glNamedRenderbufferStorageMultisampleCoverageEXT", 915, crate::Address(glNamedRenderbufferStorageMultisampleCoverageEXT as *const ())),
+    (b"glNamedRenderbufferStorageMultisampleEXT", 916, crate::Address(glNamedRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glNewList", 1418, crate::Address(glNewList as *const ())),
     (b"glNormal3b", 66, crate::Address(glNormal3b as *const ())),
     (b"glNormal3bv", 67, crate::Address(glNormal3bv as *const ())),
     (b"glNormal3d", 68, crate::Address(glNormal3d as *const ())),
@@ -6561,19 +6569,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 439, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 440, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1760, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1762, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 478, crate::Address(glOrtho as *const ())),
-    (b"glPassThrough", 778, crate::Address(glPassThrough as *const ())),
-    (b"glPauseTransformFeedback", 718, crate::Address(glPauseTransformFeedback as *const ())),
-    (b"glPauseTransformFeedbackNV", 719, crate::Address(glPauseTransformFeedbackNV as *const ())),
-    (b"glPixelMapfv", 790, crate::Address(glPixelMapfv as *const ())),
-    (b"glPixelMapuiv", 791, crate::Address(glPixelMapuiv as *const ())),
-    (b"glPixelMapusv", 792, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1731, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1732, crate::Address(glPixelStorei as *const ())),
-    (b"glPixelTransferf", 793, crate::Address(glPixelTransferf as *const ())),
-    (b"glPixelTransferi", 794, crate::Address(glPixelTransferi as *const ())),
-    (b"glPixelZoom", 795, crate::Address(glPixelZoom as *const ())),
+    (b"glPassThrough", 780, crate::Address(glPassThrough as *const ())),
+    (b"glPauseTransformFeedback", 720, crate::Address(glPauseTransformFeedback as *const ())),
+    (b"glPauseTransformFeedbackNV", 721, crate::Address(glPauseTransformFeedbackNV as *const ())),
+    (b"glPixelMapfv", 792, crate::Address(glPixelMapfv as *const ())),
+    (b"glPixelMapuiv", 793, crate::Address(glPixelMapuiv as *const ())),
+    (b"glPixelMapusv", 794, crate::Address(glPixelMapusv as *const ())),
+    (b"glPixelStoref", 1733, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1734, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelTransferf", 795, crate::Address(glPixelTransferf as *const ())),
+    (b"glPixelTransferi", 796, crate::Address(glPixelTransferi as *const ())),
+    (b"glPixelZoom", 797, crate::Address(glPixelZoom as *const ())),
     (b"glPointParameterf", 580, crate::Address(glPointParameterf as *const ())),
     (b"glPointParameterfARB", 581, crate::Address(glPointParameterfARB as *const ())),
     (b"glPointParameterfEXT", 582, crate::Address(glPointParameterfEXT as *const ())),
@@ -6589,242 +6597,242 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glPointSize", 592, crate::Address(glPointSize as *const ())),
     (b"glPolygonMode", 594, crate::Address(glPolygonMode as *const ())),
     (b"glPolygonModeNV", 595, crate::Address(glPolygonModeNV as *const ())),
-    (b"glPolygonOffset", 796, crate::Address(glPolygonOffset as *const ())),
-    (b"glPolygonOffsetClamp", 797, crate::Address(glPolygonOffsetClamp as *const ())),
-    (b"glPolygonOffsetClampEXT", 798, crate::Address(glPolygonOffsetClampEXT as *const ())),
-    (b"glPolygonStipple", 799, crate::Address(glPolygonStipple as *const ())),
-    (b"glPopAttrib", 630, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1734, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPolygonOffset", 798, crate::Address(glPolygonOffset as *const ())),
+    (b"glPolygonOffsetClamp", 799, crate::Address(glPolygonOffsetClamp as *const ())),
+    (b"glPolygonOffsetClampEXT", 800, crate::Address(glPolygonOffsetClampEXT as *const ())),
+    (b"glPolygonStipple", 801, crate::Address(glPolygonStipple as *const ())),
+    (b"glPopAttrib", 632, crate::Address(glPopAttrib as *const ())),
+    (b"glPopClientAttrib", 1736, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 480, crate::Address(glPopMatrix as *const ())),
-    (b"glPopName", 777, crate::Address(glPopName as *const ())),
-    (b"glPrimitiveBoundingBox", 826, crate::Address(glPrimitiveBoundingBox as *const ())),
-    (b"glPrimitiveBoundingBoxARB", 827, crate::Address(glPrimitiveBoundingBoxARB as *const ())),
-    (b"glPrimitiveBoundingBoxEXT", 828, crate::Address(glPrimitiveBoundingBoxEXT as *const ())),
-    (b"glPrimitiveBoundingBoxOES", 829, crate::Address(glPrimitiveBoundingBoxOES as *const ())),
-    (b"glPrimitiveRestartIndex", 814, crate::Address(glPrimitiveRestartIndex as *const ())),
-    (b"glPrimitiveRestartIndexNV", 824, crate::Address(glPrimitiveRestartIndexNV as *const ())),
+    (b"glPopName", 779, crate::Address(glPopName as *const ())),
+    (b"glPrimitiveBoundingBox", 828, crate::Address(glPrimitiveBoundingBox as *const ())),
+    (b"glPrimitiveBoundingBoxARB", 829, crate::Address(glPrimitiveBoundingBoxARB as *const ())),
+    (b"glPrimitiveBoundingBoxEXT", 830, crate::Address(glPrimitiveBoundingBoxEXT as *const ())),
+    (b"glPrimitiveBoundingBoxOES", 831, crate::Address(glPrimitiveBoundingBoxOES as *const ())),
+    (b"glPrimitiveRestartIndex", 816, crate::Address(glPrimitiveRestartIndex as *const ())),
+    (b"glPrimitiveRestartIndexNV", 826, crate::Address(glPrimitiveRestartIndexNV as *const ())),
     (b"glPrimitiveRestartNV", 250, crate::Address(glPrimitiveRestartNV as *const ())),
-    (b"glPrioritizeTextures", 800, crate::Address(glPrioritizeTextures as *const ())),
-    (b"glPrioritizeTexturesEXT", 801, crate::Address(glPrioritizeTexturesEXT as *const ())),
-    (b"glProgramBinary", 1294, crate::Address(glProgramBinary as *const ())),
-    (b"glProgramBinaryOES", 1295, crate::Address(glProgramBinaryOES as *const ())),
-    (b"glProgramEnvParameter4dARB", 1017, crate::Address(glProgramEnvParameter4dARB as *const ())),
-    (b"glProgramEnvParameter4dvARB", 1018, crate::Address(glProgramEnvParameter4dvARB as *const ())),
-    (b"glProgramEnvParameter4fARB", 1019, crate::Address(glProgramEnvParameter4fARB as *const ())),
-    (b"glProgramEnvParameter4fvARB", 1020, crate::Address(glProgramEnvParameter4fvARB as *const ())),
-    (b"glProgramLocalParameter4dARB", 1021, crate::Address(glProgramLocalParameter4dARB as *const ())),
-    (b"glProgramLocalParameter4dvARB", 1022, crate::Address(glProgramLocalParameter4dvARB as *const ())),
-    (b"glProgramLocalParameter4fARB", 1023, crate::Address(glProgramLocalParameter4fARB as *const ())),
-    (b"glProgramLocalParameter4fvARB", 1024, crate::Address(glProgramLocalParameter4fvARB as *const ())),
-    (b"glProgramUniform1d", 1108, crate::Address(glProgramUniform1d as *const ())),
-    (b"glProgramUniform1dEXT", 1274, crate::Address(glProgramUniform1dEXT as *const ())),
-    (b"glProgramUniform1dv", 1109, crate::Address(glProgramUniform1dv as *const ())),
-    (b"glProgramUniform1dvEXT", 1275, crate::Address(glProgramUniform1dvEXT as *const ())),
-    (b"glProgramUniform1f", 1110, crate::Address(glProgramUniform1f as *const ())),
-    (b"glProgramUniform1fEXT", 1111, crate::Address(glProgramUniform1fEXT as *const ())),
-    (b"glProgramUniform1fv", 1112, crate::Address(glProgramUniform1fv as *const ())),
-    (b"glProgramUniform1fvEXT", 1113, crate::Address(glProgramUniform1fvEXT as *const ())),
-    (b"glProgramUniform1i", 1114, crate::Address(glProgramUniform1i as *const ())),
-    (b"glProgramUniform1i64ARB", 1193, crate::Address(glProgramUniform1i64ARB as *const ())),
-    (b"glProgramUniform1i64NV", 1194, crate::Address(glProgramUniform1i64NV as *const ())),
-    (b"glProgramUniform1i64vARB", 1195, crate::Address(glProgramUniform1i64vARB as *const ())),
-    (b"glProgramUniform1i64vNV", 1196, crate::Address(glProgramUniform1i64vNV as *const ())),
-    (b"glProgramUniform1iEXT", 1115, crate::Address(glProgramUniform1iEXT as *const ())),
-    (b"glProgramUniform1iv", 1116, crate::Address(glProgramUniform1iv as *const ())),
-    (b"glProgramUniform1ivEXT", 1117, crate::Address(glProgramUniform1ivEXT as *const ())),
-    (b"glProgramUniform1ui", 1118, crate::Address(glProgramUniform1ui as *const ())),
-    (b"glProgramUniform1ui64ARB", 1197, crate::Address(glProgramUniform1ui64ARB as *const ())),
-    (b"glProgramUniform1ui64NV", 1198, crate::Address(glProgramUniform1ui64NV as *const ())),
-    (b"glProgramUniform1ui64vARB", 1199, crate::Address(glProgramUniform1ui64vARB as *const ())),
-    (b"glProgramUniform1ui64vNV", 1200, crate::Address(glProgramUniform1ui64vNV as *const ())),
-    (b"glProgramUniform1uiEXT", 1119, crate::Address(glProgramUniform1uiEXT as *const ())),
-    (b"glProgramUniform1uiv", 1120, crate::Address(glProgramUniform1uiv as *const ())),
-    (b"glProgramUniform1uivEXT", 1121, crate::Address(glProgramUniform1uivEXT as *const ())),
-    (b"glProgramUniform2d", 1122, crate::Address(glProgramUniform2d as *const ())),
-    (b"glProgramUniform2dEXT", 1276, crate::Address(glProgramUniform2dEXT as *const ())),
-    (b"glProgramUniform2dv", 1123, crate::Address(glProgramUniform2dv as *const ())),
-    (b"glProgramUniform2dvEXT", 1277, crate::Address(glProgramUniform2dvEXT as *const ())),
-    (b"glProgramUniform2f", 1124, crate::Address(glProgramUniform2f as *const ())),
-    (b"glProgramUniform2fEXT", 1125, crate::Address(glProgramUniform2fEXT as *const ())),
-    (b"glProgramUniform2fv", 1126, crate::Address(glProgramUniform2fv as *const ())),
-    (b"glProgramUniform2fvEXT", 1127, crate::Address(glProgramUniform2fvEXT as *const ())),
-    (b"glProgramUniform2i", 1128, crate::Address(glProgramUniform2i as *const ())),
-    (b"glProgramUniform2i64ARB", 1201, crate::Address(glProgramUniform2i64ARB as *const ())),
-    (b"glProgramUniform2i64NV", 1202, crate::Address(glProgramUniform2i64NV as *const ())),
-    (b"glProgramUniform2i64vARB", 1203, crate::Address(glProgramUniform2i64vARB as *const ())),
-    (b"glProgramUniform2i64vNV", 1204, crate::Address(glProgramUniform2i64vNV as *const ())),
-    (b"glProgramUniform2iEXT", 1129, crate::Address(glProgramUniform2iEXT as *const ())),
-    (b"glProgramUniform2iv", 1130, crate::Address(glProgramUniform2iv as *const ())),
-    (b"glProgramUniform2ivEXT", 1131, crate::Address(glProgramUniform2ivEXT as *const ())),
-    (b"glProgramUniform2ui", 1132, crate::Address(glProgramUniform2ui as *const ())),
-    (b"glProgramUniform2ui64ARB", 1205, crate::Address(glProgramUniform2ui64ARB as *const ())),
-    (b"glProgramUniform2ui64NV", 1206, crate::Address(glProgramUniform2ui64NV as *const ())),
-    (b"glProgramUniform2ui64vARB", 1207, crate::Address(glProgramUniform2ui64vARB as *const ())),
-    (b"glProgramUniform2ui64vNV", 1208, crate::Address(glProgramUniform2ui64vNV as *const ())),
-    (b"glProgramUniform2uiEXT", 1133, crate::Address(glProgramUniform2uiEXT as *const ())),
-    (b"glProgramUniform2uiv", 1134, crate::Address(glProgramUniform2uiv as *const ())),
-    (b"glProgramUniform2uivEXT", 1135, crate::Address(glProgramUniform2uivEXT as *const ())),
-    (b"glProgramUniform3d", 1136, crate::Address(glProgramUniform3d as *const ())),
-    (b"glProgramUniform3dEXT", 1278, crate::Address(glProgramUniform3dEXT as *const ())),
-    (b"glProgramUniform3dv", 1137, crate::Address(glProgramUniform3dv as *const ())),
-    (b"glProgramUniform3dvEXT", 1279, crate::Address(glProgramUniform3dvEXT as *const ())),
-    (b"glProgramUniform3f", 1138, crate::Address(glProgramUniform3f as *const ())),
-    (b"glProgramUniform3fEXT", 1139, crate::Address(glProgramUniform3fEXT as *const ())),
-    (b"glProgramUniform3fv", 1140, crate::Address(glProgramUniform3fv as *const ())),
-    (b"glProgramUniform3fvEXT", 1141, crate::Address(glProgramUniform3fvEXT as *const ())),
-    (b"glProgramUniform3i", 1142, crate::Address(glProgramUniform3i as *const ())),
-    (b"glProgramUniform3i64ARB", 1209, crate::Address(glProgramUniform3i64ARB as *const ())),
-    (b"glProgramUniform3i64NV", 1210, crate::Address(glProgramUniform3i64NV as *const ())),
-    (b"glProgramUniform3i64vARB", 1211, crate::Address(glProgramUniform3i64vARB as *const ())),
-    (b"glProgramUniform3i64vNV", 1212, crate::Address(glProgramUniform3i64vNV as *const ())),
-    (b"glProgramUniform3iEXT", 1143, crate::Address(glProgramUniform3iEXT as *const ())),
-    (b"glProgramUniform3iv", 1144, crate::Address(glProgramUniform3iv as *const ())),
-    (b"glProgramUniform3ivEXT", 1145, crate::Address(glProgramUniform3ivEXT as *const ())),
-    (b"glProgramUniform3ui", 1146, crate::Address(glProgramUniform3ui as *const ())),
-    (b"glProgramUniform3ui64ARB", 1213, crate::Address(glProgramUniform3ui64ARB as *const ())),
-    (b"glProgramUniform3ui64NV", 1214, crate::Address(glProgramUniform3ui64NV as *const ())),
-    (b"glProgramUniform3ui64vARB", 1215, crate::Address(glProgramUniform3ui64vARB as *const ())),
-    (b"glProgramUniform3ui64vNV", 1216, crate::Address(glProgramUniform3ui64vNV as *const ())),
-    (b"glProgramUniform3uiEXT", 1147, crate::Address(glProgramUniform3uiEXT as *const ())),
-    (b"glProgramUniform3uiv", 1148, crate::Address(glProgramUniform3uiv as *const ())),
-    (b"glProgramUniform3uivEXT", 1149, crate::Address(glProgramUniform3uivEXT as *const ())),
-    (b"glProgramUniform4d", 1150, crate::Address(glProgramUniform4d as *const ())),
-    (b"glProgramUniform4dEXT", 1280, crate::Address(glProgramUniform4dEXT as *const ())),
-    (b"glProgramUniform4dv", 1151, crate::Address(glProgramUniform4dv as *const ())),
-    (b"glProgramUniform4dvEXT", 1281, crate::Address(glProgramUniform4dvEXT as *const ())),
-    (b"glProgramUniform4f", 1152, crate::Address(glProgramUniform4f as *const ())),
-    (b"glProgramUniform4fEXT", 1153, crate::Address(glProgramUniform4fEXT as *const ())),
-    (b"glProgramUniform4fv", 1154, crate::Address(glProgramUniform4fv as *const ())),
-    (b"glProgramUniform4fvEXT", 1155, crate::Address(glProgramUniform4fvEXT as *const ())),
-    (b"glProgramUniform4i", 1156, crate::Address(glProgramUniform4i as *const ())),
-    (b"glProgramUniform4i64ARB", 1217, crate::Address(glProgramUniform4i64ARB as *const ())),
-    (b"glProgramUniform4i64NV", 1218, crate::Address(glProgramUniform4i64NV as *const ())),
-    (b"glProgramUniform4i64vARB", 1219, crate::Address(glProgramUniform4i64vARB as *const ())),
-    (b"glProgramUniform4i64vNV", 1220, crate::Address(glProgramUniform4i64vNV as *const ())),
-    (b"glProgramUniform4iEXT", 1157, crate::Address(glProgramUniform4iEXT as *const ())),
-    (b"glProgramUniform4iv", 1158, crate::Address(glProgramUniform4iv as *const ())),
-    (b"glProgramUniform4ivEXT", 1159, crate::Address(glProgramUniform4ivEXT as *const ())),
-    (b"glProgramUniform4ui", 1160, crate::Address(glProgramUniform4ui as *const ())),
-    (b"glProgramUniform4ui64ARB", 1221, crate::Address(glProgramUniform4ui64ARB as *const ())),
-    (b"glProgramUniform4ui64NV", 1222, crate::Address(glProgramUniform4ui64NV as *const ())),
-    (b"glProgramUniform4ui64vARB", 1223, crate::Address(glProgramUniform4ui64vARB as *const ())),
-    (b"glProgramUniform4ui64vNV", 1224, crate::Address(glProgramUniform4ui64vNV as *const ())),
-    (b"glProgramUniform4uiEXT", 1161, crate::Address(glProgramUniform4uiEXT as *const ())),
-    (b"glProgramUniform4uiv", 1162, crate::Address(glProgramUniform4uiv as *const ())),
-    (b"glProgramUniform4uivEXT", 1163, crate::Address(glProgramUniform4uivEXT as *const ())),
-    (b"glProgramUniformHandleui64ARB", 1257, crate::Address(glProgramUniformHandleui64ARB as *const ())),
-    (b"glProgramUniformHandleui64IMG", 1258, crate::Address(glProgramUniformHandleui64IMG as *const ())),
-    (b"glProgramUniformHandleui64NV", 1259, crate::Address(glProgramUniformHandleui64NV as *const ())),
-    (b"glProgramUniformHandleui64vARB", 1260, crate::Address(glProgramUniformHandleui64vARB as *const ())),
-    (b"glProgramUniformHandleui64vIMG", 1261, crate::Address(glProgramUniformHandleui64vIMG as *const ())),
-    (b"glProgramUniformHandleui64vNV", 1262, crate::Address(glProgramUniformHandleui64vNV as *const ())),
-    (b"glProgramUniformMatrix2dv", 1164, crate::Address(glProgramUniformMatrix2dv as *const ())),
-    (b"glProgramUniformMatrix2dvEXT", 1282, crate::Address(glProgramUniformMatrix2dvEXT as *const ())),
-    (b"glProgramUniformMatrix2fv", 1165, crate::Address(glProgramUniformMatrix2fv as *const ())),
-    (b"glProgramUniformMatrix2fvEXT", 1166, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x3dv", 1167, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
-    (b"glProgramUniformMatrix2x3dvEXT", 1283, crate::Address(glProgramUniformMatrix2x3dvEXT as *const ())),
-    (b"glProgramUniformMatrix2x3fv", 1168, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
-    (b"glProgramUniformMatrix2x3fvEXT", 1169, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x4dv", 1170, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
-    (b"glProgramUniformMatrix2x4dvEXT", 1284, crate::Address(glProgramUniformMatrix2x4dvEXT as *const ())),
-    (b"glProgramUniformMatrix2x4fv", 1171, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
-    (b"glProgramUniformMatrix2x4fvEXT", 1172, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix3dv", 1173, crate::Address(glProgramUniformMatrix3dv as *const ())),
-    (b"glProgramUniformMatrix3dvEXT", 1285, crate::Address(glProgramUniformMatrix3dvEXT as *const ())),
-    (b"glProgramUniformMatrix3fv", 1174, crate::Address(glProgramUniformMatrix3fv as *const ())),
-    (b"glProgramUniformMatrix3fvEXT", 1175, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x2dv", 1176, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
-    (b"glProgramUniformMatrix3x2dvEXT", 1286, crate::Address(glProgramUniformMatrix3x2dvEXT as *const ())),
-    (b"glProgramUniformMatrix3x2fv", 1177, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
-    (b"glProgramUniformMatrix3x2fvEXT", 1178, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x4dv", 1179, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
-    (b"glProgramUniformMatrix3x4dvEXT", 1287, crate::Address(glProgramUniformMatrix3x4dvEXT as *const ())),
-    (b"glProgramUniformMatrix3x4fv", 1180, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
-    (b"glProgramUniformMatrix3x4fvEXT", 1181, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4dv", 1182, crate::Address(glProgramUniformMatrix4dv as *const ())),
-    (b"glProgramUniformMatrix4dvEXT", 1288, crate::Address(glProgramUniformMatrix4dvEXT as *const ())),
-    (b"glProgramUniformMatrix4fv", 1183, crate::Address(glProgramUniformMatrix4fv as *const ())),
-    (b"glProgramUniformMatrix4fvEXT", 1184, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x2dv", 1185, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
-    (b"glProgramUniformMatrix4x2dvEXT", 1289, crate::Address(glProgramUniformMatrix4x2dvEXT as *const ())),
-    (b"glProgramUniformMatrix4x2fv", 1186, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
-    (b"glProgramUniformMatrix4x2fvEXT", 1187, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x3dv", 1188, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
-    (b"glProgramUniformMatrix4x3dvEXT", 1290, crate::Address(glProgramUniformMatrix4x3dvEXT as *const ())),
-    (b"glProgramUniformMatrix4x3fv", 1189, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
-    (b"glProgramUniformMatrix4x3fvEXT", 1190, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
-    (b"glProgramUniformui64NV", 1269, crate::Address(glProgramUniformui64NV as *const ())),
-    (b"glProgramUniformui64vNV", 1270, crate::Address(glProgramUniformui64vNV as *const ())),
+    (b"glPrioritizeTextures", 802, crate::Address(glPrioritizeTextures as *const ())),
+    (b"glPrioritizeTexturesEXT", 803, crate::Address(glPrioritizeTexturesEXT as *const ())),
+    (b"glProgramBinary", 1296, crate::Address(glProgramBinary as *const ())),
+    (b"glProgramBinaryOES", 1297, crate::Address(glProgramBinaryOES as *const ())),
+    (b"glProgramEnvParameter4dARB", 1019, crate::Address(glProgramEnvParameter4dARB as *const ())),
+    (b"glProgramEnvParameter4dvARB", 1020, crate::Address(glProgramEnvParameter4dvARB as *const ())),
+    (b"glProgramEnvParameter4fARB", 1021, crate::Address(glProgramEnvParameter4fARB as *const ())),
+    (b"glProgramEnvParameter4fvARB", 1022, crate::Address(glProgramEnvParameter4fvARB as *const ())),
+    (b"glProgramLocalParameter4dARB", 1023, crate::Address(glProgramLocalParameter4dARB as *const ())),
+    (b"glProgramLocalParameter4dvARB", 1024, crate::Address(glProgramLocalParameter4dvARB as *const ())),
+    (b"glProgramLocalParameter4fARB", 1025, crate::Address(glProgramLocalParameter4fARB as *const ())),
+    (b"glProgramLocalParameter4fvARB", 1026, crate::Address(glProgramLocalParameter4fvARB as *const ())),
+    (b"glProgramUniform1d", 1110, crate::Address(glProgramUniform1d as *const ())),
+    (b"glProgramUniform1dEXT", 1276, crate::Address(glProgramUniform1dEXT as *const ())),
+    (b"glProgramUniform1dv", 1111, crate::Address(glProgramUniform1dv as *const ())),
+    (b"glProgramUniform1dvEXT", 1277, crate::Address(glProgramUniform1dvEXT as *const ())),
+    (b"glProgramUniform1f", 1112, crate::Address(glProgramUniform1f as *const ())),
+    (b"glProgramUniform1fEXT", 1113, crate::Address(glProgramUniform1fEXT as *const ())),
+    (b"glProgramUniform1fv", 1114, crate::Address(glProgramUniform1fv as *const ())),
+    (b"glProgramUniform1fvEXT", 1115, crate::Address(glProgramUniform1fvEXT as *const ())),
+    (b"glProgramUniform1i", 1116, crate::Address(glProgramUniform1i as *const ())),
+    (b"glProgramUniform1i64ARB", 1195, crate::Address(glProgramUniform1i64ARB as *const ())),
+    (b"glProgramUniform1i64NV", 1196, crate::Address(glProgramUniform1i64NV as *const ())),
+    (b"glProgramUniform1i64vARB", 1197, crate::Address(glProgramUniform1i64vARB as *const ())),
+    (b"glProgramUniform1i64vNV", 1198, crate::Address(glProgramUniform1i64vNV as *const ())),
+    (b"glProgramUniform1iEXT", 1117, crate::Address(glProgramUniform1iEXT as *const ())),
+    (b"glProgramUniform1iv", 1118, crate::Address(glProgramUniform1iv as *const ())),
+    (b"glProgramUniform1ivEXT", 1119, crate::Address(glProgramUniform1ivEXT as *const ())),
+    (b"glProgramUniform1ui", 1120, crate::Address(glProgramUniform1ui as *const ())),
+    (b"glProgramUniform1ui64ARB", 1199, crate::Address(glProgramUniform1ui64ARB as *const ())),
+    (b"glProgramUniform1ui64NV", 1200, crate::Address(glProgramUniform1ui64NV as *const ())),
+    (b"glProgramUniform1ui64vARB", 1201, crate::Address(glProgramUniform1ui64vARB as *const ())),
+    (b"glProgramUniform1ui64vNV", 1202, crate::Address(glProgramUniform1ui64vNV as *const ())),
+    (b"glProgramUniform1uiEXT", 1121, crate::Address(glProgramUniform1uiEXT as *const ())),
+    (b"glProgramUniform1uiv", 1122, crate::Address(glProgramUniform1uiv as *const ())),
+    (b"glProgramUniform1uivEXT", 1123, crate::Address(glProgramUniform1uivEXT as *const ())),
+    (b"glProgramUniform2d", 1124, crate::Address(glProgramUniform2d as *const ())),
+    (b"glProgramUniform2dEXT", 1278, crate::Address(glProgramUniform2dEXT as *const ())),
+    (b"glProgramUniform2dv", 1125, crate::Address(glProgramUniform2dv as *const ())),
+    (b"glProgramUniform2dvEXT", 1279, crate::Address(glProgramUniform2dvEXT as *const ())),
+    (b"glProgramUniform2f", 1126, crate::Address(glProgramUniform2f as *const ())),
+    (b"glProgramUniform2fEXT", 1127, crate::Address(glProgramUniform2fEXT as *const ())),
+    (b"glProgramUniform2fv", 1128, crate::Address(glProgramUniform2fv as *const ())),
+    (b"glProgramUniform2fvEXT", 1129, crate::Address(glProgramUniform2fvEXT as *const ())),
+    (b"glProgramUniform2i", 1130, crate::Address(glProgramUniform2i as *const ())),
+    (b"glProgramUniform2i64ARB", 1203, crate::Address(glProgramUniform2i64ARB as *const ())),
+    (b"glProgramUniform2i64NV", 1204, crate::Address(glProgramUniform2i64NV as *const ())),
+    (b"glProgramUniform2i64vARB", 1205, crate::Address(glProgramUniform2i64vARB as *const ())),
+    (b"glProgramUniform2i64vNV", 1206, crate::Address(glProgramUniform2i64vNV as *const ())),
+    (b"glProgramUniform2iEXT", 1131, crate::Address(glProgramUniform2iEXT as *const ())),
+    (b"glProgramUniform2iv", 1132, crate::Address(glProgramUniform2iv as *const ())),
+    (b"glProgramUniform2ivEXT", 1133, crate::Address(glProgramUniform2ivEXT as *const ())),
+    (b"glProgramUniform2ui", 1134, crate::Address(glProgramUniform2ui as *const ())),
+    (b"glProgramUniform2ui64ARB", 1207, crate::Address(glProgramUniform2ui64ARB as *const ())),
+    (b"glProgramUniform2ui64NV", 1208, crate::Address(glProgramUniform2ui64NV as *const ())),
+    (b"glProgramUniform2ui64vARB", 1209, crate::Address(glProgramUniform2ui64vARB as *const ())),
+    (b"glProgramUniform2ui64vNV", 1210, crate::Address(glProgramUniform2ui64vNV as *const ())),
+    (b"glProgramUniform2uiEXT", 1135, crate::Address(glProgramUniform2uiEXT as *const ())),
+    (b"glProgramUniform2uiv", 1136, crate::Address(glProgramUniform2uiv as *const ())),
+    (b"glProgramUniform2uivEXT", 1137, crate::Address(glProgramUniform2uivEXT as *const ())),
+    (b"glProgramUniform3d", 1138, crate::Address(glProgramUniform3d as *const ())),
+    (b"glProgramUniform3dEXT", 1280, crate::Address(glProgramUniform3dEXT as *const ())),
+    (b"glProgramUniform3dv", 1139, crate::Address(glProgramUniform3dv as *const ())),
+    (b"glProgramUniform3dvEXT", 1281, crate::Address(glProgramUniform3dvEXT as *const ())),
+    (b"glProgramUniform3f", 1140, crate::Address(glProgramUniform3f as *const ())),
+    (b"glProgramUniform3fEXT", 1141, crate::Address(glProgramUniform3fEXT as *const ())),
+    (b"glProgramUniform3fv", 1142, crate::Address(glProgramUniform3fv as *const ())),
+    (b"glProgramUniform3fvEXT", 1143, crate::Address(glProgramUniform3fvEXT as *const ())),
+    (b"glProgramUniform3i", 1144, crate::Address(glProgramUniform3i as *const ())),
+    (b"glProgramUniform3i64ARB", 1211, crate::Address(glProgramUniform3i64ARB as *const ())),
+    (b"glProgramUniform3i64NV", 1212, crate::Address(glProgramUniform3i64NV as *const ())),
+    (b"glProgramUniform3i64vARB", 1213, crate::Address(glProgramUniform3i64vARB as *const ())),
+    (b"glProgramUniform3i64vNV", 1214, crate::Address(glProgramUniform3i64vNV as *const ())),
+    (b"glProgramUniform3iEXT", 1145, crate::Address(glProgramUniform3iEXT as *const ())),
+    (b"glProgramUniform3iv", 1146, crate::Address(glProgramUniform3iv as *const ())),
+    (b"glProgramUniform3ivEXT", 1147, crate::Address(glProgramUniform3ivEXT as *const ())),
+    (b"glProgramUniform3ui", 1148, crate::Address(glProgramUniform3ui as *const ())),
+    (b"glProgramUniform3ui64ARB", 1215, crate::Address(glProgramUniform3ui64ARB as *const ())),
+    (b"glProgramUniform3ui64NV", 1216, crate::Address(glProgramUniform3ui64NV as *const ())),
+    (b"glProgramUniform3ui64vARB", 1217, crate::Address(glProgramUniform3ui64vARB as *const ())),
+    (b"glProgramUniform3ui64vNV", 1218, crate::Address(glProgramUniform3ui64vNV as *const ())),
+    (b"glProgramUniform3uiEXT", 1149, crate::Address(glProgramUniform3uiEXT as *const ())),
+    (b"glProgramUniform3uiv", 1150, crate::Address(glProgramUniform3uiv as *const ())),
+    (b"glProgramUniform3uivEXT", 1151, crate::Address(glProgramUniform3uivEXT as *const ())),
+    (b"glProgramUniform4d", 1152, crate::Address(glProgramUniform4d as *const ())),
+    (b"glProgramUniform4dEXT", 1282, crate::Address(glProgramUniform4dEXT as *const ())),
+    (b"glProgramUniform4dv", 1153, crate::Address(glProgramUniform4dv as *const ())),
+    (b"glProgramUniform4dvEXT", 1283, crate::Address(glProgramUniform4dvEXT as *const ())),
+    (b"glProgramUniform4f", 1154, crate::Address(glProgramUniform4f as *const ())),
+    (b"glProgramUniform4fEXT", 1155, crate::Address(glProgramUniform4fEXT as *const ())),
+    (b"glProgramUniform4fv", 1156, crate::Address(glProgramUniform4fv as *const ())),
+    (b"glProgramUniform4fvEXT", 1157, crate::Address(glProgramUniform4fvEXT as *const ())),
+    (b"glProgramUniform4i", 1158, crate::Address(glProgramUniform4i as *const ())),
+    (b"glProgramUniform4i64ARB", 1219, crate::Address(glProgramUniform4i64ARB as *const ())),
+    (b"glProgramUniform4i64NV", 1220, crate::Address(glProgramUniform4i64NV as *const ())),
+    (b"glProgramUniform4i64vARB", 1221, crate::Address(glProgramUniform4i64vARB as *const ())),
+    (b"glProgramUniform4i64vNV", 1222, crate::Address(glProgramUniform4i64vNV as *const ())),
+    (b"glProgramUniform4iEXT", 1159, crate::Address(glProgramUniform4iEXT as *const ())),
+    (b"glProgramUniform4iv", 1160, crate::Address(glProgramUniform4iv as *const ())),
+    (b"glProgramUniform4ivEXT", 1161, crate::Address(glProgramUniform4ivEXT as *const ())),
+    (b"glProgramUniform4ui", 1162, crate::Address(glProgramUniform4ui as *const ())),
+    (b"glProgramUniform4ui64ARB", 1223, crate::Address(glProgramUniform4ui64ARB as *const ())),
+    (b"glProgramUniform4ui64NV", 1224, crate::Address(glProgramUniform4ui64NV as *const ())),
+    (b"glProgramUniform4ui64vARB", 1225, crate::Address(glProgramUniform4ui64vARB as *const ())),
+    (b"glProgramUniform4ui64vNV", 1226, crate::Address(glProgramUniform4ui64vNV as *const ())),
+    (b"glProgramUniform4uiEXT", 1163, crate::Address(glProgramUniform4uiEXT as *const ())),
+    (b"glProgramUniform4uiv", 1164, crate::Address(glProgramUniform4uiv as *const ())),
+    (b"glProgramUniform4uivEXT", 1165, crate::Address(glProgramUniform4uivEXT as *const ())),
+    (b"glProgramUniformHandleui64ARB", 1259, crate::Address(glProgramUniformHandleui64ARB as *const ())),
+    (b"glProgramUniformHandleui64IMG", 1260, crate::Address(glProgramUniformHandleui64IMG as *const ())),
+    (b"glProgramUniformHandleui64NV", 1261, crate::Address(glProgramUniformHandleui64NV as *const ())),
+    (b"glProgramUniformHandleui64vARB", 1262, crate::Address(glProgramUniformHandleui64vARB as *const ())),
+    (b"glProgramUniformHandleui64vIMG", 1263, crate::Address(glProgramUniformHandleui64vIMG as *const ())),
+    (b"glProgramUniformHandleui64vNV", 1264, crate::Address(glProgramUniformHandleui64vNV as *const ())),
+    (b"glProgramUniformMatrix2dv", 1166, crate::Address(glProgramUniformMatrix2dv as *const ())),
+    (b"glProgramUniformMatrix2dvEXT", 1284, crate::Address(glProgramUniformMatrix2dvEXT as *const ())),
+    (b"glProgramUniformMatrix2fv", 1167, crate::Address(glProgramUniformMatrix2fv as *const ())),
+    (b"glProgramUniformMatrix2fvEXT", 1168, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x3dv", 1169, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
+    (b"glProgramUniformMatrix2x3dvEXT", 1285, crate::Address(glProgramUniformMatrix2x3dvEXT as *const ())),
+    (b"glProgramUniformMatrix2x3fv", 1170, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
+    (b"glProgramUniformMatrix2x3fvEXT", 1171, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x4dv", 1172, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
+    (b"glProgramUniformMatrix2x4dvEXT", 1286, crate::Address(glProgramUniformMatrix2x4dvEXT as *const ())),
+    (b"glProgramUniformMatrix2x4fv", 1173, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
+    (b"glProgramUniformMatrix2x4fvEXT", 1174, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix3dv", 1175, crate::Address(glProgramUniformMatrix3dv as *const ())),
+    (b"glProgramUniformMatrix3dvEXT", 1287, crate::Address(glProgramUniformMatrix3dvEXT as *const ())),
+    (b"glProgramUniformMatrix3fv", 1176, crate::Address(glProgramUniformMatrix3fv as *const ())),
+    (b"glProgramUniformMatrix3fvEXT", 1177, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x2dv", 1178, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
+    (b"glProgramUniformMatrix3x2dvEXT", 1288, crate::Address(glProgramUniformMatrix3x2dvEXT as *const ())),
+    (b"glProgramUniformMatrix3x2fv", 1179, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
+    (b"glProgramUniformMatrix3x2fvEXT", 1180, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x4dv", 1181, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
+    (b"glProgramUniformMatrix3x4dvEXT", 1289, crate::Address(glProgramUniformMatrix3x4dvEXT as *const ())),
+    (b"glProgramUniformMatrix3x4fv", 1182, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
+    (b"glProgramUniformMatrix3x4fvEXT", 1183, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4dv", 1184, crate::Address(glProgramUniformMatrix4dv as *const ())),
+    (b"glProgramUniformMatrix4dvEXT", 1290, crate::Address(glProgramUniformMatrix4dvEXT as *const ())),
+    (b"glProgramUniformMatrix4fv", 1185, crate::Address(glProgramUniformMatrix4fv as *const ())),
+    (b"glProgramUniformMatrix4fvEXT", 1186, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x2dv", 1187, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
+    (b"glProgramUniformMatrix4x2dvEXT", 1291, crate::Address(glProgramUniformMatrix4x2dvEXT as *const ())),
+    (b"glProgramUniformMatrix4x2fv", 1188, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
+    (b"glProgramUniformMatrix4x2fvEXT", 1189, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x3dv", 1190, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
+    (b"glProgramUniformMatrix4x3dvEXT", 1292, crate::Address(glProgramUniformMatrix4x3dvEXT as *const ())),
+    (b"glProgramUniformMatrix4x3fv", 1191, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
+    (b"glProgramUniformMatrix4x3fvEXT", 1192, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
+    (b"glProgramUniformui64NV", 1271, crate::Address(glProgramUniformui64NV as *const ())),
+    (b"glProgramUniformui64vNV", 1272, crate::Address(glProgramUniformui64vNV as *const ())),
     (b"glProvokingVertex", 602, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 603, crate::Address(glProvokingVertexEXT as *const ())),
-    (b"glPushAttrib", 629, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1733, crate::Address(glPushClientAttrib as *const ())),
-    (b"glPushClientAttribDefaultEXT", 1736, crate::Address(glPushClientAttribDefaultEXT as *const ())),
+    (b"glPushAttrib", 631, crate::Address(glPushAttrib as *const ())),
+    (b"glPushClientAttrib", 1735, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushClientAttribDefaultEXT", 1738, crate::Address(glPushClientAttribDefaultEXT as *const ())),
     (b"glPushMatrix", 479, crate::Address(glPushMatrix as *const ())),
-    (b"glPushName", 776, crate::Address(glPushName as *const ())),
-    (b"glRasterPos2d", 631, crate::Address(glRasterPos2d as *const ())),
-    (b"glRasterPos2dv", 632, crate::Address(glRasterPos2dv as *const ())),
-    (b"glRasterPos2f", 633, crate::Address(glRasterPos2f as *const ())),
-    (b"glRasterPos2fv", 634, crate::Address(glRasterPos2fv as *const ())),
-    (b"glRasterPos2i", 635, crate::Address(glRasterPos2i as *const ())),
-    (b"glRasterPos2iv", 636, crate::Address(glRasterPos2iv as *const ())),
-    (b"glRasterPos2s", 637, crate::Address(glRasterPos2s as *const ())),
-    (b"glRasterPos2sv", 638, crate::Address(glRasterPos2sv as *const ())),
-    (b"glRasterPos3d", 639, crate::Address(glRasterPos3d as *const ())),
-    (b"glRasterPos3dv", 640, crate::Address(glRasterPos3dv as *const ())),
-    (b"glRasterPos3f", 641, crate::Address(glRasterPos3f as *const ())),
-    (b"glRasterPos3fv", 642, crate::Address(glRasterPos3fv as *const ())),
-    (b"glRasterPos3i", 643, crate::Address(glRasterPos3i as *const ())),
-    (b"glRasterPos3iv", 644, crate::Address(glRasterPos3iv as *const ())),
-    (b"glRasterPos3s", 645, crate::Address(glRasterPos3s as *const ())),
-    (b"glRasterPos3sv", 646, crate::Address(glRasterPos3sv as *const ())),
-    (b"glRasterPos4d", 647, crate::Address(glRasterPos4d as *const ())),
-    (b"glRasterPos4dv", 648, crate::Address(glRasterPos4dv as *const ())),
-    (b"glRasterPos4f", 649, crate::Address(glRasterPos4f as *const ())),
-    (b"glRasterPos4fv", 650, crate::Address(glRasterPos4fv as *const ())),
-    (b"glRasterPos4i", 651, crate::Address(glRasterPos4i as *const ())),
-    (b"glRasterPos4iv", 652, crate::Address(glRasterPos4iv as *const ())),
-    (b"glRasterPos4s", 653, crate::Address(glRasterPos4s as *const ())),
-    (b"glRasterPos4sv", 654, crate::Address(glRasterPos4sv as *const ())),
-    (b"glRasterSamplesEXT", 825, crate::Address(glRasterSamplesEXT as *const ())),
-    (b"glReadBuffer", 1439, crate::Address(glReadBuffer as *const ())),
-    (b"glReadBufferNV", 1555, crate::Address(glReadBufferNV as *const ())),
-    (b"glReadPixels", 1526, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1527, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1528, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1529, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1530, crate::Address(glReadnPixelsKHR as *const ())),
-    (b"glRectd", 1356, crate::Address(glRectd as *const ())),
-    (b"glRectdv", 1357, crate::Address(glRectdv as *const ())),
-    (b"glRectf", 1358, crate::Address(glRectf as *const ())),
-    (b"glRectfv", 1359, crate::Address(glRectfv as *const ())),
-    (b"glRecti", 1360, crate::Address(glRecti as *const ())),
-    (b"glRectiv", 1361, crate::Address(glRectiv as *const ())),
-    (b"glRects", 1362, crate::Address(glRects as *const ())),
-    (b"glRectsv", 1363, crate::Address(glRectsv as *const ())),
-    (b"glRectxOES", 1410, crate::Address(glRectxOES as *const ())),
-    (b"glRectxvOES", 1411, crate::Address(glRectxvOES as *const ())),
-    (b"glRenderMode", 711, crate::Address(glRenderMode as *const ())),
-    (b"glRenderbufferStorage", 1657, crate::Address(glRenderbufferStorage as *const ())),
-    (b"glRenderbufferStorageEXT", 1658, crate::Address(glRenderbufferStorageEXT as *const ())),
-    (b"glRenderbufferStorageMultisample", 1659, crate::Address(glRenderbufferStorageMultisample as *const ())),
-    (b"glRenderbufferStorageMultisampleANGLE", 1663, crate::Address(glRenderbufferStorageMultisampleANGLE as *const ())),
-    (b"glRenderbufferStorageMultisampleAPPLE", 1664, crate::Address(glRenderbufferStorageMultisampleAPPLE as *const ())),
-    (b"glRenderbufferStorageMultisampleAdvancedAMD", 1665, crate::Address(glRenderbufferStorageMultisampleAdvancedAMD as *const ())),
-    (b"glRenderbufferStorageMultisampleCoverageNV", 1666, crate::Address(glRenderbufferStorageMultisampleCoverageNV as *const ())),
-    (b"glRenderbufferStorageMultisampleEXT", 1660, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glRenderbufferStorageMultisampleIMG", 1667, crate::Address(glRenderbufferStorageMultisampleIMG as *const ())),
-    (b"glRenderbufferStorageMultisampleNV", 1661, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
-    (b"glResolveDepthValuesNV", 1670, crate::Address(glResolveDepthValuesNV as *const ())),
-    (b"glResumeTransformFeedback", 720, crate::Address(glResumeTransformFeedback as *const ())),
-    (b"glResumeTransformFeedbackNV", 721, crate::Address(glResumeTransformFeedbackNV as *const ())),
+    (b"glPushName", 778, crate::Address(glPushName as *const ())),
+    (b"glRasterPos2d", 633, crate::Address(glRasterPos2d as *const ())),
+    (b"glRasterPos2dv", 634, crate::Address(glRasterPos2dv as *const ())),
+    (b"glRasterPos2f", 635, crate::Address(glRasterPos2f as *const ())),
+    (b"glRasterPos2fv", 636, crate::Address(glRasterPos2fv as *const ())),
+    (b"glRasterPos2i", 637, crate::Address(glRasterPos2i as *const ())),
+    (b"glRasterPos2iv", 638, crate::Address(glRasterPos2iv as *const ())),
+    (b"glRasterPos2s", 639, crate::Address(glRasterPos2s as *const ())),
+    (b"glRasterPos2sv", 640, crate::Address(glRasterPos2sv as *const ())),
+    (b"glRasterPos3d", 641, crate::Address(glRasterPos3d as *const ())),
+    (b"glRasterPos3dv", 642, crate::Address(glRasterPos3dv as *const ())),
+    (b"glRasterPos3f", 643, crate::Address(glRasterPos3f as *const ())),
+    (b"glRasterPos3fv", 644, crate::Address(glRasterPos3fv as *const ())),
+    (b"glRasterPos3i", 645, crate::Address(glRasterPos3i as *const ())),
+    (b"glRasterPos3iv", 646, crate::Address(glRasterPos3iv as *const ())),
+    (b"glRasterPos3s", 647, crate::Address(glRasterPos3s as *const ())),
+    (b"glRasterPos3sv", 648, crate::Address(glRasterPos3sv as *const ())),
+    (b"glRasterPos4d", 649, crate::Address(glRasterPos4d as *const ())),
+    (b"glRasterPos4dv", 650, crate::Address(glRasterPos4dv as *const ())),
+    (b"glRasterPos4f", 651, crate::Address(glRasterPos4f as *const ())),
+    (b"glRasterPos4fv", 652, crate::Address(glRasterPos4fv as *const ())),
+    (b"glRasterPos4i", 653, crate::Address(glRasterPos4i as *const ())),
+    (b"glRasterPos4iv", 654, crate::Address(glRasterPos4iv as *const ())),
+    (b"glRasterPos4s", 655, crate::Address(glRasterPos4s as *const ())),
+    (b"glRasterPos4sv", 656, crate::Address(glRasterPos4sv as *const ())),
+    (b"glRasterSamplesEXT", 827, crate::Address(glRasterSamplesEXT as *const ())),
+    (b"glReadBuffer", 1441, crate::Address(glReadBuffer as *const ())),
+    (b"glReadBufferNV", 1557, crate::Address(glReadBufferNV as *const ())),
+    (b"glReadPixels", 1528, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1529, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1530, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1531, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1532, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glRectd", 1358, crate::Address(glRectd as *const ())),
+    (b"glRectdv", 1359, crate::Address(glRectdv as *const ())),
+    (b"glRectf", 1360, crate::Address(glRectf as *const ())),
+    (b"glRectfv", 1361, crate::Address(glRectfv as *const ())),
+    (b"glRecti", 1362, crate::Address(glRecti as *const ())),
+    (b"glRectiv", 1363, crate::Address(glRectiv as *const ())),
+    (b"glRects", 1364, crate::Address(glRects as *const ())),
+    (b"glRectsv", 1365, crate::Address(glRectsv as *const ())),
+    (b"glRectxOES", 1412, crate::Address(glRectxOES as *const ())),
+    (b"glRectxvOES", 1413, crate::Address(glRectxvOES as *const ())),
+    (b"glRenderMode", 713, crate::Address(glRenderMode as *const ())),
+    (b"glRenderbufferStorage", 1659, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1660, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1661, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleANGLE", 1665, crate::Address(glRenderbufferStorageMultisampleANGLE as *const ())),
+    (b"glRenderbufferStorageMultisampleAPPLE", 1666, crate::Address(glRenderbufferStorageMultisampleAPPLE as *const ())),
+    (b"glRenderbufferStorageMultisampleAdvancedAMD", 1667, crate::Address(glRenderbufferStorageMultisampleAdvancedAMD as *const ())),
+    (b"glRenderbufferStorageMultisampleCoverageNV", 1668, crate::Address(glRenderbufferStorageMultisampleCoverageNV as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1662, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleIMG", 1669, crate::Address(glRenderbufferStorageMultisampleIMG as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1663, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
+    (b"glResolveDepthValuesNV", 1672, crate::Address(glResolveDepthValuesNV as *const ())),
+    (b"glResumeTransformFeedback", 722, crate::Address(glResumeTransformFeedback as *const ())),
+    (b"glResumeTransformFeedbackNV", 723, crate::Address(glResumeTransformFeedbackNV as *const ())),
     (b"glRotated", 471, crate::Address(glRotated as *const ())),
     (b"glRotatef", 472, crate::Address(glRotatef as *const ())),
-    (b"glSampleCoverage", 802, crate::Address(glSampleCoverage as *const ())),
-    (b"glSampleCoverageARB", 803, crate::Address(glSampleCoverageARB as *const ())),
-    (b"glSampleMaskIndexedNV", 823, crate::Address(glSampleMaskIndexedNV as *const ())),
-    (b"glSampleMaski", 822, crate::Address(glSampleMaski as *const ())),
+    (b"glSampleCoverage", 804, crate::Address(glSampleCoverage as *const ())),
+    (b"glSampleCoverageARB", 805, crate::Address(glSampleCoverageARB as *const ())),
+    (b"glSampleMaskIndexedNV", 825, crate::Address(glSampleMaskIndexedNV as *const ())),
+    (b"glSampleMaski", 824, crate::Address(glSampleMaski as *const ())),
     (b"glScaled", 473, crate::Address(glScaled as *const ())),
     (b"glScalef", 474, crate::Address(glScalef as *const ())),
     (b"glScissor", 506, crate::Address(glScissor as *const ())),
@@ -6875,27 +6883,27 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 445, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 446, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1752, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1753, crate::Address(glSecondaryColorPointerEXT as *const ())),
-    (b"glSelectBuffer", 1650, crate::Address(glSelectBuffer as *const ())),
+    (b"glSecondaryColorPointer", 1754, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1755, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1652, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 593, crate::Address(glShadeModel as *const ())),
-    (b"glShaderStorageBlockBinding", 1192, crate::Address(glShaderStorageBlockBinding as *const ())),
-    (b"glStencilFillPathInstancedNV", 1394, crate::Address(glStencilFillPathInstancedNV as *const ())),
-    (b"glStencilFillPathNV", 1395, crate::Address(glStencilFillPathNV as *const ())),
-    (b"glStencilFunc", 807, crate::Address(glStencilFunc as *const ())),
-    (b"glStencilFuncSeparate", 808, crate::Address(glStencilFuncSeparate as *const ())),
-    (b"glStencilFuncSeparateATI", 820, crate::Address(glStencilFuncSeparateATI as *const ())),
-    (b"glStencilMask", 809, crate::Address(glStencilMask as *const ())),
-    (b"glStencilMaskSeparate", 810, crate::Address(glStencilMaskSeparate as *const ())),
-    (b"glStencilOp", 811, crate::Address(glStencilOp as *const ())),
-    (b"glStencilOpSeparate", 812, crate::Address(glStencilOpSeparate as *const ())),
-    (b"glStencilOpSeparateATI", 813, crate::Address(glStencilOpSeparateATI as *const ())),
-    (b"glStencilStrokePathInstancedNV", 1396, crate::Address(glStencilStrokePathInstancedNV as *const ())),
-    (b"glStencilStrokePathNV", 1397, crate::Address(glStencilStrokePathNV as *const ())),
-    (b"glStencilThenCoverFillPathInstancedNV", 1398, crate::Address(glStencilThenCoverFillPathInstancedNV as *const ())),
-    (b"glStencilThenCoverFillPathNV", 1399, crate::Address(glStencilThenCoverFillPathNV as *const ())),
-    (b"glStencilThenCoverStrokePathInstancedNV", 1400, crate::Address(glStencilThenCoverStrokePathInstancedNV as *const ())),
-    (b"glStencilThenCoverStrokePathNV", 1401, crate::Address(glStencilThenCoverStrokePathNV as *const ())),
+    (b"glShaderStorageBlockBinding", 1194, crate::Address(glShaderStorageBlockBinding as *const ())),
+    (b"glStencilFillPathInstancedNV", 1396, crate::Address(glStencilFillPathInstancedNV as *const ())),
+    (b"glStencilFillPathNV", 1397, crate::Address(glStencilFillPathNV as *const ())),
+    (b"glStencilFunc", 809, crate::Address(glStencilFunc as *const ())),
+    (b"glStencilFuncSeparate", 810, crate::Address(glStencilFuncSeparate as *const ())),
+    (b"glStencilFuncSeparateATI", 822, crate::Address(glStencilFuncSeparateATI as *const ())),
+    (b"glStencilMask", 811, crate::Address(glStencilMask as *const ())),
+    (b"glStencilMaskSeparate", 812, crate::Address(glStencilMaskSeparate as *const ())),
+    (b"glStencilOp", 813, crate::Address(glStencilOp as *const ())),
+    (b"glStencilOpSeparate", 814, crate::Address(glStencilOpSeparate as *const ())),
+    (b"glStencilOpSeparateATI", 815, crate::Address(glStencilOpSeparateATI as *const ())),
+    (b"glStencilStrokePathInstancedNV", 1398, crate::Address(glStencilStrokePathInstancedNV as *const ())),
+    (b"glStencilStrokePathNV", 1399, crate::Address(glStencilStrokePathNV as *const ())),
+    (b"glStencilThenCoverFillPathInstancedNV", 1400, crate::Address(glStencilThenCoverFillPathInstancedNV as *const ())),
+    (b"glStencilThenCoverFillPathNV", 1401, crate::Address(glStencilThenCoverFillPathNV as *const ())),
+    (b"glStencilThenCoverStrokePathInstancedNV", 1402, crate::Address(glStencilThenCoverStrokePathInstancedNV as *const ())),
+    (b"glStencilThenCoverStrokePathNV", 1403, crate::Address(glStencilThenCoverStrokePathNV as *const ())),
     (b"glTexCoord1d", 78, crate::Address(glTexCoord1d as *const ())),
     (b"glTexCoord1dv", 79, crate::Address(glTexCoord1dv as *const ())),
     (b"glTexCoord1f", 80, crate::Address(glTexCoord1f as *const ())),
@@ -6944,7 +6952,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glTexCoordP3uiv", 430, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 431, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 432, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1754, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1756, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 596, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 597, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 598, crate::Address(glTexEnvi as *const ())),
@@ -6955,238 +6963,238 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glTexGenfv", 573, crate::Address(glTexGenfv as *const ())),
     (b"glTexGeni", 574, crate::Address(glTexGeni as *const ())),
     (b"glTexGeniv", 575, crate::Address(glTexGeniv as *const ())),
-    (b"glTexImage1D", 832, crate::Address(glTexImage1D as *const ())),
-    (b"glTexImage2D", 833, crate::Address(glTexImage2D as *const ())),
-    (b"glTexImage2DMultisample", 878, crate::Address(glTexImage2DMultisample as *const ())),
-    (b"glTexImage2DMultisampleCoverageNV", 941, crate::Address(glTexImage2DMultisampleCoverageNV as *const ())),
-    (b"glTexImage3D", 834, crate::Address(glTexImage3D as *const ())),
-    (b"glTexImage3DEXT", 835, crate::Address(glTexImage3DEXT as *const ())),
-    (b"glTexImage3DMultisample", 879, crate::Address(glTexImage3DMultisample as *const ())),
-    (b"glTexImage3DMultisampleCoverageNV", 942, crate::Address(glTexImage3DMultisampleCoverageNV as *const ())),
-    (b"glTexImage3DOES", 889, crate::Address(glTexImage3DOES as *const ())),
-    (b"glTexPageCommitmentARB", 943, crate::Address(glTexPageCommitmentARB as *const ())),
-    (b"glTexPageCommitmentEXT", 944, crate::Address(glTexPageCommitmentEXT as *const ())),
-    (b"glTexPageCommitmentMemNV", 945, crate::Address(glTexPageCommitmentMemNV as *const ())),
-    (b"glTexParameterIiv", 955, crate::Address(glTexParameterIiv as *const ())),
-    (b"glTexParameterIivEXT", 956, crate::Address(glTexParameterIivEXT as *const ())),
-    (b"glTexParameterIivOES", 957, crate::Address(glTexParameterIivOES as *const ())),
-    (b"glTexParameterIuiv", 958, crate::Address(glTexParameterIuiv as *const ())),
-    (b"glTexParameterIuivEXT", 959, crate::Address(glTexParameterIuivEXT as *const ())),
-    (b"glTexParameterIuivOES", 960, crate::Address(glTexParameterIuivOES as *const ())),
-    (b"glTexParameterf", 951, crate::Address(glTexParameterf as *const ())),
-    (b"glTexParameterfv", 952, crate::Address(glTexParameterfv as *const ())),
-    (b"glTexParameteri", 953, crate::Address(glTexParameteri as *const ())),
-    (b"glTexParameteriv", 954, crate::Address(glTexParameteriv as *const ())),
-    (b"glTexRenderbufferNV", 949, crate::Address(glTexRenderbufferNV as *const ())),
-    (b"glTexStorage1D", 880, crate::Address(glTexStorage1D as *const ())),
-    (b"glTexStorage1DEXT", 881, crate::Address(glTexStorage1DEXT as *const ())),
-    (b"glTexStorage2D", 882, crate::Address(glTexStorage2D as *const ())),
-    (b"glTexStorage2DEXT", 883, crate::Address(glTexStorage2DEXT as *const ())),
-    (b"glTexStorage2DMultisample", 886, crate::Address(glTexStorage2DMultisample as *const ())),
-    (b"glTexStorage3D", 884, crate::Address(glTexStorage3D as *const ())),
-    (b"glTexStorage3DEXT", 885, crate::Address(glTexStorage3DEXT as *const ())),
-    (b"glTexStorage3DMultisample", 887, crate::Address(glTexStorage3DMultisample as *const ())),
-    (b"glTexStorage3DMultisampleOES", 888, crate::Address(glTexStorage3DMultisampleOES as *const ())),
-    (b"glTexStorageAttribs2DEXT", 947, crate::Address(glTexStorageAttribs2DEXT as *const ())),
-    (b"glTexStorageAttribs3DEXT", 948, crate::Address(glTexStorageAttribs3DEXT as *const ())),
-    (b"glTexStorageMem1DEXT", 936, crate::Address(glTexStorageMem1DEXT as *const ())),
-    (b"glTexStorageMem2DEXT", 937, crate::Address(glTexStorageMem2DEXT as *const ())),
-    (b"glTexStorageMem2DMultisampleEXT", 939, crate::Address(glTexStorageMem2DMultisampleEXT as *const ())),
-    (b"glTexStorageMem3DEXT", 938, crate::Address(glTexStorageMem3DEXT as *const ())),
-    (b"glTexStorageMem3DMultisampleEXT", 940, crate::Address(glTexStorageMem3DMultisampleEXT as *const ())),
-    (b"glTexStorageSparseAMD", 950, crate::Address(glTexStorageSparseAMD as *const ())),
-    (b"glTexSubImage1D", 836, crate::Address(glTexSubImage1D as *const ())),
-    (b"glTexSubImage1DEXT", 837, crate::Address(glTexSubImage1DEXT as *const ())),
-    (b"glTexSubImage2D", 838, crate::Address(glTexSubImage2D as *const ())),
-    (b"glTexSubImage2DEXT", 839, crate::Address(glTexSubImage2DEXT as *const ())),
-    (b"glTexSubImage3D", 840, crate::Address(glTexSubImage3D as *const ())),
-    (b"glTexSubImage3DEXT", 841, crate::Address(glTexSubImage3DEXT as *const ())),
-    (b"glTexSubImage3DOES", 890, crate::Address(glTexSubImage3DOES as *const ())),
-    (b"glTextureImage1DEXT", 854, crate::Address(glTextureImage1DEXT as *const ())),
-    (b"glTextureImage2DEXT", 855, crate::Address(glTextureImage2DEXT as *const ())),
-    (b"glTextureImage2DMultisampleCoverageNV", 925, crate::Address(glTextureImage2DMultisampleCoverageNV as *const ())),
-    (b"glTextureImage2DMultisampleNV", 926, crate::Address(glTextureImage2DMultisampleNV as *const ())),
-    (b"glTextureImage3DEXT", 856, crate::Address(glTextureImage3DEXT as *const ())),
-    (b"glTextureImage3DMultisampleCoverageNV", 927, crate::Address(glTextureImage3DMultisampleCoverageNV as *const ())),
-    (b"glTextureImage3DMultisampleNV", 928, crate::Address(glTextureImage3DMultisampleNV as *const ())),
-    (b"glTexturePageCommitmentEXT", 929, crate::Address(glTexturePageCommitmentEXT as *const ())),
-    (b"glTexturePageCommitmentMemNV", 930, crate::Address(glTexturePageCommitmentMemNV as *const ())),
-    (b"glTextureParameterIiv", 965, crate::Address(glTextureParameterIiv as *const ())),
-    (b"glTextureParameterIivEXT", 971, crate::Address(glTextureParameterIivEXT as *const ())),
-    (b"glTextureParameterIuiv", 966, crate::Address(glTextureParameterIuiv as *const ())),
-    (b"glTextureParameterIuivEXT", 972, crate::Address(glTextureParameterIuivEXT as *const ())),
-    (b"glTextureParameterf", 961, crate::Address(glTextureParameterf as *const ())),
-    (b"glTextureParameterfEXT", 967, crate::Address(glTextureParameterfEXT as *const ())),
-    (b"glTextureParameterfv", 962, crate::Address(glTextureParameterfv as *const ())),
-    (b"glTextureParameterfvEXT", 968, crate::Address(glTextureParameterfvEXT as *const ())),
-    (b"glTextureParameteri", 963, crate::Address(glTextureParameteri as *const ())),
-    (b"glTextureParameteriEXT", 969, crate::Address(glTextureParameteriEXT as *const ())),
-    (b"glTextureParameteriv", 964, crate::Address(glTextureParameteriv as *const ())),
-    (b"glTextureParameterivEXT", 970, crate::Address(glTextureParameterivEXT as *const ())),
-    (b"glTextureRenderbufferEXT", 933, crate::Address(glTextureRenderbufferEXT as *const ())),
-    (b"glTextureStorage1D", 900, crate::Address(glTextureStorage1D as *const ())),
-    (b"glTextureStorage1DEXT", 915, crate::Address(glTextureStorage1DEXT as *const ())),
-    (b"glTextureStorage2D", 901, crate::Address(glTextureStorage2D as *const ())),
-    (b"glTextureStorage2DEXT", 916, crate::Address(glTextureStorage2DEXT as *const ())),
-    (b"glTextureStorage2DMultisample", 903, crate::Address(glTextureStorage2DMultisample as *const ())),
-    (b"glTextureStorage2DMultisampleEXT", 918, crate::Address(glTextureStorage2DMultisampleEXT as *const ())),
-    (b"glTextureStorage3D", 902, crate::Address(glTextureStorage3D as *const ())),
-    (b"glTextureStorage3DEXT", 917, crate::Address(glTextureStorage3DEXT as *const ())),
-    (b"glTextureStorage3DMultisample", 904, crate::Address(glTextureStorage3DMultisample as *const ())),
-    (b"glTextureStorage3DMultisampleEXT", 919, crate::Address(glTextureStorage3DMultisampleEXT as *const ())),
-    (b"glTextureStorageMem1DEXT", 920, crate::Address(glTextureStorageMem1DEXT as *const ())),
-    (b"glTextureStorageMem2DEXT", 921, crate::Address(glTextureStorageMem2DEXT as *const ())),
-    (b"glTextureStorageMem2DMultisampleEXT", 923, crate::Address(glTextureStorageMem2DMultisampleEXT as *const ())),
-    (b"glTextureStorageMem3DEXT", 922, crate::Address(glTextureStorageMem3DEXT as *const ())),
-    (b"glTextureStorageMem3DMultisampleEXT", 924, crate::Address(glTextureStorageMem3DMultisampleEXT as *const ())),
-    (b"glTextureStorageSparseAMD", 935, crate::Address(glTextureStorageSparseAMD as *const ())),
-    (b"glTextureSubImage1D", 894, crate::Address(glTextureSubImage1D as *const ())),
-    (b"glTextureSubImage1DEXT", 857, crate::Address(glTextureSubImage1DEXT as *const ())),
-    (b"glTextureSubImage2D", 895, crate::Address(glTextureSubImage2D as *const ())),
-    (b"glTextureSubImage2DEXT", 858, crate::Address(glTextureSubImage2DEXT as *const ())),
-    (b"glTextureSubImage3D", 896, crate::Address(glTextureSubImage3D as *const ())),
-    (b"glTextureSubImage3DEXT", 859, crate::Address(glTextureSubImage3DEXT as *const ())),
-    (b"glTextureView", 983, crate::Address(glTextureView as *const ())),
-    (b"glTextureViewEXT", 984, crate::Address(glTextureViewEXT as *const ())),
-    (b"glTextureViewOES", 985, crate::Address(glTextureViewOES as *const ())),
+    (b"glTexImage1D", 834, crate::Address(glTexImage1D as *const ())),
+    (b"glTexImage2D", 835, crate::Address(glTexImage2D as *const ())),
+    (b"glTexImage2DMultisample", 880, crate::Address(glTexImage2DMultisample as *const ())),
+    (b"glTexImage2DMultisampleCoverageNV", 943, crate::Address(glTexImage2DMultisampleCoverageNV as *const ())),
+    (b"glTexImage3D", 836, crate::Address(glTexImage3D as *const ())),
+    (b"glTexImage3DEXT", 837, crate::Address(glTexImage3DEXT as *const ())),
+    (b"glTexImage3DMultisample", 881, crate::Address(glTexImage3DMultisample as *const ())),
+    (b"glTexImage3DMultisampleCoverageNV", 944, crate::Address(glTexImage3DMultisampleCoverageNV as *const ())),
+    (b"glTexImage3DOES", 891, crate::Address(glTexImage3DOES as *const ())),
+    (b"glTexPageCommitmentARB", 945, crate::Address(glTexPageCommitmentARB as *const ())),
+    (b"glTexPageCommitmentEXT", 946, crate::Address(glTexPageCommitmentEXT as *const ())),
+    (b"glTexPageCommitmentMemNV", 947, crate::Address(glTexPageCommitmentMemNV as *const ())),
+    (b"glTexParameterIiv", 957, crate::Address(glTexParameterIiv as *const ())),
+    (b"glTexParameterIivEXT", 958, crate::Address(glTexParameterIivEXT as *const ())),
+    (b"glTexParameterIivOES", 959, crate::Address(glTexParameterIivOES as *const ())),
+    (b"glTexParameterIuiv", 960, crate::Address(glTexParameterIuiv as *const ())),
+    (b"glTexParameterIuivEXT", 961, crate::Address(glTexParameterIuivEXT as *const ())),
+    (b"glTexParameterIuivOES", 962, crate::Address(glTexParameterIuivOES as *const ())),
+    (b"glTexParameterf", 953, crate::Address(glTexParameterf as *const ())),
+    (b"glTexParameterfv", 954, crate::Address(glTexParameterfv as *const ())),
+    (b"glTexParameteri", 955, crate::Address(glTexParameteri as *const ())),
+    (b"glTexParameteriv", 956, crate::Address(glTexParameteriv as *const ())),
+    (b"glTexRenderbufferNV", 951, crate::Address(glTexRenderbufferNV as *const ())),
+    (b"glTexStorage1D", 882, crate::Address(glTexStorage1D as *const ())),
+    (b"glTexStorage1DEXT", 883, crate::Address(glTexStorage1DEXT as *const ())),
+    (b"glTexStorage2D", 884, crate::Address(glTexStorage2D as *const ())),
+    (b"glTexStorage2DEXT", 885, crate::Address(glTexStorage2DEXT as *const ())),
+    (b"glTexStorage2DMultisample", 888, crate::Address(glTexStorage2DMultisample as *const ())),
+    (b"glTexStorage3D", 886, crate::Address(glTexStorage3D as *const ())),
+    (b"glTexStorage3DEXT", 887, crate::Address(glTexStorage3DEXT as *const ())),
+    (b"glTexStorage3DMultisample", 889, crate::Address(glTexStorage3DMultisample as *const ())),
+    (b"glTexStorage3DMultisampleOES", 890, crate::Address(glTexStorage3DMultisampleOES as *const ())),
+    (b"glTexStorageAttribs2DEXT", 949, crate::Address(glTexStorageAttribs2DEXT as *const ())),
+    (b"glTexStorageAttribs3DEXT", 950, crate::Address(glTexStorageAttribs3DEXT as *const ())),
+    (b"glTexStorageMem1DEXT", 938, crate::Address(glTexStorageMem1DEXT as *const ())),
+    (b"glTexStorageMem2DEXT", 939, crate::Address(glTexStorageMem2DEXT as *const ())),
+    (b"glTexStorageMem2DMultisampleEXT", 941, crate::Address(glTexStorageMem2DMultisampleEXT as *const ())),
+    (b"glTexStorageMem3DEXT", 940, crate::Address(glTexStorageMem3DEXT as *const ())),
+    (b"glTexStorageMem3DMultisampleEXT", 942, crate::Address(glTexStorageMem3DMultisampleEXT as *const ())),
+    (b"glTexStorageSparseAMD", 952, crate::Address(glTexStorageSparseAMD as *const ())),
+    (b"glTexSubImage1D", 838, crate::Address(glTexSubImage1D as *const ())),
+    (b"glTexSubImage1DEXT", 839, crate::Address(glTexSubImage1DEXT as *const ())),
+    (b"glTexSubImage2D", 840, crate::Address(glTexSubImage2D as *const ())),
+    (b"glTexSubImage2DEXT", 841, crate::Address(glTexSubImage2DEXT as *const ())),
+    (b"glTexSubImage3D", 842, crate::Address(glTexSubImage3D as *const ())),
+    (b"glTexSubImage3DEXT", 843, crate::Address(glTexSubImage3DEXT as *const ())),
+    (b"glTexSubImage3DOES", 892, crate::Address(glTexSubImage3DOES as *const ())),
+    (b"glTextureImage1DEXT", 856, crate::Address(glTextureImage1DEXT as *const ())),
+    (b"glTextureImage2DEXT", 857, crate::Address(glTextureImage2DEXT as *const ())),
+    (b"glTextureImage2DMultisampleCoverageNV", 927, crate::Address(glTextureImage2DMultisampleCoverageNV as *const ())),
+    (b"glTextureImage2DMultisampleNV", 928, crate::Address(glTextureImage2DMultisampleNV as *const ())),
+    (b"glTextureImage3DEXT", 858, crate::Address(glTextureImage3DEXT as *const ())),
+    (b"glTextureImage3DMultisampleCoverageNV", 929, crate::Address(glTextureImage3DMultisampleCoverageNV as *const ())),
+    (b"glTextureImage3DMultisampleNV", 930, crate::Address(glTextureImage3DMultisampleNV as *const ())),
+    (b"glTexturePageCommitmentEXT", 931, crate::Address(glTexturePageCommitmentEXT as *const ())),
+    (b"glTexturePageCommitmentMemNV", 932, crate::Address(glTexturePageCommitmentMemNV as *const ())),
+    (b"glTextureParameterIiv", 967, crate::Address(glTextureParameterIiv as *const ())),
+    (b"glTextureParameterIivEXT", 973, crate::Address(glTextureParameterIivEXT as *const ())),
+    (b"glTextureParameterIuiv", 968, crate::Address(glTextureParameterIuiv as *const ())),
+    (b"glTextureParameterIuivEXT", 974, crate::Address(glTextureParameterIuivEXT as *const ())),
+    (b"glTextureParameterf", 963, crate::Address(glTextureParameterf as *const ())),
+    (b"glTextureParameterfEXT", 969, crate::Address(glTextureParameterfEXT as *const ())),
+    (b"glTextureParameterfv", 964, crate::Address(glTextureParameterfv as *const ())),
+    (b"glTextureParameterfvEXT", 970, crate::Address(glTextureParameterfvEXT as *const ())),
+    (b"glTextureParameteri", 965, crate::Address(glTextureParameteri as *const ())),
+    (b"glTextureParameteriEXT", 971, crate::Address(glTextureParameteriEXT as *const ())),
+    (b"glTextureParameteriv", 966, crate::Address(glTextureParameteriv as *const ())),
+    (b"glTextureParameterivEXT", 972, crate::Address(glTextureParameterivEXT as *const ())),
+    (b"glTextureRenderbufferEXT", 935, crate::Address(glTextureRenderbufferEXT as *const ())),
+    (b"glTextureStorage1D", 902, crate::Address(glTextureStorage1D as *const ())),
+    (b"glTextureStorage1DEXT", 917, crate::Address(glTextureStorage1DEXT as *const ())),
+    (b"glTextureStorage2D", 903, crate::Address(glTextureStorage2D as *const ())),
+    (b"glTextureStorage2DEXT", 918, crate::Address(glTextureStorage2DEXT as *const ())),
+    (b"glTextureStorage2DMultisample", 905, crate::Address(glTextureStorage2DMultisample as *const ())),
+    (b"glTextureStorage2DMultisampleEXT", 920, crate::Address(glTextureStorage2DMultisampleEXT as *const ())),
+    (b"glTextureStorage3D", 904, crate::Address(glTextureStorage3D as *const ())),
+    (b"glTextureStorage3DEXT", 919, crate::Address(glTextureStorage3DEXT as *const ())),
+    (b"glTextureStorage3DMultisample", 906, crate::Address(glTextureStorage3DMultisample as *const ())),
+    (b"glTextureStorage3DMultisampleEXT", 921, crate::Address(glTextureStorage3DMultisampleEXT as *const ())),
+    (b"glTextureStorageMem1DEXT", 922, crate::Address(glTextureStorageMem1DEXT as *const ())),
+    (b"glTextureStorageMem2DEXT", 923, crate::Address(glTextureStorageMem2DEXT as *const ())),
+    (b"glTextureStorageMem2DMultisampleEXT", 925, crate::Address(glTextureStorageMem2DMultisampleEXT as *const ())),
+    (b"glTextureStorageMem3DEXT", 924, crate::Address(glTextureStorageMem3DEXT as *const ())),
+    (b"glTextureStorageMem3DMultisampleEXT", 926, crate::Address(glTextureStorageMem3DMultisampleEXT as *const ())),
+    (b"glTextureStorageSparseAMD", 937, crate::Address(glTextureStorageSparseAMD as *const ())),
+    (b"glTextureSubImage1D", 896, crate::Address(glTextureSubImage1D as *const ())),
+    (b"glTextureSubImage1DEXT", 859, crate::Address(glTextureSubImage1DEXT as *const ())),
+    (b"glTextureSubImage2D", 897, crate::Address(glTextureSubImage2D as *const ())),
+    (b"glTextureSubImage2DEXT", 860, crate::Address(glTextureSubImage2DEXT as *const ())),
+    (b"glTextureSubImage3D", 898, crate::Address(glTextureSubImage3D as *const ())),
+    (b"glTextureSubImage3DEXT", 861, crate::Address(glTextureSubImage3DEXT as *const ())),
+    (b"glTextureView", 985, crate::Address(glTextureView as *const ())),
+    (b"glTextureViewEXT", 986, crate::Address(glTextureViewEXT as *const ())),
+    (b"glTextureViewOES", 987, crate::Address(glTextureViewOES as *const ())),
     (b"glTranslated", 475, crate::Address(glTranslated as *const ())),
     (b"glTranslatef", 476, crate::Address(glTranslatef as *const ())),
-    (b"glUniform1d", 1025, crate::Address(glUniform1d as *const ())),
-    (b"glUniform1dv", 1026, crate::Address(glUniform1dv as *const ())),
-    (b"glUniform1f", 1027, crate::Address(glUniform1f as *const ())),
-    (b"glUniform1fARB", 1028, crate::Address(glUniform1fARB as *const ())),
-    (b"glUniform1fv", 1029, crate::Address(glUniform1fv as *const ())),
-    (b"glUniform1fvARB", 1030, crate::Address(glUniform1fvARB as *const ())),
-    (b"glUniform1i", 1031, crate::Address(glUniform1i as *const ())),
-    (b"glUniform1i64ARB", 1225, crate::Address(glUniform1i64ARB as *const ())),
-    (b"glUniform1i64NV", 1226, crate::Address(glUniform1i64NV as *const ())),
-    (b"glUniform1i64vARB", 1227, crate::Address(glUniform1i64vARB as *const ())),
-    (b"glUniform1i64vNV", 1228, crate::Address(glUniform1i64vNV as *const ())),
-    (b"glUniform1iARB", 1032, crate::Address(glUniform1iARB as *const ())),
-    (b"glUniform1iv", 1033, crate::Address(glUniform1iv as *const ())),
-    (b"glUniform1ivARB", 1034, crate::Address(glUniform1ivARB as *const ())),
-    (b"glUniform1ui", 1035, crate::Address(glUniform1ui as *const ())),
-    (b"glUniform1ui64ARB", 1229, crate::Address(glUniform1ui64ARB as *const ())),
-    (b"glUniform1ui64NV", 1230, crate::Address(glUniform1ui64NV as *const ())),
-    (b"glUniform1ui64vARB", 1231, crate::Address(glUniform1ui64vARB as *const ())),
-    (b"glUniform1ui64vNV", 1232, crate::Address(glUniform1ui64vNV as *const ())),
-    (b"glUniform1uiEXT", 1036, crate::Address(glUniform1uiEXT as *const ())),
-    (b"glUniform1uiv", 1037, crate::Address(glUniform1uiv as *const ())),
-    (b"glUniform1uivEXT", 1038, crate::Address(glUniform1uivEXT as *const ())),
-    (b"glUniform2d", 1039, crate::Address(glUniform2d as *const ())),
-    (b"glUniform2dv", 1040, crate::Address(glUniform2dv as *const ())),
-    (b"glUniform2f", 1041, crate::Address(glUniform2f as *const ())),
-    (b"glUniform2fARB", 1042, crate::Address(glUniform2fARB as *const ())),
-    (b"glUniform2fv", 1043, crate::Address(glUniform2fv as *const ())),
-    (b"glUniform2fvARB", 1044, crate::Address(glUniform2fvARB as *const ())),
-    (b"glUniform2i", 1045, crate::Address(glUniform2i as *const ())),
-    (b"glUniform2i64ARB", 1233, crate::Address(glUniform2i64ARB as *const ())),
-    (b"glUniform2i64NV", 1234, crate::Address(glUniform2i64NV as *const ())),
-    (b"glUniform2i64vARB", 1235, crate::Address(glUniform2i64vARB as *const ())),
-    (b"glUniform2i64vNV", 1236, crate::Address(glUniform2i64vNV as *const ())),
-    (b"glUniform2iARB", 1046, crate::Address(glUniform2iARB as *const ())),
-    (b"glUniform2iv", 1047, crate::Address(glUniform2iv as *const ())),
-    (b"glUniform2ivARB", 1048, crate::Address(glUniform2ivARB as *const ())),
-    (b"glUniform2ui", 1049, crate::Address(glUniform2ui as *const ())),
-    (b"glUniform2ui64ARB", 1237, crate::Address(glUniform2ui64ARB as *const ())),
-    (b"glUniform2ui64NV", 1238, crate::Address(glUniform2ui64NV as *const ())),
-    (b"glUniform2ui64vARB", 1239, crate::Address(glUniform2ui64vARB as *const ())),
-    (b"glUniform2ui64vNV", 1240, crate::Address(glUniform2ui64vNV as *const ())),
-    (b"glUniform2uiEXT", 1050, crate::Address(glUniform2uiEXT as *const ())),
-    (b"glUniform2uiv", 1051, crate::Address(glUniform2uiv as *const ())),
-    (b"glUniform2uivEXT", 1052, crate::Address(glUniform2uivEXT as *const ())),
-    (b"glUniform3d", 1053, crate::Address(glUniform3d as *const ())),
-    (b"glUniform3dv", 1054, crate::Address(glUniform3dv as *const ())),
-    (b"glUniform3f", 1055, crate::Address(glUniform3f as *const ())),
-    (b"glUniform3fARB", 1056, crate::Address(glUniform3fARB as *const ())),
-    (b"glUniform3fv", 1057, crate::Address(glUniform3fv as *const ())),
-    (b"glUniform3fvARB", 1058, crate::Address(glUniform3fvARB as *const ())),
-    (b"glUniform3i", 1059, crate::Address(glUniform3i as *const ())),
-    (b"glUniform3i64ARB", 1241, crate::Address(glUniform3i64ARB as *const ())),
-    (b"glUniform3i64NV", 1242, crate::Address(glUniform3i64NV as *const ())),
-    (b"glUniform3i64vARB", 1243, crate::Address(glUniform3i64vARB as *const ())),
-    (b"glUniform3i64vNV", 1244, crate::Address(glUniform3i64vNV as *const ())),
-    (b"glUniform3iARB", 1060, crate::Address(glUniform3iARB as *const ())),
-    (b"glUniform3iv", 1061, crate::Address(glUniform3iv as *const ())),
-    (b"glUniform3ivARB", 1062, crate::Address(glUniform3ivARB as *const ())),
-    (b"glUniform3ui", 1063, crate::Address(glUniform3ui as *const ())),
-    (b"glUniform3ui64ARB", 1245, crate::Address(glUniform3ui64ARB as *const ())),
-    (b"glUniform3ui64NV", 1246, crate::Address(glUniform3ui64NV as *const ())),
-    (b"glUniform3ui64vARB", 1247, crate::Address(glUniform3ui64vARB as *const ())),
-    (b"glUniform3ui64vNV", 1248, crate::Address(glUniform3ui64vNV as *const ())),
-    (b"glUniform3uiEXT", 1064, crate::Address(glUniform3uiEXT as *const ())),
-    (b"glUniform3uiv", 1065, crate::Address(glUniform3uiv as *const ())),
-    (b"glUniform3uivEXT", 1066, crate::Address(glUniform3uivEXT as *const ())),
-    (b"glUniform4d", 1067, crate::Address(glUniform4d as *const ())),
-    (b"glUniform4dv", 1068, crate::Address(glUniform4dv as *const ())),
-    (b"glUniform4f", 1069, crate::Address(glUniform4f as *const ())),
-    (b"glUniform4fARB", 1070, crate::Address(glUniform4fARB as *const ())),
-    (b"glUniform4fv", 1071, crate::Address(glUniform4fv as *const ())),
-    (b"glUniform4fvARB", 1072, crate::Address(glUniform4fvARB as *const ())),
-    (b"glUniform4i", 1073, crate::Address(glUniform4i as *const ())),
-    (b"glUniform4i64ARB", 1249, crate::Address(glUniform4i64ARB as *const ())),
-    (b"glUniform4i64NV", 1250, crate::Address(glUniform4i64NV as *const ())),
-    (b"glUniform4i64vARB", 1251, crate::Address(glUniform4i64vARB as *const ())),
-    (b"glUniform4i64vNV", 1252, crate::Address(glUniform4i64vNV as *const ())),
-    (b"glUniform4iARB", 1074, crate::Address(glUniform4iARB as *const ())),
-    (b"glUniform4iv", 1075, crate::Address(glUniform4iv as *const ())),
-    (b"glUniform4ivARB", 1076, crate::Address(glUniform4ivARB as *const ())),
-    (b"glUniform4ui", 1077, crate::Address(glUniform4ui as *const ())),
-    (b"glUniform4ui64ARB", 1253, crate::Address(glUniform4ui64ARB as *const ())),
-    (b"glUniform4ui64NV", 1254, crate::Address(glUniform4ui64NV as *const ())),
-    (b"glUniform4ui64vARB", 1255, crate::Address(glUniform4ui64vARB as *const ())),
-    (b"glUniform4ui64vNV", 1256, crate::Address(glUniform4ui64vNV as *const ())),
-    (b"glUniform4uiEXT", 1078, crate::Address(glUniform4uiEXT as *const ())),
-    (b"glUniform4uiv", 1079, crate::Address(glUniform4uiv as *const ())),
-    (b"glUniform4uivEXT", 1080, crate::Address(glUniform4uivEXT as *const ())),
-    (b"glUniformBlockBinding", 1191, crate::Address(glUniformBlockBinding as *const ())),
-    (b"glUniformBufferEXT", 1273, crate::Address(glUniformBufferEXT as *const ())),
-    (b"glUniformHandleui64ARB", 1263, crate::Address(glUniformHandleui64ARB as *const ())),
-    (b"glUniformHandleui64IMG", 1264, crate::Address(glUniformHandleui64IMG as *const ())),
-    (b"glUniformHandleui64NV", 1265, crate::Address(glUniformHandleui64NV as *const ())),
-    (b"glUniformHandleui64vARB", 1266, crate::Address(glUniformHandleui64vARB as *const ())),
-    (b"glUniformHandleui64vIMG", 1267, crate::Address(glUniformHandleui64vIMG as *const ())),
-    (b"glUniformHandleui64vNV", 1268, crate::Address(glUniformHandleui64vNV as *const ())),
-    (b"glUniformMatrix2dv", 1081, crate::Address(glUniformMatrix2dv as *const ())),
-    (b"glUniformMatrix2fv", 1082, crate::Address(glUniformMatrix2fv as *const ())),
-    (b"glUniformMatrix2fvARB", 1083, crate::Address(glUniformMatrix2fvARB as *const ())),
-    (b"glUniformMatrix2x3dv", 1084, crate::Address(glUniformMatrix2x3dv as *const ())),
-    (b"glUniformMatrix2x3fv", 1085, crate::Address(glUniformMatrix2x3fv as *const ())),
-    (b"glUniformMatrix2x3fvNV", 1086, crate::Address(glUniformMatrix2x3fvNV as *const ())),
-    (b"glUniformMatrix2x4dv", 1087, crate::Address(glUniformMatrix2x4dv as *const ())),
-    (b"glUniformMatrix2x4fv", 1088, crate::Address(glUniformMatrix2x4fv as *const ())),
-    (b"glUniformMatrix2x4fvNV", 1089, crate::Address(glUniformMatrix2x4fvNV as *const ())),
-    (b"glUniformMatrix3dv", 1090, crate::Address(glUniformMatrix3dv as *const ())),
-    (b"glUniformMatrix3fv", 1091, crate::Address(glUniformMatrix3fv as *const ())),
-    (b"glUniformMatrix3fvARB", 1092, crate::Address(glUniformMatrix3fvARB as *const ())),
-    (b"glUniformMatrix3x2dv", 1093, crate::Address(glUniformMatrix3x2dv as *const ())),
-    (b"glUniformMatrix3x2fv", 1094, crate::Address(glUniformMatrix3x2fv as *const ())),
-    (b"glUniformMatrix3x2fvNV", 1095, crate::Address(glUniformMatrix3x2fvNV as *const ())),
-    (b"glUniformMatrix3x4dv", 1096, crate::Address(glUniformMatrix3x4dv as *const ())),
-    (b"glUniformMatrix3x4fv", 1097, crate::Address(glUniformMatrix3x4fv as *const ())),
-    (b"glUniformMatrix3x4fvNV", 1098, crate::Address(glUniformMatrix3x4fvNV as *const ())),
-    (b"glUniformMatrix4dv", 1099, crate::Address(glUniformMatrix4dv as *const ())),
-    (b"glUniformMatrix4fv", 1100, crate::Address(glUniformMatrix4fv as *const ())),
-    (b"glUniformMatrix4fvARB", 1101, crate::Address(glUniformMatrix4fvARB as *const ())),
-    (b"glUniformMatrix4x2dv", 1102, crate::Address(glUniformMatrix4x2dv as *const ())),
-    (b"glUniformMatrix4x2fv", 1103, crate::Address(glUniformMatrix4x2fv as *const ())),
-    (b"glUniformMatrix4x2fvNV", 1104, crate::Address(glUniformMatrix4x2fvNV as *const ())),
-    (b"glUniformMatrix4x3dv", 1105, crate::Address(glUniformMatrix4x3dv as *const ())),
-    (b"glUniformMatrix4x3fv", 1106, crate::Address(glUniformMatrix4x3fv as *const ())),
-    (b"glUniformMatrix4x3fvNV", 1107, crate::Address(glUniformMatrix4x3fvNV as *const ())),
-    (b"glUniformSubroutinesuiv", 1291, crate::Address(glUniformSubroutinesuiv as *const ())),
-    (b"glUniformui64NV", 1271, crate::Address(glUniformui64NV as *const ())),
-    (b"glUniformui64vNV", 1272, crate::Address(glUniformui64vNV as *const ())),
-    (b"glUnmapBuffer", 1720, crate::Address(glUnmapBuffer as *const ())),
-    (b"glUnmapBufferARB", 1721, crate::Address(glUnmapBufferARB as *const ())),
-    (b"glUnmapBufferOES", 1722, crate::Address(glUnmapBufferOES as *const ())),
-    (b"glUnmapNamedBuffer", 1723, crate::Address(glUnmapNamedBuffer as *const ())),
-    (b"glUnmapNamedBufferEXT", 1699, crate::Address(glUnmapNamedBufferEXT as *const ())),
-    (b"glUseProgram", 1296, crate::Address(glUseProgram as *const ())),
-    (b"glUseProgramObjectARB", 1297, crate::Address(glUseProgramObjectARB as *const ())),
+    (b"glUniform1d", 1027, crate::Address(glUniform1d as *const ())),
+    (b"glUniform1dv", 1028, crate::Address(glUniform1dv as *const ())),
+    (b"glUniform1f", 1029, crate::Address(glUniform1f as *const ())),
+    (b"glUniform1fARB", 1030, crate::Address(glUniform1fARB as *const ())),
+    (b"glUniform1fv", 1031, crate::Address(glUniform1fv as *const ())),
+    (b"glUniform1fvARB", 1032, crate::Address(glUniform1fvARB as *const ())),
+    (b"glUniform1i", 1033, crate::Address(glUniform1i as *const ())),
+    (b"glUniform1i64ARB", 1227, crate::Address(glUniform1i64ARB as *const ())),
+    (b"glUniform1i64NV", 1228, crate::Address(glUniform1i64NV as *const ())),
+    (b"glUniform1i64vARB", 1229, crate::Address(glUniform1i64vARB as *const ())),
+    (b"glUniform1i64vNV", 1230, crate::Address(glUniform1i64vNV as *const ())),
+    (b"glUniform1iARB", 1034, crate::Address(glUniform1iARB as *const ())),
+    (b"glUniform1iv", 1035, crate::Address(glUniform1iv as *const ())),
+    (b"glUniform1ivARB", 1036, crate::Address(glUniform1ivARB as *const ())),
+    (b"glUniform1ui", 1037, crate::Address(glUniform1ui as *const ())),
+    (b"glUniform1ui64ARB", 1231, crate::Address(glUniform1ui64ARB as *const ())),
+    (b"glUniform1ui64NV", 1232, crate::Address(glUniform1ui64NV as *const ())),
+    (b"glUniform1ui64vARB", 1233, crate::Address(glUniform1ui64vARB as *const ())),
+    (b"glUniform1ui64vNV", 1234, crate::Address(glUniform1ui64vNV as *const ())),
+    (b"glUniform1uiEXT", 1038, crate::Address(glUniform1uiEXT as *const ())),
+    (b"glUniform1uiv", 1039, crate::Address(glUniform1uiv as *const ())),
+    (b"glUniform1uivEXT", 1040, crate::Address(glUniform1uivEXT as *const ())),
+    (b"glUniform2d", 1041, crate::Address(glUniform2d as *const ())),
+    (b"glUniform2dv", 1042, crate::Address(glUniform2dv as *const ())),
+    (b"glUniform2f", 1043, crate::Address(glUniform2f as *const ())),
+    (b"glUniform2fARB", 1044, crate::Address(glUniform2fARB as *const ())),
+    (b"glUniform2fv", 1045, crate::Address(glUniform2fv as *const ())),
+    (b"glUniform2fvARB", 1046, crate::Address(glUniform2fvARB as *const ())),
+    (b"glUniform2i", 1047, crate::Address(glUniform2i as *const ())),
+    (b"glUniform2i64ARB", 1235, crate::Address(glUniform2i64ARB as *const ())),
+    (b"glUniform2i64NV", 1236, crate::Address(glUniform2i64NV as *const ())),
+    (b"glUniform2i64vARB", 1237, crate::Address(glUniform2i64vARB as *const ())),
+    (b"glUniform2i64vNV", 1238, crate::Address(glUniform2i64vNV as *const ())),
+    (b"glUniform2iARB", 1048, crate::Address(glUniform2iARB as *const ())),
+    (b"glUniform2iv", 1049, crate::Address(glUniform2iv as *const ())),
+    (b"glUniform2ivARB", 1050, crate::Address(glUniform2ivARB as *const ())),
+    (b"glUniform2ui", 1051, crate::Address(glUniform2ui as *const ())),
+    (b"glUniform2ui64ARB", 1239, crate::Address(glUniform2ui64ARB as *const ())),
+    (b"glUniform2ui64NV", 1240, crate::Address(glUniform2ui64NV as *const ())),
+    (b"glUniform2ui64vARB", 1241, crate::Address(glUniform2ui64vARB as *const ())),
+    (b"glUniform2ui64vNV", 1242, crate::Address(glUniform2ui64vNV as *const ())),
+    (b"glUniform2uiEXT", 1052, crate::Address(glUniform2uiEXT as *const ())),
+    (b"glUniform2uiv", 1053, crate::Address(glUniform2uiv as *const ())),
+    (b"glUniform2uivEXT", 1054, crate::Address(glUniform2uivEXT as *const ())),
+    (b"glUniform3d", 1055, crate::Address(glUniform3d as *const ())),
+    (b"glUniform3dv", 1056, crate::Address(glUniform3dv as *const ())),
+    (b"glUniform3f", 1057, crate::Address(glUniform3f as *const ())),
+    (b"glUniform3fARB", 1058, crate::Address(glUniform3fARB as *const ())),
+    (b"glUniform3fv", 1059, crate::Address(glUniform3fv as *const ())),
+    (b"glUniform3fvARB", 1060, crate::Address(glUniform3fvARB as *const ())),
+    (b"glUniform3i", 1061, crate::Address(glUniform3i as *const ())),
+    (b"glUniform3i64ARB", 1243, crate::Address(glUniform3i64ARB as *const ())),
+    (b"glUniform3i64NV", 1244, crate::Address(glUniform3i64NV as *const ())),
+    (b"glUniform3i64vARB", 1245, crate::Address(glUniform3i64vARB as *const ())),
+    (b"glUniform3i64vNV", 1246, crate::Address(glUniform3i64vNV as *const ())),
+    (b"glUniform3iARB", 1062, crate::Address(glUniform3iARB as *const ())),
+    (b"glUniform3iv", 1063, crate::Address(glUniform3iv as *const ())),
+    (b"glUniform3ivARB", 1064, crate::Address(glUniform3ivARB as *const ())),
+    (b"glUniform3ui", 1065, crate::Address(glUniform3ui as *const ())),
+    (b"glUniform3ui64ARB", 1247, crate::Address(glUniform3ui64ARB as *const ())),
+    (b"glUniform3ui64NV", 1248, crate::Address(glUniform3ui64NV as *const ())),
+    (b"glUniform3ui64vARB", 1249, crate::Address(glUniform3ui64vARB as *const ())),
+    (b"glUniform3ui64vNV", 1250, crate::Address(glUniform3ui64vNV as *const ())),
+    (b"glUniform3uiEXT", 1066, crate::Address(glUniform3uiEXT as *const ())),
+    (b"glUniform3uiv", 1067, crate::Address(glUniform3uiv as *const ())),
+    (b"glUniform3uivEXT", 1068, crate::Address(glUniform3uivEXT as *const ())),
+    (b"glUniform4d", 1069, crate::Address(glUniform4d as *const ())),
+    (b"glUniform4dv", 1070, crate::Address(glUniform4dv as *const ())),
+    (b"glUniform4f", 1071, crate::Address(glUniform4f as *const ())),
+    (b"glUniform4fARB", 1072, crate::Address(glUniform4fARB as *const ())),
+    (b"glUniform4fv", 1073, crate::Address(glUniform4fv as *const ())),
+    (b"glUniform4fvARB", 1074, crate::Address(glUniform4fvARB as *const ())),
+    (b"glUniform4i", 1075, crate::Address(glUniform4i as *const ())),
+    (b"glUniform4i64ARB", 1251, crate::Address(glUniform4i64ARB as *const ())),
+    (b"glUniform4i64NV", 1252, crate::Address(glUniform4i64NV as *const ())),
+    (b"glUniform4i64vARB", 1253, crate::Address(glUniform4i64vARB as *const ())),
+    (b"glUniform4i64vNV", 1254, crate::Address(glUniform4i64vNV as *const ())),
+    (b"glUniform4iARB", 1076, crate::Address(glUniform4iARB as *const ())),
+    (b"glUniform4iv", 1077, crate::Address(glUniform4iv as *const ())),
+    (b"glUniform4ivARB", 1078, crate::Address(glUniform4ivARB as *const ())),
+    (b"glUniform4ui", 1079, crate::Address(glUniform4ui as *const ())),
+    (b"glUniform4ui64ARB", 1255, crate::Address(glUniform4ui64ARB as *const ())),
+    (b"glUniform4ui64NV", 1256, crate::Address(glUniform4ui64NV as *const ())),
+    (b"glUniform4ui64vARB", 1257, crate::Address(glUniform4ui64vARB as *const ())),
+    (b"glUniform4ui64vNV", 1258, crate::Address(glUniform4ui64vNV as *const ())),
+    (b"glUniform4uiEXT", 1080, crate::Address(glUniform4uiEXT as *const ())),
+    (b"glUniform4uiv", 1081, crate::Address(glUniform4uiv as *const ())),
+    (b"glUniform4uivEXT", 1082, crate::Address(glUniform4uivEXT as *const ())),
+    (b"glUniformBlockBinding", 1193, crate::Address(glUniformBlockBinding as *const ())),
+    (b"glUniformBufferEXT", 1275, crate::Address(glUniformBufferEXT as *const ())),
+    (b"glUniformHandleui64ARB", 1265, crate::Address(glUniformHandleui64ARB as *const ())),
+    (b"glUniformHandleui64IMG", 1266, crate::Address(glUniformHandleui64IMG as *const ())),
+    (b"glUniformHandleui64NV", 1267, crate::Address(glUniformHandleui64NV as *const ())),
+    (b"glUniformHandleui64vARB", 1268, crate::Address(glUniformHandleui64vARB as *const ())),
+    (b"glUniformHandleui64vIMG", 1269, crate::Address(glUniformHandleui64vIMG as *const ())),
+    (b"glUniformHandleui64vNV", 1270, crate::Address(glUniformHandleui64vNV as *const ())),
+    (b"glUniformMatrix2dv", 1083, crate::Address(glUniformMatrix2dv as *const ())),
+    (b"glUniformMatrix2fv", 1084, crate::Address(glUniformMatrix2fv as *const ())),
+    (b"glUniformMatrix2fvARB", 1085, crate::Address(glUniformMatrix2fvARB as *const ())),
+    (b"glUniformMatrix2x3dv", 1086, crate::Address(glUniformMatrix2x3dv as *const ())),
+    (b"glUniformMatrix2x3fv", 1087, crate::Address(glUniformMatrix2x3fv as *const ())),
+    (b"glUniformMatrix2x3fvNV", 1088, crate::Address(glUniformMatrix2x3fvNV as *const ())),
+    (b"glUniformMatrix2x4dv", 1089, crate::Address(glUniformMatrix2x4dv as *const ())),
+    (b"glUniformMatrix2x4fv", 1090, crate::Address(glUniformMatrix2x4fv as *const ())),
+    (b"glUniformMatrix2x4fvNV", 1091, crate::Address(glUniformMatrix2x4fvNV as *const ())),
+    (b"glUniformMatrix3dv", 1092, crate::Address(glUniformMatrix3dv as *const ())),
+    (b"glUniformMatrix3fv", 1093, crate::Address(glUniformMatrix3fv as *const ())),
+    (b"glUniformMatrix3fvARB", 1094, crate::Address(glUniformMatrix3fvARB as *const ())),
+    (b"glUniformMatrix3x2dv", 1095, crate::Address(glUniformMatrix3x2dv as *const ())),
+    (b"glUniformMatrix3x2fv", 1096, crate::Address(glUniformMatrix3x2fv as *const ())),
+    (b"glUniformMatrix3x2fvNV", 1097, crate::Address(glUniformMatrix3x2fvNV as *const ())),
+    (b"glUniformMatrix3x4dv", 1098, crate::Address(glUniformMatrix3x4dv as *const ())),
+    (b"glUniformMatrix3x4fv", 1099, crate::Address(glUniformMatrix3x4fv as *const ())),
+    (b"glUniformMatrix3x4fvNV", 1100, crate::Address(glUniformMatrix3x4fvNV as *const ())),
+    (b"glUniformMatrix4dv", 1101, crate::Address(glUniformMatrix4dv as *const ())),
+    (b"glUniformMatrix4fv", 1102, crate::Address(glUniformMatrix4fv as *const ())),
+    (b"glUniformMatrix4fvARB", 1103, crate::Address(glUniformMatrix4fvARB as *const ())),
+    (b"glUniformMatrix4x2dv", 1104, crate::Address(glUniformMatrix4x2dv as *const ())),
+    (b"glUniformMatrix4x2fv", 1105, crate::Address(glUniformMatrix4x2fv as *const ())),
+    (b"glUniformMatrix4x2fvNV", 1106, crate::Address(glUniformMatrix4x2fvNV as *const ())),
+    (b"glUniformMatrix4x3dv", 1107, crate::Address(glUniformMatrix4x3dv as *const ())),
+    (b"glUniformMatrix4x3fv", 1108, crate::Address(glUniformMatrix4x3fv as *const ())),
+    (b"glUniformMatrix4x3fvNV", 1109, crate::Address(glUniformMatrix4x3fvNV as *const ())),
+    (b"glUniformSubroutinesuiv", 1293, crate::Address(glUniformSubroutinesuiv as *const ())),
+    (b"glUniformui64NV", 1273, crate::Address(glUniformui64NV as *const ())),
+    (b"glUniformui64vNV", 1274, crate::Address(glUniformui64vNV as *const ())),
+    (b"glUnmapBuffer", 1722, crate::Address(glUnmapBuffer as *const ())),
+    (b"glUnmapBufferARB", 1723, crate::Address(glUnmapBufferARB as *const ())),
+    (b"glUnmapBufferOES", 1724, crate::Address(glUnmapBufferOES as *const ())),
+    (b"glUnmapNamedBuffer", 1725, crate::Address(glUnmapNamedBuffer as *const ())),
+    (b"glUnmapNamedBufferEXT", 1701, crate::Address(glUnmapNamedBufferEXT as *const ())),
+    (b"glUseProgram", 1298, crate::Address(glUseProgram as *const ())),
+    (b"glUseProgramObjectARB", 1299, crate::Address(glUseProgramObjectARB as *const ())),
     (b"glUseProgramStages", 608, crate::Address(glUseProgramStages as *const ())),
     (b"glUseProgramStagesEXT", 609, crate::Address(glUseProgramStagesEXT as *const ())),
-    (b"glUseShaderProgramEXT", 628, crate::Address(glUseShaderProgramEXT as *const ())),
+    (b"glUseShaderProgramEXT", 630, crate::Address(glUseShaderProgramEXT as *const ())),
     (b"glVertex2d", 0, crate::Address(glVertex2d as *const ())),
     (b"glVertex2dv", 1, crate::Address(glVertex2dv as *const ())),
     (b"glVertex2f", 2, crate::Address(glVertex2f as *const ())),
@@ -7217,11 +7225,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glVertex4iv", 21, crate::Address(glVertex4iv as *const ())),
     (b"glVertex4s", 22, crate::Address(glVertex4s as *const ())),
     (b"glVertex4sv", 23, crate::Address(glVertex4sv as *const ())),
-    (b"glVertexArrayAttribBinding", 1768, crate::Address(glVertexArrayAttribBinding as *const ())),
-    (b"glVertexArrayBindingDivisor", 1014, crate::Address(glVertexArrayBindingDivisor as *const ())),
-    (b"glVertexArrayVertexAttribBindingEXT", 1773, crate::Address(glVertexArrayVertexAttribBindingEXT as *const ())),
-    (b"glVertexArrayVertexAttribDivisorEXT", 1016, crate::Address(glVertexArrayVertexAttribDivisorEXT as *const ())),
-    (b"glVertexArrayVertexBindingDivisorEXT", 1015, crate::Address(glVertexArrayVertexBindingDivisorEXT as *const ())),
+    (b"glVertexArrayAttribBinding", 1770, crate::Address(glVertexArrayAttribBinding as *const ())),
+    (b"glVertexArrayBindingDivisor", 1016, crate::Address(glVertexArrayBindingDivisor as *const ())),
+    (b"glVertexArrayVertexAttribBindingEXT", 1775, crate::Address(glVertexArrayVertexAttribBindingEXT as *const ())),
+    (b"glVertexArrayVertexAttribDivisorEXT", 1018, crate::Address(glVertexArrayVertexAttribDivisorEXT as *const ())),
+    (b"glVertexArrayVertexBindingDivisorEXT", 1017, crate::Address(glVertexArrayVertexBindingDivisorEXT as *const ())),
     (b"glVertexAttrib1d", 263, crate::Address(glVertexAttrib1d as *const ())),
     (b"glVertexAttrib1dARB", 264, crate::Address(glVertexAttrib1dARB as *const ())),
     (b"glVertexAttrib1dNV", 265, crate::Address(glVertexAttrib1dNV as *const ())),
@@ -7320,12 +7328,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glVertexAttrib4uivARB", 355, crate::Address(glVertexAttrib4uivARB as *const ())),
     (b"glVertexAttrib4usv", 356, crate::Address(glVertexAttrib4usv as *const ())),
     (b"glVertexAttrib4usvARB", 357, crate::Address(glVertexAttrib4usvARB as *const ())),
-    (b"glVertexAttribBinding", 1767, crate::Address(glVertexAttribBinding as *const ())),
-    (b"glVertexAttribDivisor", 1008, crate::Address(glVertexAttribDivisor as *const ())),
-    (b"glVertexAttribDivisorANGLE", 1009, crate::Address(glVertexAttribDivisorANGLE as *const ())),
-    (b"glVertexAttribDivisorARB", 1010, crate::Address(glVertexAttribDivisorARB as *const ())),
-    (b"glVertexAttribDivisorEXT", 1011, crate::Address(glVertexAttribDivisorEXT as *const ())),
-    (b"glVertexAttribDivisorNV", 1012, crate::Address(glVertexAttribDivisorNV as *const ())),
+    (b"glVertexAttribBinding", 1769, crate::Address(glVertexAttribBinding as *const ())),
+    (b"glVertexAttribDivisor", 1010, crate::Address(glVertexAttribDivisor as *const ())),
+    (b"glVertexAttribDivisorANGLE", 1011, crate::Address(glVertexAttribDivisorANGLE as *const ())),
+    (b"glVertexAttribDivisorARB", 1012, crate::Address(glVertexAttribDivisorARB as *const ())),
+    (b"glVertexAttribDivisorEXT", 1013, crate::Address(glVertexAttribDivisorEXT as *const ())),
+    (b"glVertexAttribDivisorNV", 1014, crate::Address(glVertexAttribDivisorNV as *const ())),
     (b"glVertexAttribI1i", 361, crate::Address(glVertexAttribI1i as *const ())),
     (b"glVertexAttribI1iEXT", 362, crate::Address(glVertexAttribI1iEXT as *const ())),
     (b"glVertexAttribI1iv", 363, crate::Address(glVertexAttribI1iv as *const ())),
@@ -7390,17 +7398,17 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glVertexAttribP3uiv", 452, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 453, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 454, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1761, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1762, crate::Address(glVertexAttribPointerARB as *const ())),
-    (b"glVertexBindingDivisor", 1013, crate::Address(glVertexBindingDivisor as *const ())),
-    (b"glVertexBlendARB", 625, crate::Address(glVertexBlendARB as *const ())),
+    (b"glVertexAttribPointer", 1763, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1764, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexBindingDivisor", 1015, crate::Address(glVertexBindingDivisor as *const ())),
+    (b"glVertexBlendARB", 627, crate::Address(glVertexBlendARB as *const ())),
     (b"glVertexP2ui", 433, crate::Address(glVertexP2ui as *const ())),
     (b"glVertexP2uiv", 434, crate::Address(glVertexP2uiv as *const ())),
     (b"glVertexP3ui", 435, crate::Address(glVertexP3ui as *const ())),
     (b"glVertexP3uiv", 436, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 437, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 438, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1755, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1757, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 505, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 516, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 517, crate::Address(glViewportArrayvNV as *const ())),
@@ -7413,89 +7421,89 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1829] = [
     (b"glViewportIndexedfvOES", 524, crate::Address(glViewportIndexedfvOES as *const ())),
     (b"glViewportPositionWScaleNV", 529, crate::Address(glViewportPositionWScaleNV as *const ())),
     (b"glViewportSwizzleNV", 528, crate::Address(glViewportSwizzleNV as *const ())),
-    (b"glWindowPos2d", 655, crate::Address(glWindowPos2d as *const ())),
-    (b"glWindowPos2dARB", 656, crate::Address(glWindowPos2dARB as *const ())),
-    (b"glWindowPos2dMESA", 657, crate::Address(glWindowPos2dMESA as *const ())),
-    (b"glWindowPos2dv", 658, crate::Address(glWindowPos2dv as *const ())),
-    (b"glWindowPos2dvARB", 659, crate::Address(glWindowPos2dvARB as *const ())),
-    (b"glWindowPos2dvMESA", 660, crate::Address(glWindowPos2dvMESA as *const ())),
-    (b"glWindowPos2f", 661, crate::Address(glWindowPos2f as *const ())),
-    (b"glWindowPos2fARB", 662, crate::Address(glWindowPos2fARB as *const ())),
-    (b"glWindowPos2fMESA", 663, crate::Address(glWindowPos2fMESA as *const ())),
-    (b"glWindowPos2fv", 664, crate::Address(glWindowPos2fv as *const ())),
-    (b"glWindowPos2fvARB", 665, crate::Address(glWindowPos2fvARB as *const ())),
-    (b"glWindowPos2fvMESA", 666, crate::Address(glWindowPos2fvMESA as *const ())),
-    (b"glWindowPos2i", 667, crate::Address(glWindowPos2i as *const ())),
-    (b"glWindowPos2iARB", 668, crate::Address(glWindowPos2iARB as *const ())),
-    (b"glWindowPos2iMESA", 669, crate::Address(glWindowPos2iMESA as *const ())),
-    (b"glWindowPos2iv", 670, crate::Address(glWindowPos2iv as *const ())),
-    (b"glWindowPos2ivARB", 671, crate::Address(glWindowPos2ivARB as *const ())),
-    (b"glWindowPos2ivMESA", 672, crate::Address(glWindowPos2ivMESA as *const ())),
-    (b"glWindowPos2s", 673, crate::Address(glWindowPos2s as *const ())),
-    (b"glWindowPos2sARB", 674, crate::Address(glWindowPos2sARB as *const ())),
-    (b"glWindowPos2sMESA", 675, crate::Address(glWindowPos2sMESA as *const ())),
-    (b"glWindowPos2sv", 676, crate::Address(glWindowPos2sv as *const ())),
-    (b"glWindowPos2svARB", 677, crate::Address(glWindowPos2svARB as *const ())),
-    (b"glWindowPos2svMESA", 678, crate::Address(glWindowPos2svMESA as *const ())),
-    (b"glWindowPos3d", 679, crate::Address(glWindowPos3d as *const ())),
-    (b"glWindowPos3dARB", 680, crate::Address(glWindowPos3dARB as *const ())),
-    (b"glWindowPos3dMESA", 681, crate::Address(glWindowPos3dMESA as *const ())),
-    (b"glWindowPos3dv", 682, crate::Address(glWindowPos3dv as *const ())),
-    (b"glWindowPos3dvARB", 683, crate::Address(glWindowPos3dvARB as *const ())),
-    (b"glWindowPos3dvMESA", 684, crate::Address(glWindowPos3dvMESA as *const ())),
-    (b"glWindowPos3f", 685, crate::Address(glWindowPos3f as *const ())),
-    (b"glWindowPos3fARB", 686, crate::Address(glWindowPos3fARB as *const ())),
-    (b"glWindowPos3fMESA", 687, crate::Address(glWindowPos3fMESA as *const ())),
-    (b"glWindowPos3fv", 688, crate::Address(glWindowPos3fv as *const ())),
-    (b"glWindowPos3fvARB", 689, crate::Address(glWindowPos3fvARB as *const ())),
-    (b"glWindowPos3fvMESA", 690, crate::Address(glWindowPos3fvMESA as *const ())),
-    (b"glWindowPos3i", 691, crate::Address(glWindowPos3i as *const ())),
-    (b"glWindowPos3iARB", 692, crate::Address(glWindowPos3iARB as *const ())),
-    (b"glWindowPos3iMESA", 693, crate::Address(glWindowPos3iMESA as *const ())),
-    (b"glWindowPos3iv", 694, crate::Address(glWindowPos3iv as *const ())),
-    (b"glWindowPos3ivARB", 695, crate::Address(glWindowPos3ivARB as *const ())),
-    (b"glWindowPos3ivMESA", 696, crate::Address(glWindowPos3ivMESA as *const ())),
-    (b"glWindowPos3s", 697, crate::Address(glWindowPos3s as *const ())),
-    (b"glWindowPos3sARB", 698, crate::Address(glWindowPos3sARB as *const ())),
-    (b"glWindowPos3sMESA", 699, crate::Address(glWindowPos3sMESA as *const ())),
-    (b"glWindowPos3sv", 700, crate::Address(glWindowPos3sv as *const ())),
-    (b"glWindowPos3svARB", 701, crate::Address(glWindowPos3svARB as *const ())),
-    (b"glWindowPos3svMESA", 702, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glWindowPos4dMESA", 703, crate::Address(glWindowPos4dMESA as *const ())),
-    (b"glWindowPos4dvMESA", 704, crate::Address(glWindowPos4dvMESA as *const ())),
-    (b"glWindowPos4fMESA", 705, crate::Address(glWindowPos4fMESA as *const ())),
-    (b"glWindowPos4fvMESA", 706, crate::Address(glWindowPos4fvMESA as *const ())),
-    (b"glWindowPos4iMESA", 707, crate::Address(glWindowPos4iMESA as *const ())),
-    (b"glWindowPos4ivMESA", 708, crate::Address(glWindowPos4ivMESA as *const ())),
-    (b"glWindowPos4sMESA", 709, crate::Address(glWindowPos4sMESA as *const ())),
-    (b"glWindowPos4svMESA", 710, crate::Address(glWindowPos4svMESA as *const ())),
+    (b"glWindowPos2d", 657, crate::Address(glWindowPos2d as *const ())),
+    (b"glWindowPos2dARB", 658, crate::Address(glWindowPos2dARB as *const ())),
+    (b"glWindowPos2dMESA", 659, crate::Address(glWindowPos2dMESA as *const ())),
+    (b"glWindowPos2dv", 660, crate::Address(glWindowPos2dv as *const ())),
+    (b"glWindowPos2dvARB", 661, crate::Address(glWindowPos2dvARB as *const ())),
+    (b"glWindowPos2dvMESA", 662, crate::Address(glWindowPos2dvMESA as *const ())),
+    (b"glWindowPos2f", 663, crate::Address(glWindowPos2f as *const ())),
+    (b"glWindowPos2fARB", 664, crate::Address(glWindowPos2fARB as *const ())),
+    (b"glWindowPos2fMESA", 665, crate::Address(glWindowPos2fMESA as *const ())),
+    (b"glWindowPos2fv", 666, crate::Address(glWindowPos2fv as *const ())),
+    (b"glWindowPos2fvARB", 667, crate::Address(glWindowPos2fvARB as *const ())),
+    (b"glWindowPos2fvMESA", 668, crate::Address(glWindowPos2fvMESA as *const ())),
+    (b"glWindowPos2i", 669, crate::Address(glWindowPos2i as *const ())),
+    (b"glWindowPos2iARB", 670, crate::Address(glWindowPos2iARB as *const ())),
+    (b"glWindowPos2iMESA", 671, crate::Address(glWindowPos2iMESA as *const ())),
+    (b"glWindowPos2iv", 672, crate::Address(glWindowPos2iv as *const ())),
+    (b"glWindowPos2ivARB", 673, crate::Address(glWindowPos2ivARB as *const ())),
+    (b"glWindowPos2ivMESA", 674, crate::Address(glWindowPos2ivMESA as *const ())),
+    (b"glWindowPos2s", 675, crate::Address(glWindowPos2s as *const ())),
+    (b"glWindowPos2sARB", 676, crate::Address(glWindowPos2sARB as *const ())),
+    (b"glWindowPos2sMESA", 677, crate::Address(glWindowPos2sMESA as *const ())),
+    (b"glWindowPos2sv", 678, crate::Address(glWindowPos2sv as *const ())),
+    (b"glWindowPos2svARB", 679, crate::Address(glWindowPos2svARB as *const ())),
+    (b"glWindowPos2svMESA", 680, crate::Address(glWindowPos2svMESA as *const ())),
+    (b"glWindowPos3d", 681, crate::Address(glWindowPos3d as *const ())),
+    (b"glWindowPos3dARB", 682, crate::Address(glWindowPos3dARB as *const ())),
+    (b"glWindowPos3dMESA", 683, crate::Address(glWindowPos3dMESA as *const ())),
+    (b"glWindowPos3dv", 684, crate::Address(glWindowPos3dv as *const ())),
+    (b"glWindowPos3dvARB", 685, crate::Address(glWindowPos3dvARB as *const ())),
+    (b"glWindowPos3dvMESA", 686, crate::Address(glWindowPos3dvMESA as *const ())),
+    (b"glWindowPos3f", 687, crate::Address(glWindowPos3f as *const ())),
+    (b"glWindowPos3fARB", 688, crate::Address(glWindowPos3fARB as *const ())),
+    (b"glWindowPos3fMESA", 689, crate::Address(glWindowPos3fMESA as *const ())),
+    (b"glWindowPos3fv", 690, crate::Address(glWindowPos3fv as *const ())),
+    (b"glWindowPos3fvARB", 691, crate::Address(glWindowPos3fvARB as *const ())),
+    (b"glWindowPos3fvMESA", 692, crate::Address(glWindowPos3fvMESA as *const ())),
+    (b"glWindowPos3i", 693, crate::Address(glWindowPos3i as *const ())),
+    (b"glWindowPos3iARB", 694, crate::Address(glWindowPos3iARB as *const ())),
+    (b"glWindowPos3iMESA", 695, crate::Address(glWindowPos3iMESA as *const ())),
+    (b"glWindowPos3iv", 696, crate::Address(glWindowPos3iv as *const ())),
+    (b"glWindowPos3ivARB", 697, crate::Address(glWindowPos3ivARB as *const ())),
+    (b"glWindowPos3ivMESA", 698, crate::Address(glWindowPos3ivMESA as *const ())),
+    (b"glWindowPos3s", 699, crate::Address(glWindowPos3s as *const ())),
+    (b"glWindowPos3sARB", 700, crate::Address(glWindowPos3sARB as *const ())),
+    (b"glWindowPos3sMESA", 701, crate::Address(glWindowPos3sMESA as *const ())),
+    (b"glWindowPos3sv", 702, crate::Address(glWindowPos3sv as *const ())),
+    (b"glWindowPos3svARB", 703, crate::Address(glWindowPos3svARB as *const ())),
+    (b"glWindowPos3svMESA", 704, crate::Address(glWindowPos3svMESA as *const ())),
+    (b"glWindowPos4dMESA", 705, crate::Address(glWindowPos4dMESA as *const ())),
+    (b"glWindowPos4dvMESA", 706, crate::Address(glWindowPos4dvMESA as *const ())),
+    (b"glWindowPos4fMESA", 707, crate::Address(glWindowPos4fMESA as *const ())),
+    (b"glWindowPos4fvMESA", 708, crate::Address(glWindowPos4fvMESA as *const ())),
+    (b"glWindowPos4iMESA", 709, crate::Address(glWindowPos4iMESA as *const ())),
+    (b"glWindowPos4ivMESA", 710, crate::Address(glWindowPos4ivMESA as *const ())),
+    (b"glWindowPos4sMESA", 711, crate::Address(glWindowPos4sMESA as *const ())),
+    (b"glWindowPos4svMESA", 712, crate::Address(glWindowPos4svMESA as *const ())),
     (b"glWindowRectanglesEXT", 527, crate::Address(glWindowRectanglesEXT as *const ())),
-    (b"glXBindTexImageEXT", 1782, crate::Address(glXBindTexImageEXT as *const ())),
-    (b"glXChooseFBConfig", 1775, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1776, crate::Address(glXChooseFBConfigSGIX as *const ())),
-    (b"glXChooseVisual", 1774, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCopyContext", 1790, crate::Address(glXCopyContext as *const ())),
-    (b"glXCopySubBufferMESA", 1779, crate::Address(glXCopySubBufferMESA as *const ())),
-    (b"glXCreateContext", 1786, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1788, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1789, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1787, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1792, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1791, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyGLXPbufferSGIX", 1795, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
-    (b"glXDestroyGLXPixmap", 1797, crate::Address(glXDestroyGLXPixmap as *const ())),
-    (b"glXDestroyPbuffer", 1794, crate::Address(glXDestroyPbuffer as *const ())),
-    (b"glXDestroyPixmap", 1796, crate::Address(glXDestroyPixmap as *const ())),
-    (b"glXDestroyWindow", 1793, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1798, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1799, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1784, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1783, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1785, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1777, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1778, crate::Address(glXSwapBuffersMscOML as *const ())),
-    (b"glXUseXFont", 1781, crate::Address(glXUseXFont as *const ())),
-    (b"glXWaitGL", 1780, crate::Address(glXWaitGL as *const ())),
+    (b"glXBindTexImageEXT", 1784, crate::Address(glXBindTexImageEXT as *const ())),
+    (b"glXChooseFBConfig", 1777, crate::Address(glXChooseFBConfig as *const ())),
+    (b"glXChooseFBConfigSGIX", 1778, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseVisual", 1776, crate::Address(glXChooseVisual as *const ())),
+    (b"glXCopyContext", 1792, crate::Address(glXCopyContext as *const ())),
+    (b"glXCopySubBufferMESA", 1781, crate::Address(glXCopySubBufferMESA as *const ())),
+    (b"glXCreateContext", 1788, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1790, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1791, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1789, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1794, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1793, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyGLXPbufferSGIX", 1797, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
+    (b"glXDestroyGLXPixmap", 1799, crate::Address(glXDestroyGLXPixmap as *const ())),
+    (b"glXDestroyPbuffer", 1796, crate::Address(glXDestroyPbuffer as *const ())),
+    (b"glXDestroyPixmap", 1798, crate::Address(glXDestroyPixmap as *const ())),
+    (b"glXDestroyWindow", 1795, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1800, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1801, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1786, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1785, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1787, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1779, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1780, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXUseXFont", 1783, crate::Address(glXUseXFont as *const ())),
+    (b"glXWaitGL", 1782, crate::Address(glXWaitGL as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, zeros_glVertex2d, (x: f64, y: f64) -> (), {
@@ -13887,6201 +13895,6213 @@ export! { 621, glMultiTexGenivEXT, first_glMultiTexGenivEXT, hook_glMultiTexGeni
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexGenivEXT(texunit, coord, pname, params) };
 } }
-export! { 622, glDisableClientStateiEXT, first_glDisableClientStateiEXT, hook_glDisableClientStateiEXT, zeros_glDisableClientStateiEXT, (array: u32, index: u32) -> (), {
+export! { 622, glDisableClientStateIndexedEXT, first_glDisableClientStateIndexedEXT, hook_glDisableClientStateIndexedEXT, zeros_glDisableClientStateIndexedEXT, (array: u32, index: u32) -> (), {
+    hooks::touch(Touch::FIXED);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDisableClientStateIndexedEXT(array, index) };
+} }
+export! { 623, glDisableClientStateiEXT, first_glDisableClientStateiEXT, hook_glDisableClientStateiEXT, zeros_glDisableClientStateiEXT, (array: u32, index: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientStateiEXT(array, index) };
 } }
-export! { 623, glEnableClientStateiEXT, first_glEnableClientStateiEXT, hook_glEnableClientStateiEXT, zeros_glEnableClientStateiEXT, (array: u32, index: u32) -> (), {
+export! { 624, glEnableClientStateIndexedEXT, first_glEnableClientStateIndexedEXT, hook_glEnableClientStateIndexedEXT, zeros_glEnableClientStateIndexedEXT, (array: u32, index: u32) -> (), {
+    hooks::touch(Touch::FIXED);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glEnableClientStateIndexedEXT(array, index) };
+} }
+export! { 625, glEnableClientStateiEXT, first_glEnableClientStateiEXT, hook_glEnableClientStateiEXT, zeros_glEnableClientStateiEXT, (array: u32, index: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientStateiEXT(array, index) };
 } }
-export! { 624, glBindFragmentShaderATI, first_glBindFragmentShaderATI, hook_glBindFragmentShaderATI, zeros_glBindFragmentShaderATI, (id: u32) -> (), {
+export! { 626, glBindFragmentShaderATI, first_glBindFragmentShaderATI, hook_glBindFragmentShaderATI, zeros_glBindFragmentShaderATI, (id: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindFragmentShaderATI(id) };
 } }
-export! { 625, glVertexBlendARB, first_glVertexBlendARB, hook_glVertexBlendARB, zeros_glVertexBlendARB, (count: i32) -> (), {
+export! { 627, glVertexBlendARB, first_glVertexBlendARB, hook_glVertexBlendARB, zeros_glVertexBlendARB, (count: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexBlendARB(count) };
 } }
-export! { 626, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, zeros_glBindProgramPipeline, (pipeline: u32) -> (), {
+export! { 628, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, zeros_glBindProgramPipeline, (pipeline: u32) -> (), {
     hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramPipeline(pipeline) };
 } }
-export! { 627, glBindProgramPipelineEXT, first_glBindProgramPipelineEXT, hook_glBindProgramPipelineEXT, zeros_glBindProgramPipelineEXT, (pipeline: u32) -> (), {
+export! { 629, glBindProgramPipelineEXT, first_glBindProgramPipelineEXT, hook_glBindProgramPipelineEXT, zeros_glBindProgramPipelineEXT, (pipeline: u32) -> (), {
     hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramPipelineEXT(pipeline) };
 } }
-export! { 628, glUseShaderProgramEXT, first_glUseShaderProgramEXT, hook_glUseShaderProgramEXT, zeros_glUseShaderProgramEXT, (type_: u32, program: u32) -> (), {
+export! { 630, glUseShaderProgramEXT, first_glUseShaderProgramEXT, hook_glUseShaderProgramEXT, zeros_glUseShaderProgramEXT, (type_: u32, program: u32) -> (), {
     hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUseShaderProgramEXT(type_, program) };
 } }
-export! { 629, glPushAttrib, first_glPushAttrib, hook_glPushAttrib, zeros_glPushAttrib, (mask: u32) -> (), {
+export! { 631, glPushAttrib, first_glPushAttrib, hook_glPushAttrib, zeros_glPushAttrib, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPushAttrib(mask) }
 } }
-export! { 630, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, zeros_glPopAttrib, () -> (), {
+export! { 632, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, zeros_glPopAttrib, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPopAttrib() }
 } }
-export! { 631, glRasterPos2d, first_glRasterPos2d, hook_glRasterPos2d, zeros_glRasterPos2d, (x: f64, y: f64) -> (), {
+export! { 633, glRasterPos2d, first_glRasterPos2d, hook_glRasterPos2d, zeros_glRasterPos2d, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2d(x, y) })
 } }
-export! { 632, glRasterPos2dv, first_glRasterPos2dv, hook_glRasterPos2dv, zeros_glRasterPos2dv, (v: Ptr) -> (), {
+export! { 634, glRasterPos2dv, first_glRasterPos2dv, hook_glRasterPos2dv, zeros_glRasterPos2dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2dv(v) })
 } }
-export! { 633, glRasterPos2f, first_glRasterPos2f, hook_glRasterPos2f, zeros_glRasterPos2f, (x: f32, y: f32) -> (), {
+export! { 635, glRasterPos2f, first_glRasterPos2f, hook_glRasterPos2f, zeros_glRasterPos2f, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2f(x, y) })
 } }
-export! { 634, glRasterPos2fv, first_glRasterPos2fv, hook_glRasterPos2fv, zeros_glRasterPos2fv, (v: Ptr) -> (), {
+export! { 636, glRasterPos2fv, first_glRasterPos2fv, hook_glRasterPos2fv, zeros_glRasterPos2fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2fv(v) })
 } }
-export! { 635, glRasterPos2i, first_glRasterPos2i, hook_glRasterPos2i, zeros_glRasterPos2i, (x: i32, y: i32) -> (), {
+export! { 637, glRasterPos2i, first_glRasterPos2i, hook_glRasterPos2i, zeros_glRasterPos2i, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2i(x, y) })
 } }
-export! { 636, glRasterPos2iv, first_glRasterPos2iv, hook_glRasterPos2iv, zeros_glRasterPos2iv, (v: Ptr) -> (), {
+export! { 638, glRasterPos2iv, first_glRasterPos2iv, hook_glRasterPos2iv, zeros_glRasterPos2iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2iv(v) })
 } }
-export! { 637, glRasterPos2s, first_glRasterPos2s, hook_glRasterPos2s, zeros_glRasterPos2s, (x: i16, y: i16) -> (), {
+export! { 639, glRasterPos2s, first_glRasterPos2s, hook_glRasterPos2s, zeros_glRasterPos2s, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2s(x, y) })
 } }
-export! { 638, glRasterPos2sv, first_glRasterPos2sv, hook_glRasterPos2sv, zeros_glRasterPos2sv, (v: Ptr) -> (), {
+export! { 640, glRasterPos2sv, first_glRasterPos2sv, hook_glRasterPos2sv, zeros_glRasterPos2sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2sv(v) })
 } }
-export! { 639, glRasterPos3d, first_glRasterPos3d, hook_glRasterPos3d, zeros_glRasterPos3d, (x: f64, y: f64, z: f64) -> (), {
+export! { 641, glRasterPos3d, first_glRasterPos3d, hook_glRasterPos3d, zeros_glRasterPos3d, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3d(x, y, z) })
 } }
-export! { 640, glRasterPos3dv, first_glRasterPos3dv, hook_glRasterPos3dv, zeros_glRasterPos3dv, (v: Ptr) -> (), {
+export! { 642, glRasterPos3dv, first_glRasterPos3dv, hook_glRasterPos3dv, zeros_glRasterPos3dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3dv(v) })
 } }
-export! { 641, glRasterPos3f, first_glRasterPos3f, hook_glRasterPos3f, zeros_glRasterPos3f, (x: f32, y: f32, z: f32) -> (), {
+export! { 643, glRasterPos3f, first_glRasterPos3f, hook_glRasterPos3f, zeros_glRasterPos3f, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3f(x, y, z) })
 } }
-export! { 642, glRasterPos3fv, first_glRasterPos3fv, hook_glRasterPos3fv, zeros_glRasterPos3fv, (v: Ptr) -> (), {
+export! { 644, glRasterPos3fv, first_glRasterPos3fv, hook_glRasterPos3fv, zeros_glRasterPos3fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3fv(v) })
 } }
-export! { 643, glRasterPos3i, first_glRasterPos3i, hook_glRasterPos3i, zeros_glRasterPos3i, (x: i32, y: i32, z: i32) -> (), {
+export! { 645, glRasterPos3i, first_glRasterPos3i, hook_glRasterPos3i, zeros_glRasterPos3i, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3i(x, y, z) })
 } }
-export! { 644, glRasterPos3iv, first_glRasterPos3iv, hook_glRasterPos3iv, zeros_glRasterPos3iv, (v: Ptr) -> (), {
+export! { 646, glRasterPos3iv, first_glRasterPos3iv, hook_glRasterPos3iv, zeros_glRasterPos3iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3iv(v) })
 } }
-export! { 645, glRasterPos3s, first_glRasterPos3s, hook_glRasterPos3s, zeros_glRasterPos3s, (x: i16, y: i16, z: i16) -> (), {
+export! { 647, glRasterPos3s, first_glRasterPos3s, hook_glRasterPos3s, zeros_glRasterPos3s, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3s(x, y, z) })
 } }
-export! { 646, glRasterPos3sv, first_glRasterPos3sv, hook_glRasterPos3sv, zeros_glRasterPos3sv, (v: Ptr) -> (), {
+export! { 648, glRasterPos3sv, first_glRasterPos3sv, hook_glRasterPos3sv, zeros_glRasterPos3sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3sv(v) })
 } }
-export! { 647, glRasterPos4d, first_glRasterPos4d, hook_glRasterPos4d, zeros_glRasterPos4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 649, glRasterPos4d, first_glRasterPos4d, hook_glRasterPos4d, zeros_glRasterPos4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4d(x, y, z, w) })
 } }
-export! { 648, glRasterPos4dv, first_glRasterPos4dv, hook_glRasterPos4dv, zeros_glRasterPos4dv, (v: Ptr) -> (), {
+export! { 650, glRasterPos4dv, first_glRasterPos4dv, hook_glRasterPos4dv, zeros_glRasterPos4dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4dv(v) })
 } }
-export! { 649, glRasterPos4f, first_glRasterPos4f, hook_glRasterPos4f, zeros_glRasterPos4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 651, glRasterPos4f, first_glRasterPos4f, hook_glRasterPos4f, zeros_glRasterPos4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4f(x, y, z, w) })
 } }
-export! { 650, glRasterPos4fv, first_glRasterPos4fv, hook_glRasterPos4fv, zeros_glRasterPos4fv, (v: Ptr) -> (), {
+export! { 652, glRasterPos4fv, first_glRasterPos4fv, hook_glRasterPos4fv, zeros_glRasterPos4fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4fv(v) })
 } }
-export! { 651, glRasterPos4i, first_glRasterPos4i, hook_glRasterPos4i, zeros_glRasterPos4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
+export! { 653, glRasterPos4i, first_glRasterPos4i, hook_glRasterPos4i, zeros_glRasterPos4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4i(x, y, z, w) })
 } }
-export! { 652, glRasterPos4iv, first_glRasterPos4iv, hook_glRasterPos4iv, zeros_glRasterPos4iv, (v: Ptr) -> (), {
+export! { 654, glRasterPos4iv, first_glRasterPos4iv, hook_glRasterPos4iv, zeros_glRasterPos4iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4iv(v) })
 } }
-export! { 653, glRasterPos4s, first_glRasterPos4s, hook_glRasterPos4s, zeros_glRasterPos4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
+export! { 655, glRasterPos4s, first_glRasterPos4s, hook_glRasterPos4s, zeros_glRasterPos4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4s(x, y, z, w) })
 } }
-export! { 654, glRasterPos4sv, first_glRasterPos4sv, hook_glRasterPos4sv, zeros_glRasterPos4sv, (v: Ptr) -> (), {
+export! { 656, glRasterPos4sv, first_glRasterPos4sv, hook_glRasterPos4sv, zeros_glRasterPos4sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4sv(v) })
 } }
-export! { 655, glWindowPos2d, first_glWindowPos2d, hook_glWindowPos2d, zeros_glWindowPos2d, (x: f64, y: f64) -> (), {
+export! { 657, glWindowPos2d, first_glWindowPos2d, hook_glWindowPos2d, zeros_glWindowPos2d, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2d(x, y) })
 } }
-export! { 656, glWindowPos2dARB, first_glWindowPos2dARB, hook_glWindowPos2dARB, zeros_glWindowPos2dARB, (x: f64, y: f64) -> (), {
+export! { 658, glWindowPos2dARB, first_glWindowPos2dARB, hook_glWindowPos2dARB, zeros_glWindowPos2dARB, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dARB(x, y) })
 } }
-export! { 657, glWindowPos2dMESA, first_glWindowPos2dMESA, hook_glWindowPos2dMESA, zeros_glWindowPos2dMESA, (x: f64, y: f64) -> (), {
+export! { 659, glWindowPos2dMESA, first_glWindowPos2dMESA, hook_glWindowPos2dMESA, zeros_glWindowPos2dMESA, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dMESA(x, y) })
 } }
-export! { 658, glWindowPos2dv, first_glWindowPos2dv, hook_glWindowPos2dv, zeros_glWindowPos2dv, (v: Ptr) -> (), {
+export! { 660, glWindowPos2dv, first_glWindowPos2dv, hook_glWindowPos2dv, zeros_glWindowPos2dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dv(v) })
 } }
-export! { 659, glWindowPos2dvARB, first_glWindowPos2dvARB, hook_glWindowPos2dvARB, zeros_glWindowPos2dvARB, (v: Ptr) -> (), {
+export! { 661, glWindowPos2dvARB, first_glWindowPos2dvARB, hook_glWindowPos2dvARB, zeros_glWindowPos2dvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dvARB(v) })
 } }
-export! { 660, glWindowPos2dvMESA, first_glWindowPos2dvMESA, hook_glWindowPos2dvMESA, zeros_glWindowPos2dvMESA, (v: Ptr) -> (), {
+export! { 662, glWindowPos2dvMESA, first_glWindowPos2dvMESA, hook_glWindowPos2dvMESA, zeros_glWindowPos2dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dvMESA(v) })
 } }
-export! { 661, glWindowPos2f, first_glWindowPos2f, hook_glWindowPos2f, zeros_glWindowPos2f, (x: f32, y: f32) -> (), {
+export! { 663, glWindowPos2f, first_glWindowPos2f, hook_glWindowPos2f, zeros_glWindowPos2f, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2f(x, y) })
 } }
-export! { 662, glWindowPos2fARB, first_glWindowPos2fARB, hook_glWindowPos2fARB, zeros_glWindowPos2fARB, (x: f32, y: f32) -> (), {
+export! { 664, glWindowPos2fARB, first_glWindowPos2fARB, hook_glWindowPos2fARB, zeros_glWindowPos2fARB, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fARB(x, y) })
 } }
-export! { 663, glWindowPos2fMESA, first_glWindowPos2fMESA, hook_glWindowPos2fMESA, zeros_glWindowPos2fMESA, (x: f32, y: f32) -> (), {
+export! { 665, glWindowPos2fMESA, first_glWindowPos2fMESA, hook_glWindowPos2fMESA, zeros_glWindowPos2fMESA, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fMESA(x, y) })
 } }
-export! { 664, glWindowPos2fv, first_glWindowPos2fv, hook_glWindowPos2fv, zeros_glWindowPos2fv, (v: Ptr) -> (), {
+export! { 666, glWindowPos2fv, first_glWindowPos2fv, hook_glWindowPos2fv, zeros_glWindowPos2fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fv(v) })
 } }
-export! { 665, glWindowPos2fvARB, first_glWindowPos2fvARB, hook_glWindowPos2fvARB, zeros_glWindowPos2fvARB, (v: Ptr) -> (), {
+export! { 667, glWindowPos2fvARB, first_glWindowPos2fvARB, hook_glWindowPos2fvARB, zeros_glWindowPos2fvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fvARB(v) })
 } }
-export! { 666, glWindowPos2fvMESA, first_glWindowPos2fvMESA, hook_glWindowPos2fvMESA, zeros_glWindowPos2fvMESA, (v: Ptr) -> (), {
+export! { 668, glWindowPos2fvMESA, first_glWindowPos2fvMESA, hook_glWindowPos2fvMESA, zeros_glWindowPos2fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fvMESA(v) })
 } }
-export! { 667, glWindowPos2i, first_glWindowPos2i, hook_glWindowPos2i, zeros_glWindowPos2i, (x: i32, y: i32) -> (), {
+export! { 669, glWindowPos2i, first_glWindowPos2i, hook_glWindowPos2i, zeros_glWindowPos2i, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2i(x, y) })
 } }
-export! { 668, glWindowPos2iARB, first_glWindowPos2iARB, hook_glWindowPos2iARB, zeros_glWindowPos2iARB, (x: i32, y: i32) -> (), {
+export! { 670, glWindowPos2iARB, first_glWindowPos2iARB, hook_glWindowPos2iARB, zeros_glWindowPos2iARB, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iARB(x, y) })
 } }
-export! { 669, glWindowPos2iMESA, first_glWindowPos2iMESA, hook_glWindowPos2iMESA, zeros_glWindowPos2iMESA, (x: i32, y: i32) -> (), {
+export! { 671, glWindowPos2iMESA, first_glWindowPos2iMESA, hook_glWindowPos2iMESA, zeros_glWindowPos2iMESA, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iMESA(x, y) })
 } }
-export! { 670, glWindowPos2iv, first_glWindowPos2iv, hook_glWindowPos2iv, zeros_glWindowPos2iv, (v: Ptr) -> (), {
+export! { 672, glWindowPos2iv, first_glWindowPos2iv, hook_glWindowPos2iv, zeros_glWindowPos2iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iv(v) })
 } }
-export! { 671, glWindowPos2ivARB, first_glWindowPos2ivARB, hook_glWindowPos2ivARB, zeros_glWindowPos2ivARB, (v: Ptr) -> (), {
+export! { 673, glWindowPos2ivARB, first_glWindowPos2ivARB, hook_glWindowPos2ivARB, zeros_glWindowPos2ivARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2ivARB(v) })
 } }
-export! { 672, glWindowPos2ivMESA, first_glWindowPos2ivMESA, hook_glWindowPos2ivMESA, zeros_glWindowPos2ivMESA, (v: Ptr) -> (), {
+export! { 674, glWindowPos2ivMESA, first_glWindowPos2ivMESA, hook_glWindowPos2ivMESA, zeros_glWindowPos2ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2ivMESA(v) })
 } }
-export! { 673, glWindowPos2s, first_glWindowPos2s, hook_glWindowPos2s, zeros_glWindowPos2s, (x: i16, y: i16) -> (), {
+export! { 675, glWindowPos2s, first_glWindowPos2s, hook_glWindowPos2s, zeros_glWindowPos2s, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2s(x, y) })
 } }
-export! { 674, glWindowPos2sARB, first_glWindowPos2sARB, hook_glWindowPos2sARB, zeros_glWindowPos2sARB, (x: i16, y: i16) -> (), {
+export! { 676, glWindowPos2sARB, first_glWindowPos2sARB, hook_glWindowPos2sARB, zeros_glWindowPos2sARB, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sARB(x, y) })
 } }
-export! { 675, glWindowPos2sMESA, first_glWindowPos2sMESA, hook_glWindowPos2sMESA, zeros_glWindowPos2sMESA, (x: i16, y: i16) -> (), {
+export! { 677, glWindowPos2sMESA, first_glWindowPos2sMESA, hook_glWindowPos2sMESA, zeros_glWindowPos2sMESA, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sMESA(x, y) })
 } }
-export! { 676, glWindowPos2sv, first_glWindowPos2sv, hook_glWindowPos2sv, zeros_glWindowPos2sv, (v: Ptr) -> (), {
+export! { 678, glWindowPos2sv, first_glWindowPos2sv, hook_glWindowPos2sv, zeros_glWindowPos2sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sv(v) })
 } }
-export! { 677, glWindowPos2svARB, first_glWindowPos2svARB, hook_glWindowPos2svARB, zeros_glWindowPos2svARB, (v: Ptr) -> (), {
+export! { 679, glWindowPos2svARB, first_glWindowPos2svARB, hook_glWindowPos2svARB, zeros_glWindowPos2svARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2svARB(v) })
 } }
-export! { 678, glWindowPos2svMESA, first_glWindowPos2svMESA, hook_glWindowPos2svMESA, zeros_glWindowPos2svMESA, (v: Ptr) -> (), {
+export! { 680, glWindowPos2svMESA, first_glWindowPos2svMESA, hook_glWindowPos2svMESA, zeros_glWindowPos2svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2svMESA(v) })
 } }
-export! { 679, glWindowPos3d, first_glWindowPos3d, hook_glWindowPos3d, zeros_glWindowPos3d, (x: f64, y: f64, z: f64) -> (), {
+export! { 681, glWindowPos3d, first_glWindowPos3d, hook_glWindowPos3d, zeros_glWindowPos3d, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3d(x, y, z) })
 } }
-export! { 680, glWindowPos3dARB, first_glWindowPos3dARB, hook_glWindowPos3dARB, zeros_glWindowPos3dARB, (x: f64, y: f64, z: f64) -> (), {
+export! { 682, glWindowPos3dARB, first_glWindowPos3dARB, hook_glWindowPos3dARB, zeros_glWindowPos3dARB, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dARB(x, y, z) })
 } }
-export! { 681, glWindowPos3dMESA, first_glWindowPos3dMESA, hook_glWindowPos3dMESA, zeros_glWindowPos3dMESA, (x: f64, y: f64, z: f64) -> (), {
+export! { 683, glWindowPos3dMESA, first_glWindowPos3dMESA, hook_glWindowPos3dMESA, zeros_glWindowPos3dMESA, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dMESA(x, y, z) })
 } }
-export! { 682, glWindowPos3dv, first_glWindowPos3dv, hook_glWindowPos3dv, zeros_glWindowPos3dv, (v: Ptr) -> (), {
+export! { 684, glWindowPos3dv, first_glWindowPos3dv, hook_glWindowPos3dv, zeros_glWindowPos3dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dv(v) })
 } }
-export! { 683, glWindowPos3dvARB, first_glWindowPos3dvARB, hook_glWindowPos3dvARB, zeros_glWindowPos3dvARB, (v: Ptr) -> (), {
+export! { 685, glWindowPos3dvARB, first_glWindowPos3dvARB, hook_glWindowPos3dvARB, zeros_glWindowPos3dvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dvARB(v) })
 } }
-export! { 684, glWindowPos3dvMESA, first_glWindowPos3dvMESA, hook_glWindowPos3dvMESA, zeros_glWindowPos3dvMESA, (v: Ptr) -> (), {
+export! { 686, glWindowPos3dvMESA, first_glWindowPos3dvMESA, hook_glWindowPos3dvMESA, zeros_glWindowPos3dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dvMESA(v) })
 } }
-export! { 685, glWindowPos3f, first_glWindowPos3f, hook_glWindowPos3f, zeros_glWindowPos3f, (x: f32, y: f32, z: f32) -> (), {
+export! { 687, glWindowPos3f, first_glWindowPos3f, hook_glWindowPos3f, zeros_glWindowPos3f, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3f(x, y, z) })
 } }
-export! { 686, glWindowPos3fARB, first_glWindowPos3fARB, hook_glWindowPos3fARB, zeros_glWindowPos3fARB, (x: f32, y: f32, z: f32) -> (), {
+export! { 688, glWindowPos3fARB, first_glWindowPos3fARB, hook_glWindowPos3fARB, zeros_glWindowPos3fARB, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fARB(x, y, z) })
 } }
-export! { 687, glWindowPos3fMESA, first_glWindowPos3fMESA, hook_glWindowPos3fMESA, zeros_glWindowPos3fMESA, (x: f32, y: f32, z: f32) -> (), {
+export! { 689, glWindowPos3fMESA, first_glWindowPos3fMESA, hook_glWindowPos3fMESA, zeros_glWindowPos3fMESA, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fMESA(x, y, z) })
 } }
-export! { 688, glWindowPos3fv, first_glWindowPos3fv, hook_glWindowPos3fv, zeros_glWindowPos3fv, (v: Ptr) -> (), {
+export! { 690, glWindowPos3fv, first_glWindowPos3fv, hook_glWindowPos3fv, zeros_glWindowPos3fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fv(v) })
 } }
-export! { 689, glWindowPos3fvARB, first_glWindowPos3fvARB, hook_glWindowPos3fvARB, zeros_glWindowPos3fvARB, (v: Ptr) -> (), {
+export! { 691, glWindowPos3fvARB, first_glWindowPos3fvARB, hook_glWindowPos3fvARB, zeros_glWindowPos3fvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fvARB(v) })
 } }
-export! { 690, glWindowPos3fvMESA, first_glWindowPos3fvMESA, hook_glWindowPos3fvMESA, zeros_glWindowPos3fvMESA, (v: Ptr) -> (), {
+export! { 692, glWindowPos3fvMESA, first_glWindowPos3fvMESA, hook_glWindowPos3fvMESA, zeros_glWindowPos3fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fvMESA(v) })
 } }
-export! { 691, glWindowPos3i, first_glWindowPos3i, hook_glWindowPos3i, zeros_glWindowPos3i, (x: i32, y: i32, z: i32) -> (), {
+export! { 693, glWindowPos3i, first_glWindowPos3i, hook_glWindowPos3i, zeros_glWindowPos3i, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3i(x, y, z) })
 } }
-export! { 692, glWindowPos3iARB, first_glWindowPos3iARB, hook_glWindowPos3iARB, zeros_glWindowPos3iARB, (x: i32, y: i32, z: i32) -> (), {
+export! { 694, glWindowPos3iARB, first_glWindowPos3iARB, hook_glWindowPos3iARB, zeros_glWindowPos3iARB, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iARB(x, y, z) })
 } }
-export! { 693, glWindowPos3iMESA, first_glWindowPos3iMESA, hook_glWindowPos3iMESA, zeros_glWindowPos3iMESA, (x: i32, y: i32, z: i32) -> (), {
+export! { 695, glWindowPos3iMESA, first_glWindowPos3iMESA, hook_glWindowPos3iMESA, zeros_glWindowPos3iMESA, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iMESA(x, y, z) })
 } }
-export! { 694, glWindowPos3iv, first_glWindowPos3iv, hook_glWindowPos3iv, zeros_glWindowPos3iv, (v: Ptr) -> (), {
+export! { 696, glWindowPos3iv, first_glWindowPos3iv, hook_glWindowPos3iv, zeros_glWindowPos3iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iv(v) })
 } }
-export! { 695, glWindowPos3ivARB, first_glWindowPos3ivARB, hook_glWindowPos3ivARB, zeros_glWindowPos3ivARB, (v: Ptr) -> (), {
+export! { 697, glWindowPos3ivARB, first_glWindowPos3ivARB, hook_glWindowPos3ivARB, zeros_glWindowPos3ivARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3ivARB(v) })
 } }
-export! { 696, glWindowPos3ivMESA, first_glWindowPos3ivMESA, hook_glWindowPos3ivMESA, zeros_glWindowPos3ivMESA, (v: Ptr) -> (), {
+export! { 698, glWindowPos3ivMESA, first_glWindowPos3ivMESA, hook_glWindowPos3ivMESA, zeros_glWindowPos3ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3ivMESA(v) })
 } }
-export! { 697, glWindowPos3s, first_glWindowPos3s, hook_glWindowPos3s, zeros_glWindowPos3s, (x: i16, y: i16, z: i16) -> (), {
+export! { 699, glWindowPos3s, first_glWindowPos3s, hook_glWindowPos3s, zeros_glWindowPos3s, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3s(x, y, z) })
 } }
-export! { 698, glWindowPos3sARB, first_glWindowPos3sARB, hook_glWindowPos3sARB, zeros_glWindowPos3sARB, (x: i16, y: i16, z: i16) -> (), {
+export! { 700, glWindowPos3sARB, first_glWindowPos3sARB, hook_glWindowPos3sARB, zeros_glWindowPos3sARB, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sARB(x, y, z) })
 } }
-export! { 699, glWindowPos3sMESA, first_glWindowPos3sMESA, hook_glWindowPos3sMESA, zeros_glWindowPos3sMESA, (x: i16, y: i16, z: i16) -> (), {
+export! { 701, glWindowPos3sMESA, first_glWindowPos3sMESA, hook_glWindowPos3sMESA, zeros_glWindowPos3sMESA, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sMESA(x, y, z) })
 } }
-export! { 700, glWindowPos3sv, first_glWindowPos3sv, hook_glWindowPos3sv, zeros_glWindowPos3sv, (v: Ptr) -> (), {
+export! { 702, glWindowPos3sv, first_glWindowPos3sv, hook_glWindowPos3sv, zeros_glWindowPos3sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sv(v) })
 } }
-export! { 701, glWindowPos3svARB, first_glWindowPos3svARB, hook_glWindowPos3svARB, zeros_glWindowPos3svARB, (v: Ptr) -> (), {
+export! { 703, glWindowPos3svARB, first_glWindowPos3svARB, hook_glWindowPos3svARB, zeros_glWindowPos3svARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svARB(v) })
 } }
-export! { 702, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3svMESA, zeros_glWindowPos3svMESA, (v: Ptr) -> (), {
+export! { 704, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3svMESA, zeros_glWindowPos3svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svMESA(v) })
 } }
-export! { 703, glWindowPos4dMESA, first_glWindowPos4dMESA, hook_glWindowPos4dMESA, zeros_glWindowPos4dMESA, (x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 705, glWindowPos4dMESA, first_glWindowPos4dMESA, hook_glWindowPos4dMESA, zeros_glWindowPos4dMESA, (x: f64, y: f64, z: f64, w: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos4dMESA(x, y, z, w) })
 } }
-export! { 704, glWindowPos4dvMESA, first_glWindowPos4dvMESA, hook_glWindowPos4dvMESA, zeros_glWindowPos4dvMESA, (v: Ptr) -> (), {
+export! { 706, glWindowPos4dvMESA, first_glWindowPos4dvMESA, hook_glWindowPos4dvMESA, zeros_glWindowPos4dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos4dvMESA(v) })
 } }
-export! { 705, glWindowPos4fMESA, first_glWindowPos4fMESA, hook_glWindowPos4fMESA, zeros_glWindowPos4fMESA, (x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 707, glWindowPos4fMESA, first_glWindowPos4fMESA, hook_glWindowPos4fMESA, zeros_glWindowPos4fMESA, (x: f32, y: f32, z: f32, w: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos4fMESA(x, y, z, w) })
 } }
-export! { 706, glWindowPos4fvMESA, first_glWindowPos4fvMESA, hook_glWindowPos4fvMESA, zeros_glWindowPos4fvMESA, (v: Ptr) -> (), {
+export! { 708, glWindowPos4fvMESA, first_glWindowPos4fvMESA, hook_glWindowPos4fvMESA, zeros_glWindowPos4fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos4fvMESA(v) })
 } }
-export! { 707, glWindowPos4iMESA, first_glWindowPos4iMESA, hook_glWindowPos4iMESA, zeros_glWindowPos4iMESA, (x: i32, y: i32, z: i32, w: i32) -> (), {
+export! { 709, glWindowPos4iMESA, first_glWindowPos4iMESA, hook_glWindowPos4iMESA, zeros_glWindowPos4iMESA, (x: i32, y: i32, z: i32, w: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos4iMESA(x, y, z, w) })
 } }
-export! { 708, glWindowPos4ivMESA, first_glWindowPos4ivMESA, hook_glWindowPos4ivMESA, zeros_glWindowPos4ivMESA, (v: Ptr) -> (), {
+export! { 710, glWindowPos4ivMESA, first_glWindowPos4ivMESA, hook_glWindowPos4ivMESA, zeros_glWindowPos4ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos4ivMESA(v) })
 } }
-export! { 709, glWindowPos4sMESA, first_glWindowPos4sMESA, hook_glWindowPos4sMESA, zeros_glWindowPos4sMESA, (x: i16, y: i16, z: i16, w: i16) -> (), {
+export! { 711, glWindowPos4sMESA, first_glWindowPos4sMESA, hook_glWindowPos4sMESA, zeros_glWindowPos4sMESA, (x: i16, y: i16, z: i16, w: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos4sMESA(x, y, z, w) })
 } }
-export! { 710, glWindowPos4svMESA, first_glWindowPos4svMESA, hook_glWindowPos4svMESA, zeros_glWindowPos4svMESA, (v: Ptr) -> (), {
+export! { 712, glWindowPos4svMESA, first_glWindowPos4svMESA, hook_glWindowPos4svMESA, zeros_glWindowPos4svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos4svMESA(v) })
 } }
-export! { 711, glRenderMode, first_glRenderMode, hook_glRenderMode, zeros_glRenderMode, (mode: u32) -> i32, {
+export! { 713, glRenderMode, first_glRenderMode, hook_glRenderMode, zeros_glRenderMode, (mode: u32) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glRenderMode(mode) }
 } }
-export! { 712, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, zeros_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
+export! { 714, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, zeros_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 713, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, zeros_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
+export! { 715, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, zeros_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 714, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, zeros_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
+export! { 716, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, zeros_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 715, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, zeros_glEndTransformFeedback, () -> (), {
+export! { 717, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, zeros_glEndTransformFeedback, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 716, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, zeros_glEndTransformFeedbackEXT, () -> (), {
+export! { 718, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, zeros_glEndTransformFeedbackEXT, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 717, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, zeros_glEndTransformFeedbackNV, () -> (), {
+export! { 719, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, zeros_glEndTransformFeedbackNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 718, glPauseTransformFeedback, first_glPauseTransformFeedback, hook_glPauseTransformFeedback, zeros_glPauseTransformFeedback, () -> (), {
+export! { 720, glPauseTransformFeedback, first_glPauseTransformFeedback, hook_glPauseTransformFeedback, zeros_glPauseTransformFeedback, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPauseTransformFeedback() }
 } }
-export! { 719, glPauseTransformFeedbackNV, first_glPauseTransformFeedbackNV, hook_glPauseTransformFeedbackNV, zeros_glPauseTransformFeedbackNV, () -> (), {
+export! { 721, glPauseTransformFeedbackNV, first_glPauseTransformFeedbackNV, hook_glPauseTransformFeedbackNV, zeros_glPauseTransformFeedbackNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPauseTransformFeedback() }
 } }
-export! { 720, glResumeTransformFeedback, first_glResumeTransformFeedback, hook_glResumeTransformFeedback, zeros_glResumeTransformFeedback, () -> (), {
+export! { 722, glResumeTransformFeedback, first_glResumeTransformFeedback, hook_glResumeTransformFeedback, zeros_glResumeTransformFeedback, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glResumeTransformFeedback() }
 } }
-export! { 721, glResumeTransformFeedbackNV, first_glResumeTransformFeedbackNV, hook_glResumeTransformFeedbackNV, zeros_glResumeTransformFeedbackNV, () -> (), {
+export! { 723, glResumeTransformFeedbackNV, first_glResumeTransformFeedbackNV, hook_glResumeTransformFeedbackNV, zeros_glResumeTransformFeedbackNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glResumeTransformFeedback() }
 } }
-export! { 722, glBindTransformFeedback, first_glBindTransformFeedback, hook_glBindTransformFeedback, zeros_glBindTransformFeedback, (target: u32, id: u32) -> (), {
+export! { 724, glBindTransformFeedback, first_glBindTransformFeedback, hook_glBindTransformFeedback, zeros_glBindTransformFeedback, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTransformFeedback(target, id) }
 } }
-export! { 723, glBindTransformFeedbackNV, first_glBindTransformFeedbackNV, hook_glBindTransformFeedbackNV, zeros_glBindTransformFeedbackNV, (target: u32, id: u32) -> (), {
+export! { 725, glBindTransformFeedbackNV, first_glBindTransformFeedbackNV, hook_glBindTransformFeedbackNV, zeros_glBindTransformFeedbackNV, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTransformFeedbackNV(target, id) }
 } }
-export! { 724, glDeleteTransformFeedbacks, first_glDeleteTransformFeedbacks, hook_glDeleteTransformFeedbacks, zeros_glDeleteTransformFeedbacks, (n: i32, ids: Ptr) -> (), {
+export! { 726, glDeleteTransformFeedbacks, first_glDeleteTransformFeedbacks, hook_glDeleteTransformFeedbacks, zeros_glDeleteTransformFeedbacks, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTransformFeedbacks(n, ids) }
 } }
-export! { 725, glDeleteTransformFeedbacksNV, first_glDeleteTransformFeedbacksNV, hook_glDeleteTransformFeedbacksNV, zeros_glDeleteTransformFeedbacksNV, (n: i32, ids: Ptr) -> (), {
+export! { 727, glDeleteTransformFeedbacksNV, first_glDeleteTransformFeedbacksNV, hook_glDeleteTransformFeedbacksNV, zeros_glDeleteTransformFeedbacksNV, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTransformFeedbacks(n, ids) }
 } }
-export! { 726, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, zeros_glAlphaFunc, (func: u32, ref_: f32) -> (), {
+export! { 728, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, zeros_glAlphaFunc, (func: u32, ref_: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glAlphaFunc(func, ref_) };
 } }
-export! { 727, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, zeros_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
+export! { 729, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, zeros_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunc(sfactor, dfactor) };
 } }
-export! { 728, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, zeros_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 730, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, zeros_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparate(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 729, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, zeros_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 731, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, zeros_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateEXT(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 730, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, zeros_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 732, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, zeros_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateINGR(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 731, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, zeros_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 733, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, zeros_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparatei(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 732, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, zeros_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 734, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, zeros_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateIndexedAMD(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 733, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, zeros_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 735, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, zeros_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiARB(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 734, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, zeros_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 736, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, zeros_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiEXT(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 735, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, zeros_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 737, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, zeros_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiOES(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 736, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, zeros_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 738, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, zeros_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunci(buf, src, dst) };
 } }
-export! { 737, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, zeros_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 739, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, zeros_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncIndexedAMD(buf, src, dst) };
 } }
-export! { 738, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, zeros_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 740, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, zeros_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciARB(buf, src, dst) };
 } }
-export! { 739, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, zeros_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 741, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, zeros_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciEXT(buf, src, dst) };
 } }
-export! { 740, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, zeros_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 742, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, zeros_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciOES(buf, src, dst) };
 } }
-export! { 741, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, zeros_glBlendEquation, (mode: u32) -> (), {
+export! { 743, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, zeros_glBlendEquation, (mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquation(mode) };
 } }
-export! { 742, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, zeros_glBlendEquationEXT, (mode: u32) -> (), {
+export! { 744, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, zeros_glBlendEquationEXT, (mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationEXT(mode) };
 } }
-export! { 743, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, zeros_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 745, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, zeros_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparate(modeRGB, modeAlpha) };
 } }
-export! { 744, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, zeros_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 746, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, zeros_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateEXT(modeRGB, modeAlpha) };
 } }
-export! { 745, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, zeros_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 747, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, zeros_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparatei(buf, modeRGB, modeAlpha) };
 } }
-export! { 746, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, zeros_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 748, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, zeros_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateIndexedAMD(buf, modeRGB, modeAlpha) };
 } }
-export! { 747, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, zeros_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 749, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, zeros_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiARB(buf, modeRGB, modeAlpha) };
 } }
-export! { 748, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, zeros_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 750, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, zeros_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiEXT(buf, modeRGB, modeAlpha) };
 } }
-export! { 749, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, zeros_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 751, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, zeros_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiOES(buf, modeRGB, modeAlpha) };
 } }
-export! { 750, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, zeros_glBlendEquationi, (buf: u32, mode: u32) -> (), {
+export! { 752, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, zeros_glBlendEquationi, (buf: u32, mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationi(buf, mode) };
 } }
-export! { 751, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, zeros_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
+export! { 753, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, zeros_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationIndexedAMD(buf, mode) };
 } }
-export! { 752, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, zeros_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
+export! { 754, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, zeros_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiARB(buf, mode) };
 } }
-export! { 753, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, zeros_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
+export! { 755, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, zeros_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiEXT(buf, mode) };
 } }
-export! { 754, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, zeros_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
+export! { 756, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, zeros_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiOES(buf, mode) };
 } }
-export! { 755, glBlendColor, first_glBlendColor, hook_glBlendColor, zeros_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 757, glBlendColor, first_glBlendColor, hook_glBlendColor, zeros_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColor(red, green, blue, alpha) };
 } }
-export! { 756, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, zeros_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 758, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, zeros_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColorEXT(red, green, blue, alpha) };
 } }
-export! { 757, glClearAccum, first_glClearAccum, hook_glClearAccum, zeros_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 759, glClearAccum, first_glClearAccum, hook_glClearAccum, zeros_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearAccum(red, green, blue, alpha) };
 } }
-export! { 758, glClearColor, first_glClearColor, hook_glClearColor, zeros_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 760, glClearColor, first_glClearColor, hook_glClearColor, zeros_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearColor(red, green, blue, alpha) };
 } }
-export! { 759, glClearDepth, first_glClearDepth, hook_glClearDepth, zeros_glClearDepth, (depth: f64) -> (), {
+export! { 761, glClearDepth, first_glClearDepth, hook_glClearDepth, zeros_glClearDepth, (depth: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepth(depth) };
 } }
-export! { 760, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, zeros_glClearDepthf, (d: f32) -> (), {
+export! { 762, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, zeros_glClearDepthf, (d: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthf(d) };
 } }
-export! { 761, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, zeros_glClearDepthfOES, (depth: f32) -> (), {
+export! { 763, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, zeros_glClearDepthfOES, (depth: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthfOES(depth) };
 } }
-export! { 762, glClearIndex, first_glClearIndex, hook_glClearIndex, zeros_glClearIndex, (c: f32) -> (), {
+export! { 764, glClearIndex, first_glClearIndex, hook_glClearIndex, zeros_glClearIndex, (c: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearIndex(c) };
 } }
-export! { 763, glClearStencil, first_glClearStencil, hook_glClearStencil, zeros_glClearStencil, (s: i32) -> (), {
+export! { 765, glClearStencil, first_glClearStencil, hook_glClearStencil, zeros_glClearStencil, (s: i32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearStencil(s) };
 } }
-export! { 764, glClipPlane, first_glClipPlane, hook_glClipPlane, zeros_glClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 766, glClipPlane, first_glClipPlane, hook_glClipPlane, zeros_glClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipPlane(plane, equation) };
 } }
-export! { 765, glColorMask, first_glColorMask, hook_glColorMask, zeros_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
+export! { 767, glColorMask, first_glColorMask, hook_glColorMask, zeros_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMask(red, green, blue, alpha) };
 } }
-export! { 766, glColorMaski, first_glColorMaski, hook_glColorMaski, zeros_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 768, glColorMaski, first_glColorMaski, hook_glColorMaski, zeros_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaski(index, r, g, b, a) };
 } }
-export! { 767, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, zeros_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 769, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, zeros_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskIndexedEXT(index, r, g, b, a) };
 } }
-export! { 768, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, zeros_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 770, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, zeros_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiEXT(index, r, g, b, a) };
 } }
-export! { 769, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, zeros_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 771, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, zeros_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiOES(index, r, g, b, a) };
 } }
-export! { 770, glCullFace, first_glCullFace, hook_glCullFace, zeros_glCullFace, (mode: u32) -> (), {
+export! { 772, glCullFace, first_glCullFace, hook_glCullFace, zeros_glCullFace, (mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCullFace(mode) };
 } }
-export! { 771, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, zeros_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
+export! { 773, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, zeros_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthBoundsEXT(zmin, zmax) };
 } }
-export! { 772, glFrontFace, first_glFrontFace, hook_glFrontFace, zeros_glFrontFace, (mode: u32) -> (), {
+export! { 774, glFrontFace, first_glFrontFace, hook_glFrontFace, zeros_glFrontFace, (mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFrontFace(mode) };
 } }
-export! { 773, glIndexMask, first_glIndexMask, hook_glIndexMask, zeros_glIndexMask, (mask: u32) -> (), {
+export! { 775, glIndexMask, first_glIndexMask, hook_glIndexMask, zeros_glIndexMask, (mask: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexMask(mask) };
 } }
-export! { 774, glInitNames, first_glInitNames, hook_glInitNames, zeros_glInitNames, () -> (), {
+export! { 776, glInitNames, first_glInitNames, hook_glInitNames, zeros_glInitNames, () -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInitNames() };
 } }
-export! { 775, glLoadName, first_glLoadName, hook_glLoadName, zeros_glLoadName, (name: u32) -> (), {
+export! { 777, glLoadName, first_glLoadName, hook_glLoadName, zeros_glLoadName, (name: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLoadName(name) };
 } }
-export! { 776, glPushName, first_glPushName, hook_glPushName, zeros_glPushName, (name: u32) -> (), {
+export! { 778, glPushName, first_glPushName, hook_glPushName, zeros_glPushName, (name: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushName(name) };
 } }
-export! { 777, glPopName, first_glPopName, hook_glPopName, zeros_glPopName, () -> (), {
+export! { 779, glPopName, first_glPopName, hook_glPopName, zeros_glPopName, () -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopName() };
 } }
-export! { 778, glPassThrough, first_glPassThrough, hook_glPassThrough, zeros_glPassThrough, (token: f32) -> (), {
+export! { 780, glPassThrough, first_glPassThrough, hook_glPassThrough, zeros_glPassThrough, (token: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPassThrough(token) };
 } }
-export! { 779, glLineStipple, first_glLineStipple, hook_glLineStipple, zeros_glLineStipple, (factor: i32, pattern: u16) -> (), {
+export! { 781, glLineStipple, first_glLineStipple, hook_glLineStipple, zeros_glLineStipple, (factor: i32, pattern: u16) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLineStipple(factor, pattern) };
 } }
-export! { 780, glListBase, first_glListBase, hook_glListBase, zeros_glListBase, (base: u32) -> (), {
+export! { 782, glListBase, first_glListBase, hook_glListBase, zeros_glListBase, (base: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glListBase(base) };
 } }
-export! { 781, glLogicOp, first_glLogicOp, hook_glLogicOp, zeros_glLogicOp, (opcode: u32) -> (), {
+export! { 783, glLogicOp, first_glLogicOp, hook_glLogicOp, zeros_glLogicOp, (opcode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLogicOp(opcode) };
 } }
-export! { 782, glMap1d, first_glMap1d, hook_glMap1d, zeros_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
+export! { 784, glMap1d, first_glMap1d, hook_glMap1d, zeros_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1d(target, u1, u2, stride, order, points) };
 } }
-export! { 783, glMap1f, first_glMap1f, hook_glMap1f, zeros_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
+export! { 785, glMap1f, first_glMap1f, hook_glMap1f, zeros_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1f(target, u1, u2, stride, order, points) };
 } }
-export! { 784, glMap2d, first_glMap2d, hook_glMap2d, zeros_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
+export! { 786, glMap2d, first_glMap2d, hook_glMap2d, zeros_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2d(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
-export! { 785, glMap2f, first_glMap2f, hook_glMap2f, zeros_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
+export! { 787, glMap2f, first_glMap2f, hook_glMap2f, zeros_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2f(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
-export! { 786, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, zeros_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
+export! { 788, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, zeros_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1d(un, u1, u2) };
 } }
-export! { 787, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, zeros_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
+export! { 789, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, zeros_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1f(un, u1, u2) };
 } }
-export! { 788, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, zeros_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
+export! { 790, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, zeros_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2d(un, u1, u2, vn, v1, v2) };
 } }
-export! { 789, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, zeros_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
+export! { 791, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, zeros_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2f(un, u1, u2, vn, v1, v2) };
 } }
-export! { 790, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, zeros_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 792, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, zeros_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapfv(map, mapsize, values) };
 } }
-export! { 791, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, zeros_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 793, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, zeros_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapuiv(map, mapsize, values) };
 } }
-export! { 792, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, zeros_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 794, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, zeros_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapusv(map, mapsize, values) };
 } }
-export! { 793, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, zeros_glPixelTransferf, (pname: u32, param: f32) -> (), {
+export! { 795, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, zeros_glPixelTransferf, (pname: u32, param: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferf(pname, param) };
 } }
-export! { 794, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, zeros_glPixelTransferi, (pname: u32, param: i32) -> (), {
+export! { 796, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, zeros_glPixelTransferi, (pname: u32, param: i32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferi(pname, param) };
 } }
-export! { 795, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, zeros_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
+export! { 797, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, zeros_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelZoom(xfactor, yfactor) };
 } }
-export! { 796, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, zeros_glPolygonOffset, (factor: f32, units: f32) -> (), {
+export! { 798, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, zeros_glPolygonOffset, (factor: f32, units: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffset(factor, units) };
 } }
-export! { 797, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, zeros_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
+export! { 799, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, zeros_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClamp(factor, units, clamp) };
 } }
-export! { 798, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, zeros_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
+export! { 800, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, zeros_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClampEXT(factor, units, clamp) };
 } }
-export! { 799, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, zeros_glPolygonStipple, (mask: Ptr) -> (), {
+export! { 801, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, zeros_glPolygonStipple, (mask: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonStipple(mask) };
 } }
-export! { 800, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, zeros_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
+export! { 802, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, zeros_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTextures(n, textures, priorities) };
 } }
-export! { 801, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, zeros_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
+export! { 803, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, zeros_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTexturesEXT(n, textures, priorities) };
 } }
-export! { 802, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, zeros_glSampleCoverage, (value: f32, invert: u8) -> (), {
+export! { 804, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, zeros_glSampleCoverage, (value: f32, invert: u8) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverage(value, invert) };
 } }
-export! { 803, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, zeros_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
+export! { 805, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, zeros_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverageARB(value, invert) };
 } }
-export! { 804, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, zeros_glMinSampleShading, (value: f32) -> (), {
+export! { 806, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, zeros_glMinSampleShading, (value: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShading(value) };
 } }
-export! { 805, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, zeros_glMinSampleShadingARB, (value: f32) -> (), {
+export! { 807, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, zeros_glMinSampleShadingARB, (value: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingARB(value) };
 } }
-export! { 806, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, zeros_glMinSampleShadingOES, (value: f32) -> (), {
+export! { 808, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, zeros_glMinSampleShadingOES, (value: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingOES(value) };
 } }
-export! { 807, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, zeros_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
+export! { 809, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, zeros_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFunc(func, ref_, mask) };
 } }
-export! { 808, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, zeros_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
+export! { 810, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, zeros_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFuncSeparate(face, func, ref_, mask) };
 } }
-export! { 809, glStencilMask, first_glStencilMask, hook_glStencilMask, zeros_glStencilMask, (mask: u32) -> (), {
+export! { 811, glStencilMask, first_glStencilMask, hook_glStencilMask, zeros_glStencilMask, (mask: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMask(mask) };
 } }
-export! { 810, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, zeros_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
+export! { 812, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, zeros_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMaskSeparate(face, mask) };
 } }
-export! { 811, glStencilOp, first_glStencilOp, hook_glStencilOp, zeros_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
+export! { 813, glStencilOp, first_glStencilOp, hook_glStencilOp, zeros_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOp(fail, zfail, zpass) };
 } }
-export! { 812, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, zeros_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
+export! { 814, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, zeros_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparate(face, sfail, dpfail, dppass) };
 } }
-export! { 813, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, zeros_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
+export! { 815, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, zeros_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparateATI(face, sfail, dpfail, dppass) };
 } }
-export! { 814, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, zeros_glPrimitiveRestartIndex, (index: u32) -> (), {
+export! { 816, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, zeros_glPrimitiveRestartIndex, (index: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveRestartIndex(index) };
 } }
-export! { 815, glMatrixPushEXT, first_glMatrixPushEXT, hook_glMatrixPushEXT, zeros_glMatrixPushEXT, (mode: u32) -> (), {
+export! { 817, glMatrixPushEXT, first_glMatrixPushEXT, hook_glMatrixPushEXT, zeros_glMatrixPushEXT, (mode: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMatrixPushEXT(mode) };
 } }
-export! { 816, glClearColorIiEXT, first_glClearColorIiEXT, hook_glClearColorIiEXT, zeros_glClearColorIiEXT, (red: i32, green: i32, blue: i32, alpha: i32) -> (), {
+export! { 818, glClearColorIiEXT, first_glClearColorIiEXT, hook_glClearColorIiEXT, zeros_glClearColorIiEXT, (red: i32, green: i32, blue: i32, alpha: i32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearColorIiEXT(red, green, blue, alpha) };
 } }
-export! { 817, glClearColorIuiEXT, first_glClearColorIuiEXT, hook_glClearColorIuiEXT, zeros_glClearColorIuiEXT, (red: u32, green: u32, blue: u32, alpha: u32) -> (), {
+export! { 819, glClearColorIuiEXT, first_glClearColorIuiEXT, hook_glClearColorIuiEXT, zeros_glClearColorIuiEXT, (red: u32, green: u32, blue: u32, alpha: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearColorIuiEXT(red, green, blue, alpha) };
 } }
-export! { 818, glClearDepthdNV, first_glClearDepthdNV, hook_glClearDepthdNV, zeros_glClearDepthdNV, (depth: f64) -> (), {
+export! { 820, glClearDepthdNV, first_glClearDepthdNV, hook_glClearDepthdNV, zeros_glClearDepthdNV, (depth: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthdNV(depth) };
 } }
-export! { 819, glDepthBoundsdNV, first_glDepthBoundsdNV, hook_glDepthBoundsdNV, zeros_glDepthBoundsdNV, (zmin: f64, zmax: f64) -> (), {
+export! { 821, glDepthBoundsdNV, first_glDepthBoundsdNV, hook_glDepthBoundsdNV, zeros_glDepthBoundsdNV, (zmin: f64, zmax: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthBoundsdNV(zmin, zmax) };
 } }
-export! { 820, glStencilFuncSeparateATI, first_glStencilFuncSeparateATI, hook_glStencilFuncSeparateATI, zeros_glStencilFuncSeparateATI, (frontfunc: u32, backfunc: u32, ref_: i32, mask: u32) -> (), {
+export! { 822, glStencilFuncSeparateATI, first_glStencilFuncSeparateATI, hook_glStencilFuncSeparateATI, zeros_glStencilFuncSeparateATI, (frontfunc: u32, backfunc: u32, ref_: i32, mask: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFuncSeparateATI(frontfunc, backfunc, ref_, mask) };
 } }
-export! { 821, glActiveStencilFaceEXT, first_glActiveStencilFaceEXT, hook_glActiveStencilFaceEXT, zeros_glActiveStencilFaceEXT, (face: u32) -> (), {
+export! { 823, glActiveStencilFaceEXT, first_glActiveStencilFaceEXT, hook_glActiveStencilFaceEXT, zeros_glActiveStencilFaceEXT, (face: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glActiveStencilFaceEXT(face) };
 } }
-export! { 822, glSampleMaski, first_glSampleMaski, hook_glSampleMaski, zeros_glSampleMaski, (maskNumber: u32, mask: u32) -> (), {
+export! { 824, glSampleMaski, first_glSampleMaski, hook_glSampleMaski, zeros_glSampleMaski, (maskNumber: u32, mask: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleMaski(maskNumber, mask) };
 } }
-export! { 823, glSampleMaskIndexedNV, first_glSampleMaskIndexedNV, hook_glSampleMaskIndexedNV, zeros_glSampleMaskIndexedNV, (index: u32, mask: u32) -> (), {
+export! { 825, glSampleMaskIndexedNV, first_glSampleMaskIndexedNV, hook_glSampleMaskIndexedNV, zeros_glSampleMaskIndexedNV, (index: u32, mask: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleMaskIndexedNV(index, mask) };
 } }
-export! { 824, glPrimitiveRestartIndexNV, first_glPrimitiveRestartIndexNV, hook_glPrimitiveRestartIndexNV, zeros_glPrimitiveRestartIndexNV, (index: u32) -> (), {
+export! { 826, glPrimitiveRestartIndexNV, first_glPrimitiveRestartIndexNV, hook_glPrimitiveRestartIndexNV, zeros_glPrimitiveRestartIndexNV, (index: u32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveRestartIndexNV(index) };
 } }
-export! { 825, glRasterSamplesEXT, first_glRasterSamplesEXT, hook_glRasterSamplesEXT, zeros_glRasterSamplesEXT, (samples: u32, fixedsamplelocations: u8) -> (), {
+export! { 827, glRasterSamplesEXT, first_glRasterSamplesEXT, hook_glRasterSamplesEXT, zeros_glRasterSamplesEXT, (samples: u32, fixedsamplelocations: u8) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRasterSamplesEXT(samples, fixedsamplelocations) };
 } }
-export! { 826, glPrimitiveBoundingBox, first_glPrimitiveBoundingBox, hook_glPrimitiveBoundingBox, zeros_glPrimitiveBoundingBox, (minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32) -> (), {
+export! { 828, glPrimitiveBoundingBox, first_glPrimitiveBoundingBox, hook_glPrimitiveBoundingBox, zeros_glPrimitiveBoundingBox, (minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveBoundingBox(minX, minY, minZ, minW, maxX, maxY, maxZ, maxW) };
 } }
-export! { 827, glPrimitiveBoundingBoxARB, first_glPrimitiveBoundingBoxARB, hook_glPrimitiveBoundingBoxARB, zeros_glPrimitiveBoundingBoxARB, (minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32) -> (), {
+export! { 829, glPrimitiveBoundingBoxARB, first_glPrimitiveBoundingBoxARB, hook_glPrimitiveBoundingBoxARB, zeros_glPrimitiveBoundingBoxARB, (minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveBoundingBoxARB(minX, minY, minZ, minW, maxX, maxY, maxZ, maxW) };
 } }
-export! { 828, glPrimitiveBoundingBoxEXT, first_glPrimitiveBoundingBoxEXT, hook_glPrimitiveBoundingBoxEXT, zeros_glPrimitiveBoundingBoxEXT, (minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32) -> (), {
+export! { 830, glPrimitiveBoundingBoxEXT, first_glPrimitiveBoundingBoxEXT, hook_glPrimitiveBoundingBoxEXT, zeros_glPrimitiveBoundingBoxEXT, (minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveBoundingBoxEXT(minX, minY, minZ, minW, maxX, maxY, maxZ, maxW) };
 } }
-export! { 829, glPrimitiveBoundingBoxOES, first_glPrimitiveBoundingBoxOES, hook_glPrimitiveBoundingBoxOES, zeros_glPrimitiveBoundingBoxOES, (minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32) -> (), {
+export! { 831, glPrimitiveBoundingBoxOES, first_glPrimitiveBoundingBoxOES, hook_glPrimitiveBoundingBoxOES, zeros_glPrimitiveBoundingBoxOES, (minX: f32, minY: f32, minZ: f32, minW: f32, maxX: f32, maxY: f32, maxZ: f32, maxW: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveBoundingBoxOES(minX, minY, minZ, minW, maxX, maxY, maxZ, maxW) };
 } }
-export! { 830, glBlendParameteriNV, first_glBlendParameteriNV, hook_glBlendParameteriNV, zeros_glBlendParameteriNV, (pname: u32, value: i32) -> (), {
+export! { 832, glBlendParameteriNV, first_glBlendParameteriNV, hook_glBlendParameteriNV, zeros_glBlendParameteriNV, (pname: u32, value: i32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendParameteriNV(pname, value) };
 } }
-export! { 831, glAlphaFuncQCOM, first_glAlphaFuncQCOM, hook_glAlphaFuncQCOM, zeros_glAlphaFuncQCOM, (func: u32, ref_: f32) -> (), {
+export! { 833, glAlphaFuncQCOM, first_glAlphaFuncQCOM, hook_glAlphaFuncQCOM, zeros_glAlphaFuncQCOM, (func: u32, ref_: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glAlphaFuncQCOM(func, ref_) };
 } }
-export! { 832, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, zeros_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 834, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, zeros_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage1D(target, level, internalformat, width, border, format, type_, pixels) };
 } }
-export! { 833, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, zeros_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 835, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, zeros_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage2D(target, level, internalformat, width, height, border, format, type_, pixels) };
 } }
-export! { 834, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, zeros_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 836, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, zeros_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3D(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 835, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, zeros_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 837, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, zeros_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DEXT(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 836, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, zeros_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 838, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, zeros_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1D(target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 837, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, zeros_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 839, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, zeros_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1DEXT(target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 838, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, zeros_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 840, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, zeros_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2D(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 839, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, zeros_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 841, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, zeros_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2DEXT(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 840, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, zeros_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 842, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, zeros_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 841, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, zeros_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 843, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, zeros_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 842, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, zeros_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 844, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, zeros_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1D(target, level, internalformat, width, border, imageSize, data) };
 } }
-export! { 843, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, zeros_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 845, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, zeros_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1DARB(target, level, internalformat, width, border, imageSize, data) };
 } }
-export! { 844, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, zeros_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 846, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, zeros_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2D(target, level, internalformat, width, height, border, imageSize, data) };
 } }
-export! { 845, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, zeros_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 847, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, zeros_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2DARB(target, level, internalformat, width, height, border, imageSize, data) };
 } }
-export! { 846, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, zeros_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 848, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, zeros_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3D(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 847, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, zeros_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 849, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, zeros_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3DARB(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 848, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, zeros_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 850, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, zeros_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1D(target, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 849, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, zeros_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 851, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, zeros_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1DARB(target, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 850, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, zeros_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 852, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, zeros_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2D(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 851, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, zeros_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 853, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, zeros_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2DARB(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 852, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, zeros_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 854, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, zeros_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 853, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, zeros_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 855, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, zeros_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(TextureAt::Bound(target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3DARB(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 854, glTextureImage1DEXT, first_glTextureImage1DEXT, hook_glTextureImage1DEXT, zeros_glTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 856, glTextureImage1DEXT, first_glTextureImage1DEXT, hook_glTextureImage1DEXT, zeros_glTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureImage1DEXT(texture, target, level, internalformat, width, border, format, type_, pixels) };
 } }
-export! { 855, glTextureImage2DEXT, first_glTextureImage2DEXT, hook_glTextureImage2DEXT, zeros_glTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 857, glTextureImage2DEXT, first_glTextureImage2DEXT, hook_glTextureImage2DEXT, zeros_glTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureImage2DEXT(texture, target, level, internalformat, width, height, border, format, type_, pixels) };
 } }
-export! { 856, glTextureImage3DEXT, first_glTextureImage3DEXT, hook_glTextureImage3DEXT, zeros_glTextureImage3DEXT, (texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 858, glTextureImage3DEXT, first_glTextureImage3DEXT, hook_glTextureImage3DEXT, zeros_glTextureImage3DEXT, (texture: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureImage3DEXT(texture, target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 857, glTextureSubImage1DEXT, first_glTextureSubImage1DEXT, hook_glTextureSubImage1DEXT, zeros_glTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 859, glTextureSubImage1DEXT, first_glTextureSubImage1DEXT, hook_glTextureSubImage1DEXT, zeros_glTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage1DEXT(texture, target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 858, glTextureSubImage2DEXT, first_glTextureSubImage2DEXT, hook_glTextureSubImage2DEXT, zeros_glTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 860, glTextureSubImage2DEXT, first_glTextureSubImage2DEXT, hook_glTextureSubImage2DEXT, zeros_glTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage2DEXT(texture, target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 859, glTextureSubImage3DEXT, first_glTextureSubImage3DEXT, hook_glTextureSubImage3DEXT, zeros_glTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 861, glTextureSubImage3DEXT, first_glTextureSubImage3DEXT, hook_glTextureSubImage3DEXT, zeros_glTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage3DEXT(texture, target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 860, glCompressedTextureImage1DEXT, first_glCompressedTextureImage1DEXT, hook_glCompressedTextureImage1DEXT, zeros_glCompressedTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
+export! { 862, glCompressedTextureImage1DEXT, first_glCompressedTextureImage1DEXT, hook_glCompressedTextureImage1DEXT, zeros_glCompressedTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureImage1DEXT(texture, target, level, internalformat, width, border, imageSize, bits) };
 } }
-export! { 861, glCompressedTextureImage2DEXT, first_glCompressedTextureImage2DEXT, hook_glCompressedTextureImage2DEXT, zeros_glCompressedTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
+export! { 863, glCompressedTextureImage2DEXT, first_glCompressedTextureImage2DEXT, hook_glCompressedTextureImage2DEXT, zeros_glCompressedTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureImage2DEXT(texture, target, level, internalformat, width, height, border, imageSize, bits) };
 } }
-export! { 862, glCompressedTextureImage3DEXT, first_glCompressedTextureImage3DEXT, hook_glCompressedTextureImage3DEXT, zeros_glCompressedTextureImage3DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
+export! { 864, glCompressedTextureImage3DEXT, first_glCompressedTextureImage3DEXT, hook_glCompressedTextureImage3DEXT, zeros_glCompressedTextureImage3DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureImage3DEXT(texture, target, level, internalformat, width, height, depth, border, imageSize, bits) };
 } }
-export! { 863, glCompressedTextureSubImage1DEXT, first_glCompressedTextureSubImage1DEXT, hook_glCompressedTextureSubImage1DEXT, zeros_glCompressedTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
+export! { 865, glCompressedTextureSubImage1DEXT, first_glCompressedTextureSubImage1DEXT, hook_glCompressedTextureSubImage1DEXT, zeros_glCompressedTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage1DEXT(texture, target, level, xoffset, width, format, imageSize, bits) };
 } }
-export! { 864, glCompressedTextureSubImage2DEXT, first_glCompressedTextureSubImage2DEXT, hook_glCompressedTextureSubImage2DEXT, zeros_glCompressedTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
+export! { 866, glCompressedTextureSubImage2DEXT, first_glCompressedTextureSubImage2DEXT, hook_glCompressedTextureSubImage2DEXT, zeros_glCompressedTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage2DEXT(texture, target, level, xoffset, yoffset, width, height, format, imageSize, bits) };
 } }
-export! { 865, glCompressedTextureSubImage3DEXT, first_glCompressedTextureSubImage3DEXT, hook_glCompressedTextureSubImage3DEXT, zeros_glCompressedTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
+export! { 867, glCompressedTextureSubImage3DEXT, first_glCompressedTextureSubImage3DEXT, hook_glCompressedTextureSubImage3DEXT, zeros_glCompressedTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Named(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage3DEXT(texture, target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, bits) };
 } }
-export! { 866, glCompressedMultiTexImage1DEXT, first_glCompressedMultiTexImage1DEXT, hook_glCompressedMultiTexImage1DEXT, zeros_glCompressedMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
+export! { 868, glCompressedMultiTexImage1DEXT, first_glCompressedMultiTexImage1DEXT, hook_glCompressedMultiTexImage1DEXT, zeros_glCompressedMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedMultiTexImage1DEXT(texunit, target, level, internalformat, width, border, imageSize, bits) };
 } }
-export! { 867, glCompressedMultiTexImage2DEXT, first_glCompressedMultiTexImage2DEXT, hook_glCompressedMultiTexImage2DEXT, zeros_glCompressedMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
+export! { 869, glCompressedMultiTexImage2DEXT, first_glCompressedMultiTexImage2DEXT, hook_glCompressedMultiTexImage2DEXT, zeros_glCompressedMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedMultiTexImage2DEXT(texunit, target, level, internalformat, width, height, border, imageSize, bits) };
 } }
-export! { 868, glCompressedMultiTexImage3DEXT, first_glCompressedMultiTexImage3DEXT, hook_glCompressedMultiTexImage3DEXT, zeros_glCompressedMultiTexImage3DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
+export! { 870, glCompressedMultiTexImage3DEXT, first_glCompressedMultiTexImage3DEXT, hook_glCompressedMultiTexImage3DEXT, zeros_glCompressedMultiTexImage3DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedMultiTexImage3DEXT(texunit, target, level, internalformat, width, height, depth, border, imageSize, bits) };
 } }
-export! { 869, glCompressedMultiTexSubImage1DEXT, first_glCompressedMultiTexSubImage1DEXT, hook_glCompressedMultiTexSubImage1DEXT, zeros_glCompressedMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
+export! { 871, glCompressedMultiTexSubImage1DEXT, first_glCompressedMultiTexSubImage1DEXT, hook_glCompressedMultiTexSubImage1DEXT, zeros_glCompressedMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedMultiTexSubImage1DEXT(texunit, target, level, xoffset, width, format, imageSize, bits) };
 } }
-export! { 870, glCompressedMultiTexSubImage2DEXT, first_glCompressedMultiTexSubImage2DEXT, hook_glCompressedMultiTexSubImage2DEXT, zeros_glCompressedMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
+export! { 872, glCompressedMultiTexSubImage2DEXT, first_glCompressedMultiTexSubImage2DEXT, hook_glCompressedMultiTexSubImage2DEXT, zeros_glCompressedMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedMultiTexSubImage2DEXT(texunit, target, level, xoffset, yoffset, width, height, format, imageSize, bits) };
 } }
-export! { 871, glCompressedMultiTexSubImage3DEXT, first_glCompressedMultiTexSubImage3DEXT, hook_glCompressedMultiTexSubImage3DEXT, zeros_glCompressedMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
+export! { 873, glCompressedMultiTexSubImage3DEXT, first_glCompressedMultiTexSubImage3DEXT, hook_glCompressedMultiTexSubImage3DEXT, zeros_glCompressedMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, bits: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedMultiTexSubImage3DEXT(texunit, target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, bits) };
 } }
-export! { 872, glMultiTexImage1DEXT, first_glMultiTexImage1DEXT, hook_glMultiTexImage1DEXT, zeros_glMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 874, glMultiTexImage1DEXT, first_glMultiTexImage1DEXT, hook_glMultiTexImage1DEXT, zeros_glMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexImage1DEXT(texunit, target, level, internalformat, width, border, format, type_, pixels) };
 } }
-export! { 873, glMultiTexImage2DEXT, first_glMultiTexImage2DEXT, hook_glMultiTexImage2DEXT, zeros_glMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 875, glMultiTexImage2DEXT, first_glMultiTexImage2DEXT, hook_glMultiTexImage2DEXT, zeros_glMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexImage2DEXT(texunit, target, level, internalformat, width, height, border, format, type_, pixels) };
 } }
-export! { 874, glMultiTexImage3DEXT, first_glMultiTexImage3DEXT, hook_glMultiTexImage3DEXT, zeros_glMultiTexImage3DEXT, (texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 876, glMultiTexImage3DEXT, first_glMultiTexImage3DEXT, hook_glMultiTexImage3DEXT, zeros_glMultiTexImage3DEXT, (texunit: u32, target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexImage3DEXT(texunit, target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 875, glMultiTexSubImage1DEXT, first_glMultiTexSubImage1DEXT, hook_glMultiTexSubImage1DEXT, zeros_glMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 877, glMultiTexSubImage1DEXT, first_glMultiTexSubImage1DEXT, hook_glMultiTexSubImage1DEXT, zeros_glMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexSubImage1DEXT(texunit, target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 876, glMultiTexSubImage2DEXT, first_glMultiTexSubImage2DEXT, hook_glMultiTexSubImage2DEXT, zeros_glMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 878, glMultiTexSubImage2DEXT, first_glMultiTexSubImage2DEXT, hook_glMultiTexSubImage2DEXT, zeros_glMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexSubImage2DEXT(texunit, target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 877, glMultiTexSubImage3DEXT, first_glMultiTexSubImage3DEXT, hook_glMultiTexSubImage3DEXT, zeros_glMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 879, glMultiTexSubImage3DEXT, first_glMultiTexSubImage3DEXT, hook_glMultiTexSubImage3DEXT, zeros_glMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(TextureAt::Unit(texunit, target));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexSubImage3DEXT(texunit, target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 878, glTexImage2DMultisample, first_glTexImage2DMultisample, hook_glTexImage2DMultisample, zeros_glTexImage2DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
+export! { 880, glTexImage2DMultisample, first_glTexImage2DMultisample, hook_glTexImage2DMultisample, zeros_glTexImage2DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage2DMultisample(target, samples, internalformat, width, height, fixedsamplelocations) };
 } }
-export! { 879, glTexImage3DMultisample, first_glTexImage3DMultisample, hook_glTexImage3DMultisample, zeros_glTexImage3DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 881, glTexImage3DMultisample, first_glTexImage3DMultisample, hook_glTexImage3DMultisample, zeros_glTexImage3DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DMultisample(target, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 880, glTexStorage1D, first_glTexStorage1D, hook_glTexStorage1D, zeros_glTexStorage1D, (target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
+export! { 882, glTexStorage1D, first_glTexStorage1D, hook_glTexStorage1D, zeros_glTexStorage1D, (target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage1D(target, levels, internalformat, width) };
 } }
-export! { 881, glTexStorage1DEXT, first_glTexStorage1DEXT, hook_glTexStorage1DEXT, zeros_glTexStorage1DEXT, (target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
+export! { 883, glTexStorage1DEXT, first_glTexStorage1DEXT, hook_glTexStorage1DEXT, zeros_glTexStorage1DEXT, (target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage1DEXT(target, levels, internalformat, width) };
 } }
-export! { 882, glTexStorage2D, first_glTexStorage2D, hook_glTexStorage2D, zeros_glTexStorage2D, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 884, glTexStorage2D, first_glTexStorage2D, hook_glTexStorage2D, zeros_glTexStorage2D, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage2D(target, levels, internalformat, width, height) };
 } }
-export! { 883, glTexStorage2DEXT, first_glTexStorage2DEXT, hook_glTexStorage2DEXT, zeros_glTexStorage2DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 885, glTexStorage2DEXT, first_glTexStorage2DEXT, hook_glTexStorage2DEXT, zeros_glTexStorage2DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage2DEXT(target, levels, internalformat, width, height) };
 } }
-export! { 884, glTexStorage3D, first_glTexStorage3D, hook_glTexStorage3D, zeros_glTexStorage3D, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
+export! { 886, glTexStorage3D, first_glTexStorage3D, hook_glTexStorage3D, zeros_glTexStorage3D, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage3D(target, levels, internalformat, width, height, depth) };
 } }
-export! { 885, glTexStorage3DEXT, first_glTexStorage3DEXT, hook_glTexStorage3DEXT, zeros_glTexStorage3DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
+export! { 887, glTexStorage3DEXT, first_glTexStorage3DEXT, hook_glTexStorage3DEXT, zeros_glTexStorage3DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage3DEXT(target, levels, internalformat, width, height, depth) };
 } }
-export! { 886, glTexStorage2DMultisample, first_glTexStorage2DMultisample, hook_glTexStorage2DMultisample, zeros_glTexStorage2DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
+export! { 888, glTexStorage2DMultisample, first_glTexStorage2DMultisample, hook_glTexStorage2DMultisample, zeros_glTexStorage2DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage2DMultisample(target, samples, internalformat, width, height, fixedsamplelocations) };
 } }
-export! { 887, glTexStorage3DMultisample, first_glTexStorage3DMultisample, hook_glTexStorage3DMultisample, zeros_glTexStorage3DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 889, glTexStorage3DMultisample, first_glTexStorage3DMultisample, hook_glTexStorage3DMultisample, zeros_glTexStorage3DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage3DMultisample(target, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 888, glTexStorage3DMultisampleOES, first_glTexStorage3DMultisampleOES, hook_glTexStorage3DMultisampleOES, zeros_glTexStorage3DMultisampleOES, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 890, glTexStorage3DMultisampleOES, first_glTexStorage3DMultisampleOES, hook_glTexStorage3DMultisampleOES, zeros_glTexStorage3DMultisampleOES, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage3DMultisampleOES(target, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 889, glTexImage3DOES, first_glTexImage3DOES, hook_glTexImage3DOES, zeros_glTexImage3DOES, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 891, glTexImage3DOES, first_glTexImage3DOES, hook_glTexImage3DOES, zeros_glTexImage3DOES, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DOES(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 890, glTexSubImage3DOES, first_glTexSubImage3DOES, hook_glTexSubImage3DOES, zeros_glTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 892, glTexSubImage3DOES, first_glTexSubImage3DOES, hook_glTexSubImage3DOES, zeros_glTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3DOES(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 891, glCompressedTexImage3DOES, first_glCompressedTexImage3DOES, hook_glCompressedTexImage3DOES, zeros_glCompressedTexImage3DOES, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 893, glCompressedTexImage3DOES, first_glCompressedTexImage3DOES, hook_glCompressedTexImage3DOES, zeros_glCompressedTexImage3DOES, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3DOES(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 892, glCompressedTexSubImage3DOES, first_glCompressedTexSubImage3DOES, hook_glCompressedTexSubImage3DOES, zeros_glCompressedTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 894, glCompressedTexSubImage3DOES, first_glCompressedTexSubImage3DOES, hook_glCompressedTexSubImage3DOES, zeros_glCompressedTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3DOES(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 893, glEGLImageTargetTexture2DOES, first_glEGLImageTargetTexture2DOES, hook_glEGLImageTargetTexture2DOES, zeros_glEGLImageTargetTexture2DOES, (target: u32, image: Ptr) -> (), {
+export! { 895, glEGLImageTargetTexture2DOES, first_glEGLImageTargetTexture2DOES, hook_glEGLImageTargetTexture2DOES, zeros_glEGLImageTargetTexture2DOES, (target: u32, image: Ptr) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEGLImageTargetTexture2DOES(target, image) };
 } }
-export! { 894, glTextureSubImage1D, first_glTextureSubImage1D, hook_glTextureSubImage1D, zeros_glTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 896, glTextureSubImage1D, first_glTextureSubImage1D, hook_glTextureSubImage1D, zeros_glTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage1D(texture, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 895, glTextureSubImage2D, first_glTextureSubImage2D, hook_glTextureSubImage2D, zeros_glTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 897, glTextureSubImage2D, first_glTextureSubImage2D, hook_glTextureSubImage2D, zeros_glTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage2D(texture, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 896, glTextureSubImage3D, first_glTextureSubImage3D, hook_glTextureSubImage3D, zeros_glTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 898, glTextureSubImage3D, first_glTextureSubImage3D, hook_glTextureSubImage3D, zeros_glTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 897, glCompressedTextureSubImage1D, first_glCompressedTextureSubImage1D, hook_glCompressedTextureSubImage1D, zeros_glCompressedTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 899, glCompressedTextureSubImage1D, first_glCompressedTextureSubImage1D, hook_glCompressedTextureSubImage1D, zeros_glCompressedTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage1D(texture, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 898, glCompressedTextureSubImage2D, first_glCompressedTextureSubImage2D, hook_glCompressedTextureSubImage2D, zeros_glCompressedTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 900, glCompressedTextureSubImage2D, first_glCompressedTextureSubImage2D, hook_glCompressedTextureSubImage2D, zeros_glCompressedTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage2D(texture, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 899, glCompressedTextureSubImage3D, first_glCompressedTextureSubImage3D, hook_glCompressedTextureSubImage3D, zeros_glCompressedTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 901, glCompressedTextureSubImage3D, first_glCompressedTextureSubImage3D, hook_glCompressedTextureSubImage3D, zeros_glCompressedTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 900, glTextureStorage1D, first_glTextureStorage1D, hook_glTextureStorage1D, zeros_glTextureStorage1D, (texture: u32, levels: i32, internalformat: u32, width: i32) -> (), {
+export! { 902, glTextureStorage1D, first_glTextureStorage1D, hook_glTextureStorage1D, zeros_glTextureStorage1D, (texture: u32, levels: i32, internalformat: u32, width: i32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage1D(texture, levels, internalformat, width) };
 } }
-export! { 901, glTextureStorage2D, first_glTextureStorage2D, hook_glTextureStorage2D, zeros_glTextureStorage2D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 903, glTextureStorage2D, first_glTextureStorage2D, hook_glTextureStorage2D, zeros_glTextureStorage2D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage2D(texture, levels, internalformat, width, height) };
 } }
-export! { 902, glTextureStorage3D, first_glTextureStorage3D, hook_glTextureStorage3D, zeros_glTextureStorage3D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
+export! { 904, glTextureStorage3D, first_glTextureStorage3D, hook_glTextureStorage3D, zeros_glTextureStorage3D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage3D(texture, levels, internalformat, width, height, depth) };
 } }
-export! { 903, glTextureStorage2DMultisample, first_glTextureStorage2DMultisample, hook_glTextureStorage2DMultisample, zeros_glTextureStorage2DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
+export! { 905, glTextureStorage2DMultisample, first_glTextureStorage2DMultisample, hook_glTextureStorage2DMultisample, zeros_glTextureStorage2DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage2DMultisample(texture, samples, internalformat, width, height, fixedsamplelocations) };
 } }
-export! { 904, glTextureStorage3DMultisample, first_glTextureStorage3DMultisample, hook_glTextureStorage3DMultisample, zeros_glTextureStorage3DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 906, glTextureStorage3DMultisample, first_glTextureStorage3DMultisample, hook_glTextureStorage3DMultisample, zeros_glTextureStorage3DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage3DMultisample(texture, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 905, glClearTexImage, first_glClearTexImage, hook_glClearTexImage, zeros_glClearTexImage, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 907, glClearTexImage, first_glClearTexImage, hook_glClearTexImage, zeros_glClearTexImage, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexImage(texture, level, format, type_, data) };
 } }
-export! { 906, glClearTexImageEXT, first_glClearTexImageEXT, hook_glClearTexImageEXT, zeros_glClearTexImageEXT, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 908, glClearTexImageEXT, first_glClearTexImageEXT, hook_glClearTexImageEXT, zeros_glClearTexImageEXT, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexImageEXT(texture, level, format, type_, data) };
 } }
-export! { 907, glClearTexSubImage, first_glClearTexSubImage, hook_glClearTexSubImage, zeros_glClearTexSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 909, glClearTexSubImage, first_glClearTexSubImage, hook_glClearTexSubImage, zeros_glClearTexSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, data) };
 } }
-export! { 908, glClearTexSubImageEXT, first_glClearTexSubImageEXT, hook_glClearTexSubImageEXT, zeros_glClearTexSubImageEXT, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 910, glClearTexSubImageEXT, first_glClearTexSubImageEXT, hook_glClearTexSubImageEXT, zeros_glClearTexSubImageEXT, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexSubImageEXT(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, data) };
 } }
-export! { 909, glNamedRenderbufferStorage, first_glNamedRenderbufferStorage, hook_glNamedRenderbufferStorage, zeros_glNamedRenderbufferStorage, (renderbuffer: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 911, glNamedRenderbufferStorage, first_glNamedRenderbufferStorage, hook_glNamedRenderbufferStorage, zeros_glNamedRenderbufferStorage, (renderbuffer: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Renderbuffer(RenderbufferName(renderbuffer)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorage(renderbuffer, internalformat, width, height) };
 } }
-export! { 910, glNamedRenderbufferStorageMultisample, first_glNamedRenderbufferStorageMultisample, hook_glNamedRenderbufferStorageMultisample, zeros_glNamedRenderbufferStorageMultisample, (renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 912, glNamedRenderbufferStorageMultisample, first_glNamedRenderbufferStorageMultisample, hook_glNamedRenderbufferStorageMultisample, zeros_glNamedRenderbufferStorageMultisample, (renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Renderbuffer(RenderbufferName(renderbuffer)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorageMultisample(renderbuffer, samples, internalformat, width, height) };
 } }
-export! { 911, glNamedRenderbufferStorageEXT, first_glNamedRenderbufferStorageEXT, hook_glNamedRenderbufferStorageEXT, zeros_glNamedRenderbufferStorageEXT, (renderbuffer: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 913, glNamedRenderbufferStorageEXT, first_glNamedRenderbufferStorageEXT, hook_glNamedRenderbufferStorageEXT, zeros_glNamedRenderbufferStorageEXT, (renderbuffer: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Renderbuffer(RenderbufferName(renderbuffer)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorageEXT(renderbuffer, internalformat, width, height) };
 } }
-export! { 912, glNamedRenderbufferStorageMultisampleAdvancedAMD, first_glNamedRenderbufferStorageMultisampleAdvancedAMD, hook_glNamedRenderbufferStorageMultisampleAdvancedAMD, zeros_glNamedRenderbufferStorageMultisampleAdvancedAMD, (renderbuffer: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 914, glNamedRenderbufferStorageMultisampleAdvancedAMD, first_glNamedRenderbufferStorageMultisampleAdvancedAMD, hook_glNamedRenderbufferStorageMultisampleAdvancedAMD, zeros_glNamedRenderbufferStorageMultisampleAdvancedAMD, (renderbuffer: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Renderbuffer(RenderbufferName(renderbuffer)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorageMultisampleAdvancedAMD(renderbuffer, samples, storageSamples, internalformat, width, height) };
 } }
-export! { 913, glNamedRenderbufferStorageMultisampleCoverageEXT, first_glNamedRenderbufferStorageMultisampleCoverageEXT, hook_glNamedRenderbufferStorageMultisampleCoverageEXT, zeros_glNamedRenderbufferStorageMultisampleCoverageEXT, (renderbuffer: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 915, glNamedRenderbufferStorageMultisampleCoverageEXT, first_glNamedRenderbufferStorageMultisampleCoverageEXT, hook_glNamedRenderbufferStorageMultisampleCoverageEXT, zeros_glNamedRenderbufferStorageMultisampleCoverageEXT, (renderbuffer: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Renderbuffer(RenderbufferName(renderbuffer)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorageMultisampleCoverageEXT(renderbuffer, coverageSamples, colorSamples, internalformat, width, height) };
 } }
-export! { 914, glNamedRenderbufferStorageMultisampleEXT, first_glNamedRenderbufferStorageMultisampleEXT, hook_glNamedRenderbufferStorageMultisampleEXT, zeros_glNamedRenderbufferStorageMultisampleEXT, (renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 916, glNamedRenderbufferStorageMultisampleEXT, first_glNamedRenderbufferStorageMultisampleEXT, hook_glNamedRenderbufferStorageMultisampleEXT, zeros_glNamedRenderbufferStorageMultisampleEXT, (renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Renderbuffer(RenderbufferName(renderbuffer)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorageMultisampleEXT(renderbuffer, samples, internalformat, width, height) };
 } }
-export! { 915, glTextureStorage1DEXT, first_glTextureStorage1DEXT, hook_glTextureStorage1DEXT, zeros_glTextureStorage1DEXT, (texture: u32, target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
+export! { 917, glTextureStorage1DEXT, first_glTextureStorage1DEXT, hook_glTextureStorage1DEXT, zeros_glTextureStorage1DEXT, (texture: u32, target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage1DEXT(texture, target, levels, internalformat, width) };
 } }
-export! { 916, glTextureStorage2DEXT, first_glTextureStorage2DEXT, hook_glTextureStorage2DEXT, zeros_glTextureStorage2DEXT, (texture: u32, target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 918, glTextureStorage2DEXT, first_glTextureStorage2DEXT, hook_glTextureStorage2DEXT, zeros_glTextureStorage2DEXT, (texture: u32, target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage2DEXT(texture, target, levels, internalformat, width, height) };
 } }
-export! { 917, glTextureStorage3DEXT, first_glTextureStorage3DEXT, hook_glTextureStorage3DEXT, zeros_glTextureStorage3DEXT, (texture: u32, target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
+export! { 919, glTextureStorage3DEXT, first_glTextureStorage3DEXT, hook_glTextureStorage3DEXT, zeros_glTextureStorage3DEXT, (texture: u32, target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage3DEXT(texture, target, levels, internalformat, width, height, depth) };
 } }
-export! { 918, glTextureStorage2DMultisampleEXT, first_glTextureStorage2DMultisampleEXT, hook_glTextureStorage2DMultisampleEXT, zeros_glTextureStorage2DMultisampleEXT, (texture: u32, target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
+export! { 920, glTextureStorage2DMultisampleEXT, first_glTextureStorage2DMultisampleEXT, hook_glTextureStorage2DMultisampleEXT, zeros_glTextureStorage2DMultisampleEXT, (texture: u32, target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage2DMultisampleEXT(texture, target, samples, internalformat, width, height, fixedsamplelocations) };
 } }
-export! { 919, glTextureStorage3DMultisampleEXT, first_glTextureStorage3DMultisampleEXT, hook_glTextureStorage3DMultisampleEXT, zeros_glTextureStorage3DMultisampleEXT, (texture: u32, target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 921, glTextureStorage3DMultisampleEXT, first_glTextureStorage3DMultisampleEXT, hook_glTextureStorage3DMultisampleEXT, zeros_glTextureStorage3DMultisampleEXT, (texture: u32, target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage3DMultisampleEXT(texture, target, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 920, glTextureStorageMem1DEXT, first_glTextureStorageMem1DEXT, hook_glTextureStorageMem1DEXT, zeros_glTextureStorageMem1DEXT, (texture: u32, levels: i32, internalFormat: u32, width: i32, memory: u32, offset: u64) -> (), {
+export! { 922, glTextureStorageMem1DEXT, first_glTextureStorageMem1DEXT, hook_glTextureStorageMem1DEXT, zeros_glTextureStorageMem1DEXT, (texture: u32, levels: i32, internalFormat: u32, width: i32, memory: u32, offset: u64) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorageMem1DEXT(texture, levels, internalFormat, width, memory, offset) };
 } }
-export! { 921, glTextureStorageMem2DEXT, first_glTextureStorageMem2DEXT, hook_glTextureStorageMem2DEXT, zeros_glTextureStorageMem2DEXT, (texture: u32, levels: i32, internalFormat: u32, width: i32, height: i32, memory: u32, offset: u64) -> (), {
+export! { 923, glTextureStorageMem2DEXT, first_glTextureStorageMem2DEXT, hook_glTextureStorageMem2DEXT, zeros_glTextureStorageMem2DEXT, (texture: u32, levels: i32, internalFormat: u32, width: i32, height: i32, memory: u32, offset: u64) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorageMem2DEXT(texture, levels, internalFormat, width, height, memory, offset) };
 } }
-export! { 922, glTextureStorageMem3DEXT, first_glTextureStorageMem3DEXT, hook_glTextureStorageMem3DEXT, zeros_glTextureStorageMem3DEXT, (texture: u32, levels: i32, internalFormat: u32, width: i32, height: i32, depth: i32, memory: u32, offset: u64) -> (), {
+export! { 924, glTextureStorageMem3DEXT, first_glTextureStorageMem3DEXT, hook_glTextureStorageMem3DEXT, zeros_glTextureStorageMem3DEXT, (texture: u32, levels: i32, internalFormat: u32, width: i32, height: i32, depth: i32, memory: u32, offset: u64) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorageMem3DEXT(texture, levels, internalFormat, width, height, depth, memory, offset) };
 } }
-export! { 923, glTextureStorageMem2DMultisampleEXT, first_glTextureStorageMem2DMultisampleEXT, hook_glTextureStorageMem2DMultisampleEXT, zeros_glTextureStorageMem2DMultisampleEXT, (texture: u32, samples: i32, internalFormat: u32, width: i32, height: i32, fixedSampleLocations: u8, memory: u32, offset: u64) -> (), {
+export! { 925, glTextureStorageMem2DMultisampleEXT, first_glTextureStorageMem2DMultisampleEXT, hook_glTextureStorageMem2DMultisampleEXT, zeros_glTextureStorageMem2DMultisampleEXT, (texture: u32, samples: i32, internalFormat: u32, width: i32, height: i32, fixedSampleLocations: u8, memory: u32, offset: u64) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorageMem2DMultisampleEXT(texture, samples, internalFormat, width, height, fixedSampleLocations, memory, offset) };
 } }
-export! { 924, glTextureStorageMem3DMultisampleEXT, first_glTextureStorageMem3DMultisampleEXT, hook_glTextureStorageMem3DMultisampleEXT, zeros_glTextureStorageMem3DMultisampleEXT, (texture: u32, samples: i32, internalFormat: u32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8, memory: u32, offset: u64) -> (), {
+export! { 926, glTextureStorageMem3DMultisampleEXT, first_glTextureStorageMem3DMultisampleEXT, hook_glTextureStorageMem3DMultisampleEXT, zeros_glTextureStorageMem3DMultisampleEXT, (texture: u32, samples: i32, internalFormat: u32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8, memory: u32, offset: u64) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorageMem3DMultisampleEXT(texture, samples, internalFormat, width, height, depth, fixedSampleLocations, memory, offset) };
 } }
-export! { 925, glTextureImage2DMultisampleCoverageNV, first_glTextureImage2DMultisampleCoverageNV, hook_glTextureImage2DMultisampleCoverageNV, zeros_glTextureImage2DMultisampleCoverageNV, (texture: u32, target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8) -> (), {
+export! { 927, glTextureImage2DMultisampleCoverageNV, first_glTextureImage2DMultisampleCoverageNV, hook_glTextureImage2DMultisampleCoverageNV, zeros_glTextureImage2DMultisampleCoverageNV, (texture: u32, target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureImage2DMultisampleCoverageNV(texture, target, coverageSamples, colorSamples, internalFormat, width, height, fixedSampleLocations) };
 } }
-export! { 926, glTextureImage2DMultisampleNV, first_glTextureImage2DMultisampleNV, hook_glTextureImage2DMultisampleNV, zeros_glTextureImage2DMultisampleNV, (texture: u32, target: u32, samples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8) -> (), {
+export! { 928, glTextureImage2DMultisampleNV, first_glTextureImage2DMultisampleNV, hook_glTextureImage2DMultisampleNV, zeros_glTextureImage2DMultisampleNV, (texture: u32, target: u32, samples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureImage2DMultisampleNV(texture, target, samples, internalFormat, width, height, fixedSampleLocations) };
 } }
-export! { 927, glTextureImage3DMultisampleCoverageNV, first_glTextureImage3DMultisampleCoverageNV, hook_glTextureImage3DMultisampleCoverageNV, zeros_glTextureImage3DMultisampleCoverageNV, (texture: u32, target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8) -> (), {
+export! { 929, glTextureImage3DMultisampleCoverageNV, first_glTextureImage3DMultisampleCoverageNV, hook_glTextureImage3DMultisampleCoverageNV, zeros_glTextureImage3DMultisampleCoverageNV, (texture: u32, target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureImage3DMultisampleCoverageNV(texture, target, coverageSamples, colorSamples, internalFormat, width, height, depth, fixedSampleLocations) };
 } }
-export! { 928, glTextureImage3DMultisampleNV, first_glTextureImage3DMultisampleNV, hook_glTextureImage3DMultisampleNV, zeros_glTextureImage3DMultisampleNV, (texture: u32, target: u32, samples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8) -> (), {
+export! { 930, glTextureImage3DMultisampleNV, first_glTextureImage3DMultisampleNV, hook_glTextureImage3DMultisampleNV, zeros_glTextureImage3DMultisampleNV, (texture: u32, target: u32, samples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureImage3DMultisampleNV(texture, target, samples, internalFormat, width, height, depth, fixedSampleLocations) };
 } }
-export! { 929, glTexturePageCommitmentEXT, first_glTexturePageCommitmentEXT, hook_glTexturePageCommitmentEXT, zeros_glTexturePageCommitmentEXT, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8) -> (), {
+export! { 931, glTexturePageCommitmentEXT, first_glTexturePageCommitmentEXT, hook_glTexturePageCommitmentEXT, zeros_glTexturePageCommitmentEXT, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexturePageCommitmentEXT(texture, level, xoffset, yoffset, zoffset, width, height, depth, commit) };
 } }
-export! { 930, glTexturePageCommitmentMemNV, first_glTexturePageCommitmentMemNV, hook_glTexturePageCommitmentMemNV, zeros_glTexturePageCommitmentMemNV, (texture: u32, layer: i32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, memory: u32, offset: u64, commit: u8) -> (), {
+export! { 932, glTexturePageCommitmentMemNV, first_glTexturePageCommitmentMemNV, hook_glTexturePageCommitmentMemNV, zeros_glTexturePageCommitmentMemNV, (texture: u32, layer: i32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, memory: u32, offset: u64, commit: u8) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexturePageCommitmentMemNV(texture, layer, level, xoffset, yoffset, zoffset, width, height, depth, memory, offset, commit) };
 } }
-export! { 931, glInvalidateTexImage, first_glInvalidateTexImage, hook_glInvalidateTexImage, zeros_glInvalidateTexImage, (texture: u32, level: i32) -> (), {
+export! { 933, glInvalidateTexImage, first_glInvalidateTexImage, hook_glInvalidateTexImage, zeros_glInvalidateTexImage, (texture: u32, level: i32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInvalidateTexImage(texture, level) };
 } }
-export! { 932, glInvalidateTexSubImage, first_glInvalidateTexSubImage, hook_glInvalidateTexSubImage, zeros_glInvalidateTexSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32) -> (), {
+export! { 934, glInvalidateTexSubImage, first_glInvalidateTexSubImage, hook_glInvalidateTexSubImage, zeros_glInvalidateTexSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInvalidateTexSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth) };
 } }
-export! { 933, glTextureRenderbufferEXT, first_glTextureRenderbufferEXT, hook_glTextureRenderbufferEXT, zeros_glTextureRenderbufferEXT, (texture: u32, target: u32, renderbuffer: u32) -> (), {
+export! { 935, glTextureRenderbufferEXT, first_glTextureRenderbufferEXT, hook_glTextureRenderbufferEXT, zeros_glTextureRenderbufferEXT, (texture: u32, target: u32, renderbuffer: u32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureRenderbufferEXT(texture, target, renderbuffer) };
 } }
-export! { 934, glEGLImageTargetTextureStorageEXT, first_glEGLImageTargetTextureStorageEXT, hook_glEGLImageTargetTextureStorageEXT, zeros_glEGLImageTargetTextureStorageEXT, (texture: u32, image: Ptr, attrib_list: Ptr) -> (), {
+export! { 936, glEGLImageTargetTextureStorageEXT, first_glEGLImageTargetTextureStorageEXT, hook_glEGLImageTargetTextureStorageEXT, zeros_glEGLImageTargetTextureStorageEXT, (texture: u32, image: Ptr, attrib_list: Ptr) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEGLImageTargetTextureStorageEXT(texture, image, attrib_list) };
 } }
-export! { 935, glTextureStorageSparseAMD, first_glTextureStorageSparseAMD, hook_glTextureStorageSparseAMD, zeros_glTextureStorageSparseAMD, (texture: u32, target: u32, internalFormat: u32, width: i32, height: i32, depth: i32, layers: i32, flags: u32) -> (), {
+export! { 937, glTextureStorageSparseAMD, first_glTextureStorageSparseAMD, hook_glTextureStorageSparseAMD, zeros_glTextureStorageSparseAMD, (texture: u32, target: u32, internalFormat: u32, width: i32, height: i32, depth: i32, layers: i32, flags: u32) -> (), {
     hooks::named(Object::Texture(TextureName(texture)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorageSparseAMD(texture, target, internalFormat, width, height, depth, layers, flags) };
 } }
-export! { 936, glTexStorageMem1DEXT, first_glTexStorageMem1DEXT, hook_glTexStorageMem1DEXT, zeros_glTexStorageMem1DEXT, (target: u32, levels: i32, internalFormat: u32, width: i32, memory: u32, offset: u64) -> (), {
+export! { 938, glTexStorageMem1DEXT, first_glTexStorageMem1DEXT, hook_glTexStorageMem1DEXT, zeros_glTexStorageMem1DEXT, (target: u32, levels: i32, internalFormat: u32, width: i32, memory: u32, offset: u64) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorageMem1DEXT(target, levels, internalFormat, width, memory, offset) };
 } }
-export! { 937, glTexStorageMem2DEXT, first_glTexStorageMem2DEXT, hook_glTexStorageMem2DEXT, zeros_glTexStorageMem2DEXT, (target: u32, levels: i32, internalFormat: u32, width: i32, height: i32, memory: u32, offset: u64) -> (), {
+export! { 939, glTexStorageMem2DEXT, first_glTexStorageMem2DEXT, hook_glTexStorageMem2DEXT, zeros_glTexStorageMem2DEXT, (target: u32, levels: i32, internalFormat: u32, width: i32, height: i32, memory: u32, offset: u64) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorageMem2DEXT(target, levels, internalFormat, width, height, memory, offset) };
 } }
-export! { 938, glTexStorageMem3DEXT, first_glTexStorageMem3DEXT, hook_glTexStorageMem3DEXT, zeros_glTexStorageMem3DEXT, (target: u32, levels: i32, internalFormat: u32, width: i32, height: i32, depth: i32, memory: u32, offset: u64) -> (), {
+export! { 940, glTexStorageMem3DEXT, first_glTexStorageMem3DEXT, hook_glTexStorageMem3DEXT, zeros_glTexStorageMem3DEXT, (target: u32, levels: i32, internalFormat: u32, width: i32, height: i32, depth: i32, memory: u32, offset: u64) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorageMem3DEXT(target, levels, internalFormat, width, height, depth, memory, offset) };
 } }
-export! { 939, glTexStorageMem2DMultisampleEXT, first_glTexStorageMem2DMultisampleEXT, hook_glTexStorageMem2DMultisampleEXT, zeros_glTexStorageMem2DMultisampleEXT, (target: u32, samples: i32, internalFormat: u32, width: i32, height: i32, fixedSampleLocations: u8, memory: u32, offset: u64) -> (), {
+export! { 941, glTexStorageMem2DMultisampleEXT, first_glTexStorageMem2DMultisampleEXT, hook_glTexStorageMem2DMultisampleEXT, zeros_glTexStorageMem2DMultisampleEXT, (target: u32, samples: i32, internalFormat: u32, width: i32, height: i32, fixedSampleLocations: u8, memory: u32, offset: u64) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorageMem2DMultisampleEXT(target, samples, internalFormat, width, height, fixedSampleLocations, memory, offset) };
 } }
-export! { 940, glTexStorageMem3DMultisampleEXT, first_glTexStorageMem3DMultisampleEXT, hook_glTexStorageMem3DMultisampleEXT, zeros_glTexStorageMem3DMultisampleEXT, (target: u32, samples: i32, internalFormat: u32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8, memory: u32, offset: u64) -> (), {
+export! { 942, glTexStorageMem3DMultisampleEXT, first_glTexStorageMem3DMultisampleEXT, hook_glTexStorageMem3DMultisampleEXT, zeros_glTexStorageMem3DMultisampleEXT, (target: u32, samples: i32, internalFormat: u32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8, memory: u32, offset: u64) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorageMem3DMultisampleEXT(target, samples, internalFormat, width, height, depth, fixedSampleLocations, memory, offset) };
 } }
-export! { 941, glTexImage2DMultisampleCoverageNV, first_glTexImage2DMultisampleCoverageNV, hook_glTexImage2DMultisampleCoverageNV, zeros_glTexImage2DMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8) -> (), {
+export! { 943, glTexImage2DMultisampleCoverageNV, first_glTexImage2DMultisampleCoverageNV, hook_glTexImage2DMultisampleCoverageNV, zeros_glTexImage2DMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, fixedSampleLocations: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage2DMultisampleCoverageNV(target, coverageSamples, colorSamples, internalFormat, width, height, fixedSampleLocations) };
 } }
-export! { 942, glTexImage3DMultisampleCoverageNV, first_glTexImage3DMultisampleCoverageNV, hook_glTexImage3DMultisampleCoverageNV, zeros_glTexImage3DMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8) -> (), {
+export! { 944, glTexImage3DMultisampleCoverageNV, first_glTexImage3DMultisampleCoverageNV, hook_glTexImage3DMultisampleCoverageNV, zeros_glTexImage3DMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalFormat: i32, width: i32, height: i32, depth: i32, fixedSampleLocations: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DMultisampleCoverageNV(target, coverageSamples, colorSamples, internalFormat, width, height, depth, fixedSampleLocations) };
 } }
-export! { 943, glTexPageCommitmentARB, first_glTexPageCommitmentARB, hook_glTexPageCommitmentARB, zeros_glTexPageCommitmentARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8) -> (), {
+export! { 945, glTexPageCommitmentARB, first_glTexPageCommitmentARB, hook_glTexPageCommitmentARB, zeros_glTexPageCommitmentARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexPageCommitmentARB(target, level, xoffset, yoffset, zoffset, width, height, depth, commit) };
 } }
-export! { 944, glTexPageCommitmentEXT, first_glTexPageCommitmentEXT, hook_glTexPageCommitmentEXT, zeros_glTexPageCommitmentEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8) -> (), {
+export! { 946, glTexPageCommitmentEXT, first_glTexPageCommitmentEXT, hook_glTexPageCommitmentEXT, zeros_glTexPageCommitmentEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, commit: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexPageCommitmentEXT(target, level, xoffset, yoffset, zoffset, width, height, depth, commit) };
 } }
-export! { 945, glTexPageCommitmentMemNV, first_glTexPageCommitmentMemNV, hook_glTexPageCommitmentMemNV, zeros_glTexPageCommitmentMemNV, (target: u32, layer: i32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, memory: u32, offset: u64, commit: u8) -> (), {
+export! { 947, glTexPageCommitmentMemNV, first_glTexPageCommitmentMemNV, hook_glTexPageCommitmentMemNV, zeros_glTexPageCommitmentMemNV, (target: u32, layer: i32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, memory: u32, offset: u64, commit: u8) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexPageCommitmentMemNV(target, layer, level, xoffset, yoffset, zoffset, width, height, depth, memory, offset, commit) };
 } }
-export! { 946, glEGLImageTargetTexStorageEXT, first_glEGLImageTargetTexStorageEXT, hook_glEGLImageTargetTexStorageEXT, zeros_glEGLImageTargetTexStorageEXT, (target: u32, image: Ptr, attrib_list: Ptr) -> (), {
+export! { 948, glEGLImageTargetTexStorageEXT, first_glEGLImageTargetTexStorageEXT, hook_glEGLImageTargetTexStorageEXT, zeros_glEGLImageTargetTexStorageEXT, (target: u32, image: Ptr, attrib_list: Ptr) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEGLImageTargetTexStorageEXT(target, image, attrib_list) };
 } }
-export! { 947, glTexStorageAttribs2DEXT, first_glTexStorageAttribs2DEXT, hook_glTexStorageAttribs2DEXT, zeros_glTexStorageAttribs2DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, attrib_list: Ptr) -> (), {
+export! { 949, glTexStorageAttribs2DEXT, first_glTexStorageAttribs2DEXT, hook_glTexStorageAttribs2DEXT, zeros_glTexStorageAttribs2DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, attrib_list: Ptr) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorageAttribs2DEXT(target, levels, internalformat, width, height, attrib_list) };
 } }
-export! { 948, glTexStorageAttribs3DEXT, first_glTexStorageAttribs3DEXT, hook_glTexStorageAttribs3DEXT, zeros_glTexStorageAttribs3DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32, attrib_list: Ptr) -> (), {
+export! { 950, glTexStorageAttribs3DEXT, first_glTexStorageAttribs3DEXT, hook_glTexStorageAttribs3DEXT, zeros_glTexStorageAttribs3DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32, attrib_list: Ptr) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorageAttribs3DEXT(target, levels, internalformat, width, height, depth, attrib_list) };
 } }
-export! { 949, glTexRenderbufferNV, first_glTexRenderbufferNV, hook_glTexRenderbufferNV, zeros_glTexRenderbufferNV, (target: u32, renderbuffer: u32) -> (), {
+export! { 951, glTexRenderbufferNV, first_glTexRenderbufferNV, hook_glTexRenderbufferNV, zeros_glTexRenderbufferNV, (target: u32, renderbuffer: u32) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexRenderbufferNV(target, renderbuffer) };
 } }
-export! { 950, glTexStorageSparseAMD, first_glTexStorageSparseAMD, hook_glTexStorageSparseAMD, zeros_glTexStorageSparseAMD, (target: u32, internalFormat: u32, width: i32, height: i32, depth: i32, layers: i32, flags: u32) -> (), {
+export! { 952, glTexStorageSparseAMD, first_glTexStorageSparseAMD, hook_glTexStorageSparseAMD, zeros_glTexStorageSparseAMD, (target: u32, internalFormat: u32, width: i32, height: i32, depth: i32, layers: i32, flags: u32) -> (), {
     hooks::texture_now(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorageSparseAMD(target, internalFormat, width, height, depth, layers, flags) };
 } }
-export! { 951, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, zeros_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
+export! { 953, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, zeros_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterf(target, pname, param) };
 } }
-export! { 952, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, zeros_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 954, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, zeros_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterfv(target, pname, params) };
 } }
-export! { 953, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, zeros_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 955, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, zeros_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteri(target, pname, param) };
 } }
-export! { 954, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, zeros_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 956, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, zeros_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteriv(target, pname, params) };
 } }
-export! { 955, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, zeros_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 957, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, zeros_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIiv(target, pname, params) };
 } }
-export! { 956, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, zeros_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 958, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, zeros_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivEXT(target, pname, params) };
 } }
-export! { 957, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, zeros_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 959, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, zeros_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivOES(target, pname, params) };
 } }
-export! { 958, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, zeros_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 960, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, zeros_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuiv(target, pname, params) };
 } }
-export! { 959, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, zeros_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 961, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, zeros_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivEXT(target, pname, params) };
 } }
-export! { 960, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, zeros_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 962, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, zeros_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Bound(target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivOES(target, pname, params) };
 } }
-export! { 961, glTextureParameterf, first_glTextureParameterf, hook_glTextureParameterf, zeros_glTextureParameterf, (texture: u32, pname: u32, param: f32) -> (), {
+export! { 963, glTextureParameterf, first_glTextureParameterf, hook_glTextureParameterf, zeros_glTextureParameterf, (texture: u32, pname: u32, param: f32) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterf(texture, pname, param) };
 } }
-export! { 962, glTextureParameterfv, first_glTextureParameterfv, hook_glTextureParameterfv, zeros_glTextureParameterfv, (texture: u32, pname: u32, param: Ptr) -> (), {
+export! { 964, glTextureParameterfv, first_glTextureParameterfv, hook_glTextureParameterfv, zeros_glTextureParameterfv, (texture: u32, pname: u32, param: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterfv(texture, pname, param) };
 } }
-export! { 963, glTextureParameteri, first_glTextureParameteri, hook_glTextureParameteri, zeros_glTextureParameteri, (texture: u32, pname: u32, param: i32) -> (), {
+export! { 965, glTextureParameteri, first_glTextureParameteri, hook_glTextureParameteri, zeros_glTextureParameteri, (texture: u32, pname: u32, param: i32) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteri(texture, pname, param) };
 } }
-export! { 964, glTextureParameteriv, first_glTextureParameteriv, hook_glTextureParameteriv, zeros_glTextureParameteriv, (texture: u32, pname: u32, param: Ptr) -> (), {
+export! { 966, glTextureParameteriv, first_glTextureParameteriv, hook_glTextureParameteriv, zeros_glTextureParameteriv, (texture: u32, pname: u32, param: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteriv(texture, pname, param) };
 } }
-export! { 965, glTextureParameterIiv, first_glTextureParameterIiv, hook_glTextureParameterIiv, zeros_glTextureParameterIiv, (texture: u32, pname: u32, params: Ptr) -> (), {
+export! { 967, glTextureParameterIiv, first_glTextureParameterIiv, hook_glTextureParameterIiv, zeros_glTextureParameterIiv, (texture: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIiv(texture, pname, params) };
 } }
-export! { 966, glTextureParameterIuiv, first_glTextureParameterIuiv, hook_glTextureParameterIuiv, zeros_glTextureParameterIuiv, (texture: u32, pname: u32, params: Ptr) -> (), {
+export! { 968, glTextureParameterIuiv, first_glTextureParameterIuiv, hook_glTextureParameterIuiv, zeros_glTextureParameterIuiv, (texture: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIuiv(texture, pname, params) };
 } }
-export! { 967, glTextureParameterfEXT, first_glTextureParameterfEXT, hook_glTextureParameterfEXT, zeros_glTextureParameterfEXT, (texture: u32, target: u32, pname: u32, param: f32) -> (), {
+export! { 969, glTextureParameterfEXT, first_glTextureParameterfEXT, hook_glTextureParameterfEXT, zeros_glTextureParameterfEXT, (texture: u32, target: u32, pname: u32, param: f32) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterfEXT(texture, target, pname, param) };
 } }
-export! { 968, glTextureParameterfvEXT, first_glTextureParameterfvEXT, hook_glTextureParameterfvEXT, zeros_glTextureParameterfvEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
+export! { 970, glTextureParameterfvEXT, first_glTextureParameterfvEXT, hook_glTextureParameterfvEXT, zeros_glTextureParameterfvEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterfvEXT(texture, target, pname, params) };
 } }
-export! { 969, glTextureParameteriEXT, first_glTextureParameteriEXT, hook_glTextureParameteriEXT, zeros_glTextureParameteriEXT, (texture: u32, target: u32, pname: u32, param: i32) -> (), {
+export! { 971, glTextureParameteriEXT, first_glTextureParameteriEXT, hook_glTextureParameteriEXT, zeros_glTextureParameteriEXT, (texture: u32, target: u32, pname: u32, param: i32) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteriEXT(texture, target, pname, param) };
 } }
-export! { 970, glTextureParameterivEXT, first_glTextureParameterivEXT, hook_glTextureParameterivEXT, zeros_glTextureParameterivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
+export! { 972, glTextureParameterivEXT, first_glTextureParameterivEXT, hook_glTextureParameterivEXT, zeros_glTextureParameterivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterivEXT(texture, target, pname, params) };
 } }
-export! { 971, glTextureParameterIivEXT, first_glTextureParameterIivEXT, hook_glTextureParameterIivEXT, zeros_glTextureParameterIivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
+export! { 973, glTextureParameterIivEXT, first_glTextureParameterIivEXT, hook_glTextureParameterIivEXT, zeros_glTextureParameterIivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIivEXT(texture, target, pname, params) };
 } }
-export! { 972, glTextureParameterIuivEXT, first_glTextureParameterIuivEXT, hook_glTextureParameterIuivEXT, zeros_glTextureParameterIuivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
+export! { 974, glTextureParameterIuivEXT, first_glTextureParameterIuivEXT, hook_glTextureParameterIuivEXT, zeros_glTextureParameterIuivEXT, (texture: u32, target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Named(TextureName(texture)), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIuivEXT(texture, target, pname, params) };
 } }
-export! { 973, glMultiTexParameterfEXT, first_glMultiTexParameterfEXT, hook_glMultiTexParameterfEXT, zeros_glMultiTexParameterfEXT, (texunit: u32, target: u32, pname: u32, param: f32) -> (), {
+export! { 975, glMultiTexParameterfEXT, first_glMultiTexParameterfEXT, hook_glMultiTexParameterfEXT, zeros_glMultiTexParameterfEXT, (texunit: u32, target: u32, pname: u32, param: f32) -> (), {
     hooks::texture_parameter(TextureAt::Unit(texunit, target), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterfEXT(texunit, target, pname, param) };
 } }
-export! { 974, glMultiTexParameterfvEXT, first_glMultiTexParameterfvEXT, hook_glMultiTexParameterfvEXT, zeros_glMultiTexParameterfvEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
+export! { 976, glMultiTexParameterfvEXT, first_glMultiTexParameterfvEXT, hook_glMultiTexParameterfvEXT, zeros_glMultiTexParameterfvEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Unit(texunit, target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterfvEXT(texunit, target, pname, params) };
 } }
-export! { 975, glMultiTexParameteriEXT, first_glMultiTexParameteriEXT, hook_glMultiTexParameteriEXT, zeros_glMultiTexParameteriEXT, (texunit: u32, target: u32, pname: u32, param: i32) -> (), {
+export! { 977, glMultiTexParameteriEXT, first_glMultiTexParameteriEXT, hook_glMultiTexParameteriEXT, zeros_glMultiTexParameteriEXT, (texunit: u32, target: u32, pname: u32, param: i32) -> (), {
     hooks::texture_parameter(TextureAt::Unit(texunit, target), Some((pname, param as f32)));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameteriEXT(texunit, target, pname, param) };
 } }
-export! { 976, glMultiTexParameterivEXT, first_glMultiTexParameterivEXT, hook_glMultiTexParameterivEXT, zeros_glMultiTexParameterivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
+export! { 978, glMultiTexParameterivEXT, first_glMultiTexParameterivEXT, hook_glMultiTexParameterivEXT, zeros_glMultiTexParameterivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Unit(texunit, target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterivEXT(texunit, target, pname, params) };
 } }
-export! { 977, glMultiTexParameterIivEXT, first_glMultiTexParameterIivEXT, hook_glMultiTexParameterIivEXT, zeros_glMultiTexParameterIivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
+export! { 979, glMultiTexParameterIivEXT, first_glMultiTexParameterIivEXT, hook_glMultiTexParameterIivEXT, zeros_glMultiTexParameterIivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Unit(texunit, target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterIivEXT(texunit, target, pname, params) };
 } }
-export! { 978, glMultiTexParameterIuivEXT, first_glMultiTexParameterIuivEXT, hook_glMultiTexParameterIuivEXT, zeros_glMultiTexParameterIuivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
+export! { 980, glMultiTexParameterIuivEXT, first_glMultiTexParameterIuivEXT, hook_glMultiTexParameterIuivEXT, zeros_glMultiTexParameterIuivEXT, (texunit: u32, target: u32, pname: u32, params: Ptr) -> (), {
     hooks::texture_parameter(TextureAt::Unit(texunit, target), None);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMultiTexParameterIuivEXT(texunit, target, pname, params) };
 } }
-export! { 979, glGenerateMipmap, first_glGenerateMipmap, hook_glGenerateMipmap, zeros_glGenerateMipmap, (target: u32) -> (), {
+export! { 981, glGenerateMipmap, first_glGenerateMipmap, hook_glGenerateMipmap, zeros_glGenerateMipmap, (target: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::mipmap(target, &mut |gl| unsafe { gl.glGenerateMipmap(target) })
 } }
-export! { 980, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMipmapEXT, zeros_glGenerateMipmapEXT, (target: u32) -> (), {
+export! { 982, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMipmapEXT, zeros_glGenerateMipmapEXT, (target: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::mipmap(target, &mut |gl| unsafe { gl.glGenerateMipmapEXT(target) })
 } }
-export! { 981, glGenerateTextureMipmap, first_glGenerateTextureMipmap, hook_glGenerateTextureMipmap, zeros_glGenerateTextureMipmap, (texture: u32) -> (), {
+export! { 983, glGenerateTextureMipmap, first_glGenerateTextureMipmap, hook_glGenerateTextureMipmap, zeros_glGenerateTextureMipmap, (texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenerateTextureMipmap(texture) }
 } }
-export! { 982, glCreateTextures, first_glCreateTextures, hook_glCreateTextures, zeros_glCreateTextures, (target: u32, n: i32, textures: Ptr) -> (), {
+export! { 984, glCreateTextures, first_glCreateTextures, hook_glCreateTextures, zeros_glCreateTextures, (target: u32, n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCreateTextures(target, n, textures) }
 } }
-export! { 983, glTextureView, first_glTextureView, hook_glTextureView, zeros_glTextureView, (texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32) -> (), {
+export! { 985, glTextureView, first_glTextureView, hook_glTextureView, zeros_glTextureView, (texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glTextureView(texture, target, origtexture, internalformat, minlevel, numlevels, minlayer, numlayers) }
 } }
-export! { 984, glTextureViewEXT, first_glTextureViewEXT, hook_glTextureViewEXT, zeros_glTextureViewEXT, (texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32) -> (), {
+export! { 986, glTextureViewEXT, first_glTextureViewEXT, hook_glTextureViewEXT, zeros_glTextureViewEXT, (texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glTextureView(texture, target, origtexture, internalformat, minlevel, numlevels, minlayer, numlayers) }
 } }
-export! { 985, glTextureViewOES, first_glTextureViewOES, hook_glTextureViewOES, zeros_glTextureViewOES, (texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32) -> (), {
+export! { 987, glTextureViewOES, first_glTextureViewOES, hook_glTextureViewOES, zeros_glTextureViewOES, (texture: u32, target: u32, origtexture: u32, internalformat: u32, minlevel: u32, numlevels: u32, minlayer: u32, numlayers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glTextureView(texture, target, origtexture, internalformat, minlevel, numlevels, minlayer, numlayers) }
 } }
-export! { 986, glCopyImageSubData, first_glCopyImageSubData, hook_glCopyImageSubData, zeros_glCopyImageSubData, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+export! { 988, glCopyImageSubData, first_glCopyImageSubData, hook_glCopyImageSubData, zeros_glCopyImageSubData, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
-export! { 987, glCopyImageSubDataEXT, first_glCopyImageSubDataEXT, hook_glCopyImageSubDataEXT, zeros_glCopyImageSubDataEXT, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+export! { 989, glCopyImageSubDataEXT, first_glCopyImageSubDataEXT, hook_glCopyImageSubDataEXT, zeros_glCopyImageSubDataEXT, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
-export! { 988, glCopyImageSubDataOES, first_glCopyImageSubDataOES, hook_glCopyImageSubDataOES, zeros_glCopyImageSubDataOES, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+export! { 990, glCopyImageSubDataOES, first_glCopyImageSubDataOES, hook_glCopyImageSubDataOES, zeros_glCopyImageSubDataOES, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
-export! { 989, glCopyImageSubDataNV, first_glCopyImageSubDataNV, hook_glCopyImageSubDataNV, zeros_glCopyImageSubDataNV, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, width: i32, height: i32, depth: i32) -> (), {
+export! { 991, glCopyImageSubDataNV, first_glCopyImageSubDataNV, hook_glCopyImageSubDataNV, zeros_glCopyImageSubDataNV, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, width: i32, height: i32, depth: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyImageSubDataNV(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, width, height, depth) }
 } }
-export! { 990, glGenerateTextureMipmapEXT, first_glGenerateTextureMipmapEXT, hook_glGenerateTextureMipmapEXT, zeros_glGenerateTextureMipmapEXT, (texture: u32, target: u32) -> (), {
+export! { 992, glGenerateTextureMipmapEXT, first_glGenerateTextureMipmapEXT, hook_glGenerateTextureMipmapEXT, zeros_glGenerateTextureMipmapEXT, (texture: u32, target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenerateTextureMipmapEXT(texture, target) }
 } }
-export! { 991, glGenerateMultiTexMipmapEXT, first_glGenerateMultiTexMipmapEXT, hook_glGenerateMultiTexMipmapEXT, zeros_glGenerateMultiTexMipmapEXT, (texunit: u32, target: u32) -> (), {
+export! { 993, glGenerateMultiTexMipmapEXT, first_glGenerateMultiTexMipmapEXT, hook_glGenerateMultiTexMipmapEXT, zeros_glGenerateMultiTexMipmapEXT, (texunit: u32, target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenerateMultiTexMipmapEXT(texunit, target) }
 } }
-export! { 992, glGetTextureImage, first_glGetTextureImage, hook_glGetTextureImage, zeros_glGetTextureImage, (texture: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 994, glGetTextureImage, first_glGetTextureImage, hook_glGetTextureImage, zeros_glGetTextureImage, (texture: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTextureImage(texture, level, format, type_, bufSize, pixels) };
 } }
-export! { 993, glGetTextureSubImage, first_glGetTextureSubImage, hook_glGetTextureSubImage, zeros_glGetTextureSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 995, glGetTextureSubImage, first_glGetTextureSubImage, hook_glGetTextureSubImage, zeros_glGetTextureSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTextureSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, bufSize, pixels) };
 } }
-export! { 994, glGetCompressedTextureImage, first_glGetCompressedTextureImage, hook_glGetCompressedTextureImage, zeros_glGetCompressedTextureImage, (texture: u32, level: i32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 996, glGetCompressedTextureImage, first_glGetCompressedTextureImage, hook_glGetCompressedTextureImage, zeros_glGetCompressedTextureImage, (texture: u32, level: i32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTextureImage(texture, level, bufSize, pixels) };
 } }
-export! { 995, glBindImageTexture, first_glBindImageTexture, hook_glBindImageTexture, zeros_glBindImageTexture, (unit: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: u32) -> (), {
+export! { 997, glBindImageTexture, first_glBindImageTexture, hook_glBindImageTexture, zeros_glBindImageTexture, (unit: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: u32) -> (), {
     hooks::images(unit, 1);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTexture(unit, texture, level, layered, layer, access, format) };
 } }
-export! { 996, glBindImageTextures, first_glBindImageTextures, hook_glBindImageTextures, zeros_glBindImageTextures, (first: u32, count: i32, textures: Ptr) -> (), {
+export! { 998, glBindImageTextures, first_glBindImageTextures, hook_glBindImageTextures, zeros_glBindImageTextures, (first: u32, count: i32, textures: Ptr) -> (), {
     hooks::images(first, count);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTextures(first, count, textures) };
 } }
-export! { 997, glBindImageTextureEXT, first_glBindImageTextureEXT, hook_glBindImageTextureEXT, zeros_glBindImageTextureEXT, (index: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: i32) -> (), {
+export! { 999, glBindImageTextureEXT, first_glBindImageTextureEXT, hook_glBindImageTextureEXT, zeros_glBindImageTextureEXT, (index: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: i32) -> (), {
     hooks::images(index, 1);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTextureEXT(index, texture, level, layered, layer, access, format) };
 } }
-export! { 998, glGetCompressedMultiTexImageEXT, first_glGetCompressedMultiTexImageEXT, hook_glGetCompressedMultiTexImageEXT, zeros_glGetCompressedMultiTexImageEXT, (texunit: u32, target: u32, lod: i32, img: Ptr) -> (), {
+export! { 1000, glGetCompressedMultiTexImageEXT, first_glGetCompressedMultiTexImageEXT, hook_glGetCompressedMultiTexImageEXT, zeros_glGetCompressedMultiTexImageEXT, (texunit: u32, target: u32, lod: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedMultiTexImageEXT(texunit, target, lod, img) };
 } }
-export! { 999, glGetCompressedTextureImageEXT, first_glGetCompressedTextureImageEXT, hook_glGetCompressedTextureImageEXT, zeros_glGetCompressedTextureImageEXT, (texture: u32, target: u32, lod: i32, img: Ptr) -> (), {
+export! { 1001, glGetCompressedTextureImageEXT, first_glGetCompressedTextureImageEXT, hook_glGetCompressedTextureImageEXT, zeros_glGetCompressedTextureImageEXT, (texture: u32, target: u32, lod: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTextureImageEXT(texture, target, lod, img) };
 } }
-export! { 1000, glGetMultiTexImageEXT, first_glGetMultiTexImageEXT, hook_glGetMultiTexImageEXT, zeros_glGetMultiTexImageEXT, (texunit: u32, target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1002, glGetMultiTexImageEXT, first_glGetMultiTexImageEXT, hook_glGetMultiTexImageEXT, zeros_glGetMultiTexImageEXT, (texunit: u32, target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMultiTexImageEXT(texunit, target, level, format, type_, pixels) };
 } }
-export! { 1001, glGetTextureImageEXT, first_glGetTextureImageEXT, hook_glGetTextureImageEXT, zeros_glGetTextureImageEXT, (texture: u32, target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1003, glGetTextureImageEXT, first_glGetTextureImageEXT, hook_glGetTextureImageEXT, zeros_glGetTextureImageEXT, (texture: u32, target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTextureImageEXT(texture, target, level, format, type_, pixels) };
 } }
-export! { 1002, glGetnTexImageARB, first_glGetnTexImageARB, hook_glGetnTexImageARB, zeros_glGetnTexImageARB, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, img: Ptr) -> (), {
+export! { 1004, glGetnTexImageARB, first_glGetnTexImageARB, hook_glGetnTexImageARB, zeros_glGetnTexImageARB, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImageARB(target, level, format, type_, bufSize, img) };
 } }
-export! { 1003, glGetnCompressedTexImageARB, first_glGetnCompressedTexImageARB, hook_glGetnCompressedTexImageARB, zeros_glGetnCompressedTexImageARB, (target: u32, lod: i32, bufSize: i32, img: Ptr) -> (), {
+export! { 1005, glGetnCompressedTexImageARB, first_glGetnCompressedTexImageARB, hook_glGetnCompressedTexImageARB, zeros_glGetnCompressedTexImageARB, (target: u32, lod: i32, bufSize: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnCompressedTexImageARB(target, lod, bufSize, img) };
 } }
-export! { 1004, glGetCompressedTextureSubImage, first_glGetCompressedTextureSubImage, hook_glGetCompressedTextureSubImage, zeros_glGetCompressedTextureSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1006, glGetCompressedTextureSubImage, first_glGetCompressedTextureSubImage, hook_glGetCompressedTextureSubImage, zeros_glGetCompressedTextureSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTextureSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, bufSize, pixels) };
 } }
-export! { 1005, glDispatchCompute, first_glDispatchCompute, hook_glDispatchCompute, zeros_glDispatchCompute, (num_groups_x: u32, num_groups_y: u32, num_groups_z: u32) -> (), {
+export! { 1007, glDispatchCompute, first_glDispatchCompute, hook_glDispatchCompute, zeros_glDispatchCompute, (num_groups_x: u32, num_groups_y: u32, num_groups_z: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::compute(&mut |gl| unsafe { gl.glDispatchCompute(num_groups_x, num_groups_y, num_groups_z) })
 } }
-export! { 1006, glDispatchComputeIndirect, first_glDispatchComputeIndirect, hook_glDispatchComputeIndirect, zeros_glDispatchComputeIndirect, (indirect: isize) -> (), {
+export! { 1008, glDispatchComputeIndirect, first_glDispatchComputeIndirect, hook_glDispatchComputeIndirect, zeros_glDispatchComputeIndirect, (indirect: isize) -> (), {
     // SAFETY: the program's own call.
     hooks::compute(&mut |gl| unsafe { gl.glDispatchComputeIndirect(indirect) })
 } }
-export! { 1007, glDispatchComputeGroupSizeARB, first_glDispatchComputeGroupSizeARB, hook_glDispatchComputeGroupSizeARB, zeros_glDispatchComputeGroupSizeARB, (num_groups_x: u32, num_groups_y: u32, num_groups_z: u32, group_size_x: u32, group_size_y: u32, group_size_z: u32) -> (), {
+export! { 1009, glDispatchComputeGroupSizeARB, first_glDispatchComputeGroupSizeARB, hook_glDispatchComputeGroupSizeARB, zeros_glDispatchComputeGroupSizeARB, (num_groups_x: u32, num_groups_y: u32, num_groups_z: u32, group_size_x: u32, group_size_y: u32, group_size_z: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::compute(&mut |gl| unsafe { gl.glDispatchComputeGroupSizeARB(num_groups_x, num_groups_y, num_groups_z, group_size_x, group_size_y, group_size_z) })
 } }
-export! { 1008, glVertexAttribDivisor, first_glVertexAttribDivisor, hook_glVertexAttribDivisor, zeros_glVertexAttribDivisor, (index: u32, divisor: u32) -> (), {
+export! { 1010, glVertexAttribDivisor, first_glVertexAttribDivisor, hook_glVertexAttribDivisor, zeros_glVertexAttribDivisor, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisor(index, divisor) };
 } }
-export! { 1009, glVertexAttribDivisorANGLE, first_glVertexAttribDivisorANGLE, hook_glVertexAttribDivisorANGLE, zeros_glVertexAttribDivisorANGLE, (index: u32, divisor: u32) -> (), {
+export! { 1011, glVertexAttribDivisorANGLE, first_glVertexAttribDivisorANGLE, hook_glVertexAttribDivisorANGLE, zeros_glVertexAttribDivisorANGLE, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisorANGLE(index, divisor) };
 } }
-export! { 1010, glVertexAttribDivisorARB, first_glVertexAttribDivisorARB, hook_glVertexAttribDivisorARB, zeros_glVertexAttribDivisorARB, (index: u32, divisor: u32) -> (), {
+export! { 1012, glVertexAttribDivisorARB, first_glVertexAttribDivisorARB, hook_glVertexAttribDivisorARB, zeros_glVertexAttribDivisorARB, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisorARB(index, divisor) };
 } }
-export! { 1011, glVertexAttribDivisorEXT, first_glVertexAttribDivisorEXT, hook_glVertexAttribDivisorEXT, zeros_glVertexAttribDivisorEXT, (index: u32, divisor: u32) -> (), {
+export! { 1013, glVertexAttribDivisorEXT, first_glVertexAttribDivisorEXT, hook_glVertexAttribDivisorEXT, zeros_glVertexAttribDivisorEXT, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisorEXT(index, divisor) };
 } }
-export! { 1012, glVertexAttribDivisorNV, first_glVertexAttribDivisorNV, hook_glVertexAttribDivisorNV, zeros_glVertexAttribDivisorNV, (index: u32, divisor: u32) -> (), {
+export! { 1014, glVertexAttribDivisorNV, first_glVertexAttribDivisorNV, hook_glVertexAttribDivisorNV, zeros_glVertexAttribDivisorNV, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisorNV(index, divisor) };
 } }
-export! { 1013, glVertexBindingDivisor, first_glVertexBindingDivisor, hook_glVertexBindingDivisor, zeros_glVertexBindingDivisor, (bindingindex: u32, divisor: u32) -> (), {
+export! { 1015, glVertexBindingDivisor, first_glVertexBindingDivisor, hook_glVertexBindingDivisor, zeros_glVertexBindingDivisor, (bindingindex: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexBindingDivisor(bindingindex, divisor) };
 } }
-export! { 1014, glVertexArrayBindingDivisor, first_glVertexArrayBindingDivisor, hook_glVertexArrayBindingDivisor, zeros_glVertexArrayBindingDivisor, (vaobj: u32, bindingindex: u32, divisor: u32) -> (), {
+export! { 1016, glVertexArrayBindingDivisor, first_glVertexArrayBindingDivisor, hook_glVertexArrayBindingDivisor, zeros_glVertexArrayBindingDivisor, (vaobj: u32, bindingindex: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayBindingDivisor(vaobj, bindingindex, divisor) };
 } }
-export! { 1015, glVertexArrayVertexBindingDivisorEXT, first_glVertexArrayVertexBindingDivisorEXT, hook_glVertexArrayVertexBindingDivisorEXT, zeros_glVertexArrayVertexBindingDivisorEXT, (vaobj: u32, bindingindex: u32, divisor: u32) -> (), {
+export! { 1017, glVertexArrayVertexBindingDivisorEXT, first_glVertexArrayVertexBindingDivisorEXT, hook_glVertexArrayVertexBindingDivisorEXT, zeros_glVertexArrayVertexBindingDivisorEXT, (vaobj: u32, bindingindex: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayVertexBindingDivisorEXT(vaobj, bindingindex, divisor) };
 } }
-export! { 1016, glVertexArrayVertexAttribDivisorEXT, first_glVertexArrayVertexAttribDivisorEXT, hook_glVertexArrayVertexAttribDivisorEXT, zeros_glVertexArrayVertexAttribDivisorEXT, (vaobj: u32, index: u32, divisor: u32) -> (), {
+export! { 1018, glVertexArrayVertexAttribDivisorEXT, first_glVertexArrayVertexAttribDivisorEXT, hook_glVertexArrayVertexAttribDivisorEXT, zeros_glVertexArrayVertexAttribDivisorEXT, (vaobj: u32, index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayVertexAttribDivisorEXT(vaobj, index, divisor) };
 } }
-export! { 1017, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, zeros_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 1019, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, zeros_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 1018, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, zeros_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 1020, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, zeros_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dvARB(target, index, params) };
 } }
-export! { 1019, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, zeros_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 1021, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, zeros_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 1020, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, zeros_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 1022, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, zeros_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fvARB(target, index, params) };
 } }
-export! { 1021, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, zeros_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 1023, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, zeros_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 1022, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, zeros_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 1024, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, zeros_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dvARB(target, index, params) };
 } }
-export! { 1023, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, zeros_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 1025, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, zeros_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 1024, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, zeros_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 1026, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, zeros_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::list_only();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fvARB(target, index, params) };
 } }
-export! { 1025, glUniform1d, first_glUniform1d, hook_glUniform1d, zeros_glUniform1d, (location: i32, x: f64) -> (), {
+export! { 1027, glUniform1d, first_glUniform1d, hook_glUniform1d, zeros_glUniform1d, (location: i32, x: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1d(location, x) };
 } }
-export! { 1026, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, zeros_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1028, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, zeros_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1dv(location, count, value) };
 } }
-export! { 1027, glUniform1f, first_glUniform1f, hook_glUniform1f, zeros_glUniform1f, (location: i32, v0: f32) -> (), {
+export! { 1029, glUniform1f, first_glUniform1f, hook_glUniform1f, zeros_glUniform1f, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1f(location, v0) };
 } }
-export! { 1028, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, zeros_glUniform1fARB, (location: i32, v0: f32) -> (), {
+export! { 1030, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, zeros_glUniform1fARB, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fARB(location, v0) };
 } }
-export! { 1029, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, zeros_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1031, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, zeros_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fv(location, count, value) };
 } }
-export! { 1030, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, zeros_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1032, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, zeros_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fvARB(location, count, value) };
 } }
-export! { 1031, glUniform1i, first_glUniform1i, hook_glUniform1i, zeros_glUniform1i, (location: i32, v0: i32) -> (), {
+export! { 1033, glUniform1i, first_glUniform1i, hook_glUniform1i, zeros_glUniform1i, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i(location, v0) };
 } }
-export! { 1032, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, zeros_glUniform1iARB, (location: i32, v0: i32) -> (), {
+export! { 1034, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, zeros_glUniform1iARB, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iARB(location, v0) };
 } }
-export! { 1033, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, zeros_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1035, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, zeros_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iv(location, count, value) };
 } }
-export! { 1034, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, zeros_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1036, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, zeros_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ivARB(location, count, value) };
 } }
-export! { 1035, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, zeros_glUniform1ui, (location: i32, v0: u32) -> (), {
+export! { 1037, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, zeros_glUniform1ui, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui(location, v0) };
 } }
-export! { 1036, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, zeros_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
+export! { 1038, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, zeros_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiEXT(location, v0) };
 } }
-export! { 1037, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, zeros_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1039, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, zeros_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiv(location, count, value) };
 } }
-export! { 1038, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, zeros_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1040, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, zeros_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uivEXT(location, count, value) };
 } }
-export! { 1039, glUniform2d, first_glUniform2d, hook_glUniform2d, zeros_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
+export! { 1041, glUniform2d, first_glUniform2d, hook_glUniform2d, zeros_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2d(location, x, y) };
 } }
-export! { 1040, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, zeros_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1042, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, zeros_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2dv(location, count, value) };
 } }
-export! { 1041, glUniform2f, first_glUniform2f, hook_glUniform2f, zeros_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 1043, glUniform2f, first_glUniform2f, hook_glUniform2f, zeros_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2f(location, v0, v1) };
 } }
-export! { 1042, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, zeros_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 1044, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, zeros_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fARB(location, v0, v1) };
 } }
-export! { 1043, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, zeros_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1045, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, zeros_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fv(location, count, value) };
 } }
-export! { 1044, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, zeros_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1046, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, zeros_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fvARB(location, count, value) };
 } }
-export! { 1045, glUniform2i, first_glUniform2i, hook_glUniform2i, zeros_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 1047, glUniform2i, first_glUniform2i, hook_glUniform2i, zeros_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i(location, v0, v1) };
 } }
-export! { 1046, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, zeros_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 1048, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, zeros_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iARB(location, v0, v1) };
 } }
-export! { 1047, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, zeros_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1049, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, zeros_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iv(location, count, value) };
 } }
-export! { 1048, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, zeros_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1050, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, zeros_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ivARB(location, count, value) };
 } }
-export! { 1049, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, zeros_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 1051, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, zeros_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui(location, v0, v1) };
 } }
-export! { 1050, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, zeros_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 1052, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, zeros_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiEXT(location, v0, v1) };
 } }
-export! { 1051, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, zeros_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1053, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, zeros_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiv(location, count, value) };
 } }
-export! { 1052, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, zeros_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1054, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, zeros_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uivEXT(location, count, value) };
 } }
-export! { 1053, glUniform3d, first_glUniform3d, hook_glUniform3d, zeros_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 1055, glUniform3d, first_glUniform3d, hook_glUniform3d, zeros_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3d(location, x, y, z) };
 } }
-export! { 1054, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, zeros_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1056, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, zeros_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3dv(location, count, value) };
 } }
-export! { 1055, glUniform3f, first_glUniform3f, hook_glUniform3f, zeros_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 1057, glUniform3f, first_glUniform3f, hook_glUniform3f, zeros_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3f(location, v0, v1, v2) };
 } }
-export! { 1056, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, zeros_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 1058, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, zeros_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fARB(location, v0, v1, v2) };
 } }
-export! { 1057, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, zeros_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1059, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, zeros_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fv(location, count, value) };
 } }
-export! { 1058, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, zeros_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1060, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, zeros_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fvARB(location, count, value) };
 } }
-export! { 1059, glUniform3i, first_glUniform3i, hook_glUniform3i, zeros_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 1061, glUniform3i, first_glUniform3i, hook_glUniform3i, zeros_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i(location, v0, v1, v2) };
 } }
-export! { 1060, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, zeros_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 1062, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, zeros_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iARB(location, v0, v1, v2) };
 } }
-export! { 1061, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, zeros_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1063, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, zeros_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iv(location, count, value) };
 } }
-export! { 1062, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, zeros_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1064, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, zeros_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ivARB(location, count, value) };
 } }
-export! { 1063, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, zeros_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 1065, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, zeros_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui(location, v0, v1, v2) };
 } }
-export! { 1064, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, zeros_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 1066, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, zeros_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiEXT(location, v0, v1, v2) };
 } }
-export! { 1065, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, zeros_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1067, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, zeros_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiv(location, count, value) };
 } }
-export! { 1066, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, zeros_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1068, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, zeros_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uivEXT(location, count, value) };
 } }
-export! { 1067, glUniform4d, first_glUniform4d, hook_glUniform4d, zeros_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 1069, glUniform4d, first_glUniform4d, hook_glUniform4d, zeros_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4d(location, x, y, z, w) };
 } }
-export! { 1068, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, zeros_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1070, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, zeros_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4dv(location, count, value) };
 } }
-export! { 1069, glUniform4f, first_glUniform4f, hook_glUniform4f, zeros_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 1071, glUniform4f, first_glUniform4f, hook_glUniform4f, zeros_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4f(location, v0, v1, v2, v3) };
 } }
-export! { 1070, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, zeros_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 1072, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, zeros_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fARB(location, v0, v1, v2, v3) };
 } }
-export! { 1071, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, zeros_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1073, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, zeros_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fv(location, count, value) };
 } }
-export! { 1072, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, zeros_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1074, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, zeros_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fvARB(location, count, value) };
 } }
-export! { 1073, glUniform4i, first_glUniform4i, hook_glUniform4i, zeros_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 1075, glUniform4i, first_glUniform4i, hook_glUniform4i, zeros_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i(location, v0, v1, v2, v3) };
 } }
-export! { 1074, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, zeros_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 1076, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, zeros_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iARB(location, v0, v1, v2, v3) };
 } }
-export! { 1075, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, zeros_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1077, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, zeros_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iv(location, count, value) };
 } }
-export! { 1076, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, zeros_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1078, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, zeros_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ivARB(location, count, value) };
 } }
-export! { 1077, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, zeros_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1079, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, zeros_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui(location, v0, v1, v2, v3) };
 } }
-export! { 1078, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, zeros_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1080, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, zeros_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiEXT(location, v0, v1, v2, v3) };
 } }
-export! { 1079, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, zeros_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1081, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, zeros_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiv(location, count, value) };
 } }
-export! { 1080, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, zeros_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1082, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, zeros_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uivEXT(location, count, value) };
 } }
-export! { 1081, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, zeros_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1083, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, zeros_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2dv(location, count, transpose, value) };
 } }
-export! { 1082, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, zeros_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1084, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, zeros_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fv(location, count, transpose, value) };
 } }
-export! { 1083, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, zeros_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1085, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, zeros_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fvARB(location, count, transpose, value) };
 } }
-export! { 1084, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, zeros_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1086, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, zeros_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3dv(location, count, transpose, value) };
 } }
-export! { 1085, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, zeros_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1087, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, zeros_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fv(location, count, transpose, value) };
 } }
-export! { 1086, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, zeros_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1088, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, zeros_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fvNV(location, count, transpose, value) };
 } }
-export! { 1087, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, zeros_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1089, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, zeros_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4dv(location, count, transpose, value) };
 } }
-export! { 1088, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, zeros_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1090, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, zeros_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fv(location, count, transpose, value) };
 } }
-export! { 1089, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, zeros_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1091, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, zeros_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fvNV(location, count, transpose, value) };
 } }
-export! { 1090, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, zeros_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1092, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, zeros_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3dv(location, count, transpose, value) };
 } }
-export! { 1091, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, zeros_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1093, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, zeros_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fv(location, count, transpose, value) };
 } }
-export! { 1092, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, zeros_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1094, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, zeros_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fvARB(location, count, transpose, value) };
 } }
-export! { 1093, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, zeros_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1095, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, zeros_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2dv(location, count, transpose, value) };
 } }
-export! { 1094, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, zeros_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1096, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, zeros_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fv(location, count, transpose, value) };
 } }
-export! { 1095, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, zeros_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1097, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, zeros_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fvNV(location, count, transpose, value) };
 } }
-export! { 1096, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, zeros_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1098, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, zeros_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4dv(location, count, transpose, value) };
 } }
-export! { 1097, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, zeros_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1099, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, zeros_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fv(location, count, transpose, value) };
 } }
-export! { 1098, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, zeros_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1100, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, zeros_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fvNV(location, count, transpose, value) };
 } }
-export! { 1099, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, zeros_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1101, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, zeros_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4dv(location, count, transpose, value) };
 } }
-export! { 1100, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, zeros_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1102, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, zeros_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fv(location, count, transpose, value) };
 } }
-export! { 1101, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, zeros_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1103, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, zeros_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fvARB(location, count, transpose, value) };
 } }
-export! { 1102, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, zeros_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1104, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, zeros_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2dv(location, count, transpose, value) };
 } }
-export! { 1103, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, zeros_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1105, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, zeros_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fv(location, count, transpose, value) };
 } }
-export! { 1104, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, zeros_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1106, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, zeros_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fvNV(location, count, transpose, value) };
 } }
-export! { 1105, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, zeros_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1107, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, zeros_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3dv(location, count, transpose, value) };
 } }
-export! { 1106, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, zeros_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1108, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, zeros_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fv(location, count, transpose, value) };
 } }
-export! { 1107, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, zeros_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1109, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, zeros_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fvNV(location, count, transpose, value) };
 } }
-export! { 1108, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, zeros_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
+export! { 1110, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, zeros_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1d(program, location, v0) };
 } }
-export! { 1109, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, zeros_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1111, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, zeros_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dv(program, location, count, value) };
 } }
-export! { 1110, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, zeros_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
+export! { 1112, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, zeros_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1f(program, location, v0) };
 } }
-export! { 1111, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, zeros_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
+export! { 1113, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, zeros_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fEXT(program, location, v0) };
 } }
-export! { 1112, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, zeros_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1114, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, zeros_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fv(program, location, count, value) };
 } }
-export! { 1113, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, zeros_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1115, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, zeros_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fvEXT(program, location, count, value) };
 } }
-export! { 1114, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, zeros_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
+export! { 1116, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, zeros_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i(program, location, v0) };
 } }
-export! { 1115, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, zeros_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
+export! { 1117, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, zeros_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iEXT(program, location, v0) };
 } }
-export! { 1116, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, zeros_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1118, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, zeros_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iv(program, location, count, value) };
 } }
-export! { 1117, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, zeros_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1119, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, zeros_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ivEXT(program, location, count, value) };
 } }
-export! { 1118, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, zeros_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
+export! { 1120, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, zeros_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui(program, location, v0) };
 } }
-export! { 1119, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, zeros_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
+export! { 1121, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, zeros_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiEXT(program, location, v0) };
 } }
-export! { 1120, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, zeros_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1122, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, zeros_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiv(program, location, count, value) };
 } }
-export! { 1121, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, zeros_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1123, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, zeros_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uivEXT(program, location, count, value) };
 } }
-export! { 1122, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, zeros_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
+export! { 1124, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, zeros_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2d(program, location, v0, v1) };
 } }
-export! { 1123, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, zeros_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1125, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, zeros_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dv(program, location, count, value) };
 } }
-export! { 1124, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, zeros_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 1126, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, zeros_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2f(program, location, v0, v1) };
 } }
-export! { 1125, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, zeros_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 1127, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, zeros_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fEXT(program, location, v0, v1) };
 } }
-export! { 1126, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, zeros_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1128, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, zeros_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fv(program, location, count, value) };
 } }
-export! { 1127, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, zeros_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1129, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, zeros_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fvEXT(program, location, count, value) };
 } }
-export! { 1128, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, zeros_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 1130, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, zeros_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i(program, location, v0, v1) };
 } }
-export! { 1129, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, zeros_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 1131, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, zeros_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iEXT(program, location, v0, v1) };
 } }
-export! { 1130, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, zeros_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1132, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, zeros_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iv(program, location, count, value) };
 } }
-export! { 1131, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, zeros_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1133, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, zeros_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ivEXT(program, location, count, value) };
 } }
-export! { 1132, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, zeros_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 1134, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, zeros_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui(program, location, v0, v1) };
 } }
-export! { 1133, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, zeros_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 1135, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, zeros_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiEXT(program, location, v0, v1) };
 } }
-export! { 1134, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, zeros_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1136, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, zeros_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiv(program, location, count, value) };
 } }
-export! { 1135, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, zeros_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1137, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, zeros_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uivEXT(program, location, count, value) };
 } }
-export! { 1136, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, zeros_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
+export! { 1138, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, zeros_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3d(program, location, v0, v1, v2) };
 } }
-export! { 1137, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, zeros_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1139, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, zeros_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dv(program, location, count, value) };
 } }
-export! { 1138, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, zeros_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 1140, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, zeros_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3f(program, location, v0, v1, v2) };
 } }
-export! { 1139, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, zeros_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 1141, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, zeros_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fEXT(program, location, v0, v1, v2) };
 } }
-export! { 1140, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, zeros_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1142, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, zeros_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fv(program, location, count, value) };
 } }
-export! { 1141, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, zeros_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1143, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, zeros_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fvEXT(program, location, count, value) };
 } }
-export! { 1142, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, zeros_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 1144, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, zeros_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i(program, location, v0, v1, v2) };
 } }
-export! { 1143, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, zeros_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 1145, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, zeros_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iEXT(program, location, v0, v1, v2) };
 } }
-export! { 1144, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, zeros_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1146, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, zeros_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iv(program, location, count, value) };
 } }
-export! { 1145, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, zeros_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1147, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, zeros_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ivEXT(program, location, count, value) };
 } }
-export! { 1146, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, zeros_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 1148, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, zeros_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui(program, location, v0, v1, v2) };
 } }
-export! { 1147, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, zeros_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 1149, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, zeros_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiEXT(program, location, v0, v1, v2) };
 } }
-export! { 1148, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, zeros_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1150, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, zeros_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiv(program, location, count, value) };
 } }
-export! { 1149, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, zeros_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1151, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, zeros_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uivEXT(program, location, count, value) };
 } }
-export! { 1150, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, zeros_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
+export! { 1152, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, zeros_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4d(program, location, v0, v1, v2, v3) };
 } }
-export! { 1151, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, zeros_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1153, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, zeros_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dv(program, location, count, value) };
 } }
-export! { 1152, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, zeros_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 1154, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, zeros_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4f(program, location, v0, v1, v2, v3) };
 } }
-export! { 1153, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, zeros_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 1155, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, zeros_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 1154, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, zeros_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1156, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, zeros_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fv(program, location, count, value) };
 } }
-export! { 1155, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, zeros_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1157, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, zeros_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fvEXT(program, location, count, value) };
 } }
-export! { 1156, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, zeros_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 1158, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, zeros_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i(program, location, v0, v1, v2, v3) };
 } }
-export! { 1157, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, zeros_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 1159, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, zeros_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 1158, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, zeros_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1160, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, zeros_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iv(program, location, count, value) };
 } }
-export! { 1159, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, zeros_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1161, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, zeros_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ivEXT(program, location, count, value) };
 } }
-export! { 1160, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, zeros_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1162, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, zeros_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui(program, location, v0, v1, v2, v3) };
 } }
-export! { 1161, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, zeros_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1163, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, zeros_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 1162, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, zeros_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1164, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, zeros_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiv(program, location, count, value) };
 } }
-export! { 1163, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, zeros_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1165, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, zeros_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uivEXT(program, location, count, value) };
 } }
-export! { 1164, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, zeros_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1166, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, zeros_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2dv(program, location, count, transpose, value) };
 } }
-export! { 1165, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, zeros_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1167, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, zeros_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fv(program, location, count, transpose, value) };
 } }
-export! { 1166, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, zeros_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1168, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, zeros_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1167, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, zeros_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1169, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, zeros_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3dv(program, location, count, transpose, value) };
 } }
-export! { 1168, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, zeros_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1170, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, zeros_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fv(program, location, count, transpose, value) };
 } }
-export! { 1169, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, zeros_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1171, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, zeros_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1170, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, zeros_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1172, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, zeros_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4dv(program, location, count, transpose, value) };
 } }
-export! { 1171, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, zeros_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1173, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, zeros_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fv(program, location, count, transpose, value) };
 } }
-export! { 1172, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, zeros_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1174, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, zeros_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1173, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, zeros_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1175, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, zeros_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3dv(program, location, count, transpose, value) };
 } }
-export! { 1174, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, zeros_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1176, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, zeros_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fv(program, location, count, transpose, value) };
 } }
-export! { 1175, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, zeros_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1177, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, zeros_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1176, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, zeros_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1178, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, zeros_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2dv(program, location, count, transpose, value) };
 } }
-export! { 1177, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, zeros_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1179, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, zeros_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fv(program, location, count, transpose, value) };
 } }
-export! { 1178, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, zeros_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1180, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, zeros_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1179, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, zeros_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1181, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, zeros_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4dv(program, location, count, transpose, value) };
 } }
-export! { 1180, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, zeros_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1182, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, zeros_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fv(program, location, count, transpose, value) };
 } }
-export! { 1181, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, zeros_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1183, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, zeros_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1182, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, zeros_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1184, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, zeros_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4dv(program, location, count, transpose, value) };
 } }
-export! { 1183, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, zeros_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1185, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, zeros_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fv(program, location, count, transpose, value) };
 } }
-export! { 1184, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, zeros_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1186, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, zeros_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1185, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, zeros_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1187, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, zeros_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2dv(program, location, count, transpose, value) };
 } }
-export! { 1186, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, zeros_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1188, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, zeros_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fv(program, location, count, transpose, value) };
 } }
-export! { 1187, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, zeros_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1189, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, zeros_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1188, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, zeros_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1190, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, zeros_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3dv(program, location, count, transpose, value) };
 } }
-export! { 1189, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, zeros_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1191, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, zeros_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fv(program, location, count, transpose, value) };
 } }
-export! { 1190, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, zeros_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1192, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, zeros_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1191, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, zeros_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
+export! { 1193, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, zeros_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUniformBlockBinding(program, uniformBlockIndex, uniformBlockBinding) }
 } }
-export! { 1192, glShaderStorageBlockBinding, first_glShaderStorageBlockBinding, hook_glShaderStorageBlockBinding, zeros_glShaderStorageBlockBinding, (program: u32, storageBlockIndex: u32, storageBlockBinding: u32) -> (), {
+export! { 1194, glShaderStorageBlockBinding, first_glShaderStorageBlockBinding, hook_glShaderStorageBlockBinding, zeros_glShaderStorageBlockBinding, (program: u32, storageBlockIndex: u32, storageBlockBinding: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glShaderStorageBlockBinding(program, storageBlockIndex, storageBlockBinding) }
 } }
-export! { 1193, glProgramUniform1i64ARB, first_glProgramUniform1i64ARB, hook_glProgramUniform1i64ARB, zeros_glProgramUniform1i64ARB, (program: u32, location: i32, x: i64) -> (), {
+export! { 1195, glProgramUniform1i64ARB, first_glProgramUniform1i64ARB, hook_glProgramUniform1i64ARB, zeros_glProgramUniform1i64ARB, (program: u32, location: i32, x: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i64ARB(program, location, x) };
 } }
-export! { 1194, glProgramUniform1i64NV, first_glProgramUniform1i64NV, hook_glProgramUniform1i64NV, zeros_glProgramUniform1i64NV, (program: u32, location: i32, x: i64) -> (), {
+export! { 1196, glProgramUniform1i64NV, first_glProgramUniform1i64NV, hook_glProgramUniform1i64NV, zeros_glProgramUniform1i64NV, (program: u32, location: i32, x: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i64NV(program, location, x) };
 } }
-export! { 1195, glProgramUniform1i64vARB, first_glProgramUniform1i64vARB, hook_glProgramUniform1i64vARB, zeros_glProgramUniform1i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1197, glProgramUniform1i64vARB, first_glProgramUniform1i64vARB, hook_glProgramUniform1i64vARB, zeros_glProgramUniform1i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i64vARB(program, location, count, value) };
 } }
-export! { 1196, glProgramUniform1i64vNV, first_glProgramUniform1i64vNV, hook_glProgramUniform1i64vNV, zeros_glProgramUniform1i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1198, glProgramUniform1i64vNV, first_glProgramUniform1i64vNV, hook_glProgramUniform1i64vNV, zeros_glProgramUniform1i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i64vNV(program, location, count, value) };
 } }
-export! { 1197, glProgramUniform1ui64ARB, first_glProgramUniform1ui64ARB, hook_glProgramUniform1ui64ARB, zeros_glProgramUniform1ui64ARB, (program: u32, location: i32, x: u64) -> (), {
+export! { 1199, glProgramUniform1ui64ARB, first_glProgramUniform1ui64ARB, hook_glProgramUniform1ui64ARB, zeros_glProgramUniform1ui64ARB, (program: u32, location: i32, x: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui64ARB(program, location, x) };
 } }
-export! { 1198, glProgramUniform1ui64NV, first_glProgramUniform1ui64NV, hook_glProgramUniform1ui64NV, zeros_glProgramUniform1ui64NV, (program: u32, location: i32, x: u64) -> (), {
+export! { 1200, glProgramUniform1ui64NV, first_glProgramUniform1ui64NV, hook_glProgramUniform1ui64NV, zeros_glProgramUniform1ui64NV, (program: u32, location: i32, x: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui64NV(program, location, x) };
 } }
-export! { 1199, glProgramUniform1ui64vARB, first_glProgramUniform1ui64vARB, hook_glProgramUniform1ui64vARB, zeros_glProgramUniform1ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1201, glProgramUniform1ui64vARB, first_glProgramUniform1ui64vARB, hook_glProgramUniform1ui64vARB, zeros_glProgramUniform1ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui64vARB(program, location, count, value) };
 } }
-export! { 1200, glProgramUniform1ui64vNV, first_glProgramUniform1ui64vNV, hook_glProgramUniform1ui64vNV, zeros_glProgramUniform1ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1202, glProgramUniform1ui64vNV, first_glProgramUniform1ui64vNV, hook_glProgramUniform1ui64vNV, zeros_glProgramUniform1ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui64vNV(program, location, count, value) };
 } }
-export! { 1201, glProgramUniform2i64ARB, first_glProgramUniform2i64ARB, hook_glProgramUniform2i64ARB, zeros_glProgramUniform2i64ARB, (program: u32, location: i32, x: i64, y: i64) -> (), {
+export! { 1203, glProgramUniform2i64ARB, first_glProgramUniform2i64ARB, hook_glProgramUniform2i64ARB, zeros_glProgramUniform2i64ARB, (program: u32, location: i32, x: i64, y: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i64ARB(program, location, x, y) };
 } }
-export! { 1202, glProgramUniform2i64NV, first_glProgramUniform2i64NV, hook_glProgramUniform2i64NV, zeros_glProgramUniform2i64NV, (program: u32, location: i32, x: i64, y: i64) -> (), {
+export! { 1204, glProgramUniform2i64NV, first_glProgramUniform2i64NV, hook_glProgramUniform2i64NV, zeros_glProgramUniform2i64NV, (program: u32, location: i32, x: i64, y: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i64NV(program, location, x, y) };
 } }
-export! { 1203, glProgramUniform2i64vARB, first_glProgramUniform2i64vARB, hook_glProgramUniform2i64vARB, zeros_glProgramUniform2i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1205, glProgramUniform2i64vARB, first_glProgramUniform2i64vARB, hook_glProgramUniform2i64vARB, zeros_glProgramUniform2i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i64vARB(program, location, count, value) };
 } }
-export! { 1204, glProgramUniform2i64vNV, first_glProgramUniform2i64vNV, hook_glProgramUniform2i64vNV, zeros_glProgramUniform2i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1206, glProgramUniform2i64vNV, first_glProgramUniform2i64vNV, hook_glProgramUniform2i64vNV, zeros_glProgramUniform2i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i64vNV(program, location, count, value) };
 } }
-export! { 1205, glProgramUniform2ui64ARB, first_glProgramUniform2ui64ARB, hook_glProgramUniform2ui64ARB, zeros_glProgramUniform2ui64ARB, (program: u32, location: i32, x: u64, y: u64) -> (), {
+export! { 1207, glProgramUniform2ui64ARB, first_glProgramUniform2ui64ARB, hook_glProgramUniform2ui64ARB, zeros_glProgramUniform2ui64ARB, (program: u32, location: i32, x: u64, y: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui64ARB(program, location, x, y) };
 } }
-export! { 1206, glProgramUniform2ui64NV, first_glProgramUniform2ui64NV, hook_glProgramUniform2ui64NV, zeros_glProgramUniform2ui64NV, (program: u32, location: i32, x: u64, y: u64) -> (), {
+export! { 1208, glProgramUniform2ui64NV, first_glProgramUniform2ui64NV, hook_glProgramUniform2ui64NV, zeros_glProgramUniform2ui64NV, (program: u32, location: i32, x: u64, y: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui64NV(program, location, x, y) };
 } }
-export! { 1207, glProgramUniform2ui64vARB, first_glProgramUniform2ui64vARB, hook_glProgramUniform2ui64vARB, zeros_glProgramUniform2ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1209, glProgramUniform2ui64vARB, first_glProgramUniform2ui64vARB, hook_glProgramUniform2ui64vARB, zeros_glProgramUniform2ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui64vARB(program, location, count, value) };
 } }
-export! { 1208, glProgramUniform2ui64vNV, first_glProgramUniform2ui64vNV, hook_glProgramUniform2ui64vNV, zeros_glProgramUniform2ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1210, glProgramUniform2ui64vNV, first_glProgramUniform2ui64vNV, hook_glProgramUniform2ui64vNV, zeros_glProgramUniform2ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui64vNV(program, location, count, value) };
 } }
-export! { 1209, glProgramUniform3i64ARB, first_glProgramUniform3i64ARB, hook_glProgramUniform3i64ARB, zeros_glProgramUniform3i64ARB, (program: u32, location: i32, x: i64, y: i64, z: i64) -> (), {
+export! { 1211, glProgramUniform3i64ARB, first_glProgramUniform3i64ARB, hook_glProgramUniform3i64ARB, zeros_glProgramUniform3i64ARB, (program: u32, location: i32, x: i64, y: i64, z: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i64ARB(program, location, x, y, z) };
 } }
-export! { 1210, glProgramUniform3i64NV, first_glProgramUniform3i64NV, hook_glProgramUniform3i64NV, zeros_glProgramUniform3i64NV, (program: u32, location: i32, x: i64, y: i64, z: i64) -> (), {
+export! { 1212, glProgramUniform3i64NV, first_glProgramUniform3i64NV, hook_glProgramUniform3i64NV, zeros_glProgramUniform3i64NV, (program: u32, location: i32, x: i64, y: i64, z: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i64NV(program, location, x, y, z) };
 } }
-export! { 1211, glProgramUniform3i64vARB, first_glProgramUniform3i64vARB, hook_glProgramUniform3i64vARB, zeros_glProgramUniform3i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1213, glProgramUniform3i64vARB, first_glProgramUniform3i64vARB, hook_glProgramUniform3i64vARB, zeros_glProgramUniform3i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i64vARB(program, location, count, value) };
 } }
-export! { 1212, glProgramUniform3i64vNV, first_glProgramUniform3i64vNV, hook_glProgramUniform3i64vNV, zeros_glProgramUniform3i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1214, glProgramUniform3i64vNV, first_glProgramUniform3i64vNV, hook_glProgramUniform3i64vNV, zeros_glProgramUniform3i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i64vNV(program, location, count, value) };
 } }
-export! { 1213, glProgramUniform3ui64ARB, first_glProgramUniform3ui64ARB, hook_glProgramUniform3ui64ARB, zeros_glProgramUniform3ui64ARB, (program: u32, location: i32, x: u64, y: u64, z: u64) -> (), {
+export! { 1215, glProgramUniform3ui64ARB, first_glProgramUniform3ui64ARB, hook_glProgramUniform3ui64ARB, zeros_glProgramUniform3ui64ARB, (program: u32, location: i32, x: u64, y: u64, z: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui64ARB(program, location, x, y, z) };
 } }
-export! { 1214, glProgramUniform3ui64NV, first_glProgramUniform3ui64NV, hook_glProgramUniform3ui64NV, zeros_glProgramUniform3ui64NV, (program: u32, location: i32, x: u64, y: u64, z: u64) -> (), {
+export! { 1216, glProgramUniform3ui64NV, first_glProgramUniform3ui64NV, hook_glProgramUniform3ui64NV, zeros_glProgramUniform3ui64NV, (program: u32, location: i32, x: u64, y: u64, z: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui64NV(program, location, x, y, z) };
 } }
-export! { 1215, glProgramUniform3ui64vARB, first_glProgramUniform3ui64vARB, hook_glProgramUniform3ui64vARB, zeros_glProgramUniform3ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1217, glProgramUniform3ui64vARB, first_glProgramUniform3ui64vARB, hook_glProgramUniform3ui64vARB, zeros_glProgramUniform3ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui64vARB(program, location, count, value) };
 } }
-export! { 1216, glProgramUniform3ui64vNV, first_glProgramUniform3ui64vNV, hook_glProgramUniform3ui64vNV, zeros_glProgramUniform3ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1218, glProgramUniform3ui64vNV, first_glProgramUniform3ui64vNV, hook_glProgramUniform3ui64vNV, zeros_glProgramUniform3ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui64vNV(program, location, count, value) };
 } }
-export! { 1217, glProgramUniform4i64ARB, first_glProgramUniform4i64ARB, hook_glProgramUniform4i64ARB, zeros_glProgramUniform4i64ARB, (program: u32, location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
+export! { 1219, glProgramUniform4i64ARB, first_glProgramUniform4i64ARB, hook_glProgramUniform4i64ARB, zeros_glProgramUniform4i64ARB, (program: u32, location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i64ARB(program, location, x, y, z, w) };
 } }
-export! { 1218, glProgramUniform4i64NV, first_glProgramUniform4i64NV, hook_glProgramUniform4i64NV, zeros_glProgramUniform4i64NV, (program: u32, location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
+export! { 1220, glProgramUniform4i64NV, first_glProgramUniform4i64NV, hook_glProgramUniform4i64NV, zeros_glProgramUniform4i64NV, (program: u32, location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i64NV(program, location, x, y, z, w) };
 } }
-export! { 1219, glProgramUniform4i64vARB, first_glProgramUniform4i64vARB, hook_glProgramUniform4i64vARB, zeros_glProgramUniform4i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1221, glProgramUniform4i64vARB, first_glProgramUniform4i64vARB, hook_glProgramUniform4i64vARB, zeros_glProgramUniform4i64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i64vARB(program, location, count, value) };
 } }
-export! { 1220, glProgramUniform4i64vNV, first_glProgramUniform4i64vNV, hook_glProgramUniform4i64vNV, zeros_glProgramUniform4i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1222, glProgramUniform4i64vNV, first_glProgramUniform4i64vNV, hook_glProgramUniform4i64vNV, zeros_glProgramUniform4i64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i64vNV(program, location, count, value) };
 } }
-export! { 1221, glProgramUniform4ui64ARB, first_glProgramUniform4ui64ARB, hook_glProgramUniform4ui64ARB, zeros_glProgramUniform4ui64ARB, (program: u32, location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
+export! { 1223, glProgramUniform4ui64ARB, first_glProgramUniform4ui64ARB, hook_glProgramUniform4ui64ARB, zeros_glProgramUniform4ui64ARB, (program: u32, location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui64ARB(program, location, x, y, z, w) };
 } }
-export! { 1222, glProgramUniform4ui64NV, first_glProgramUniform4ui64NV, hook_glProgramUniform4ui64NV, zeros_glProgramUniform4ui64NV, (program: u32, location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
+export! { 1224, glProgramUniform4ui64NV, first_glProgramUniform4ui64NV, hook_glProgramUniform4ui64NV, zeros_glProgramUniform4ui64NV, (program: u32, location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui64NV(program, location, x, y, z, w) };
 } }
-export! { 1223, glProgramUniform4ui64vARB, first_glProgramUniform4ui64vARB, hook_glProgramUniform4ui64vARB, zeros_glProgramUniform4ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1225, glProgramUniform4ui64vARB, first_glProgramUniform4ui64vARB, hook_glProgramUniform4ui64vARB, zeros_glProgramUniform4ui64vARB, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui64vARB(program, location, count, value) };
 } }
-export! { 1224, glProgramUniform4ui64vNV, first_glProgramUniform4ui64vNV, hook_glProgramUniform4ui64vNV, zeros_glProgramUniform4ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1226, glProgramUniform4ui64vNV, first_glProgramUniform4ui64vNV, hook_glProgramUniform4ui64vNV, zeros_glProgramUniform4ui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui64vNV(program, location, count, value) };
 } }
-export! { 1225, glUniform1i64ARB, first_glUniform1i64ARB, hook_glUniform1i64ARB, zeros_glUniform1i64ARB, (location: i32, x: i64) -> (), {
+export! { 1227, glUniform1i64ARB, first_glUniform1i64ARB, hook_glUniform1i64ARB, zeros_glUniform1i64ARB, (location: i32, x: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i64ARB(location, x) };
 } }
-export! { 1226, glUniform1i64NV, first_glUniform1i64NV, hook_glUniform1i64NV, zeros_glUniform1i64NV, (location: i32, x: i64) -> (), {
+export! { 1228, glUniform1i64NV, first_glUniform1i64NV, hook_glUniform1i64NV, zeros_glUniform1i64NV, (location: i32, x: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i64NV(location, x) };
 } }
-export! { 1227, glUniform1i64vARB, first_glUniform1i64vARB, hook_glUniform1i64vARB, zeros_glUniform1i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1229, glUniform1i64vARB, first_glUniform1i64vARB, hook_glUniform1i64vARB, zeros_glUniform1i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i64vARB(location, count, value) };
 } }
-export! { 1228, glUniform1i64vNV, first_glUniform1i64vNV, hook_glUniform1i64vNV, zeros_glUniform1i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1230, glUniform1i64vNV, first_glUniform1i64vNV, hook_glUniform1i64vNV, zeros_glUniform1i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i64vNV(location, count, value) };
 } }
-export! { 1229, glUniform1ui64ARB, first_glUniform1ui64ARB, hook_glUniform1ui64ARB, zeros_glUniform1ui64ARB, (location: i32, x: u64) -> (), {
+export! { 1231, glUniform1ui64ARB, first_glUniform1ui64ARB, hook_glUniform1ui64ARB, zeros_glUniform1ui64ARB, (location: i32, x: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui64ARB(location, x) };
 } }
-export! { 1230, glUniform1ui64NV, first_glUniform1ui64NV, hook_glUniform1ui64NV, zeros_glUniform1ui64NV, (location: i32, x: u64) -> (), {
+export! { 1232, glUniform1ui64NV, first_glUniform1ui64NV, hook_glUniform1ui64NV, zeros_glUniform1ui64NV, (location: i32, x: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui64NV(location, x) };
 } }
-export! { 1231, glUniform1ui64vARB, first_glUniform1ui64vARB, hook_glUniform1ui64vARB, zeros_glUniform1ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1233, glUniform1ui64vARB, first_glUniform1ui64vARB, hook_glUniform1ui64vARB, zeros_glUniform1ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui64vARB(location, count, value) };
 } }
-export! { 1232, glUniform1ui64vNV, first_glUniform1ui64vNV, hook_glUniform1ui64vNV, zeros_glUniform1ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1234, glUniform1ui64vNV, first_glUniform1ui64vNV, hook_glUniform1ui64vNV, zeros_glUniform1ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui64vNV(location, count, value) };
 } }
-export! { 1233, glUniform2i64ARB, first_glUniform2i64ARB, hook_glUniform2i64ARB, zeros_glUniform2i64ARB, (location: i32, x: i64, y: i64) -> (), {
+export! { 1235, glUniform2i64ARB, first_glUniform2i64ARB, hook_glUniform2i64ARB, zeros_glUniform2i64ARB, (location: i32, x: i64, y: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i64ARB(location, x, y) };
 } }
-export! { 1234, glUniform2i64NV, first_glUniform2i64NV, hook_glUniform2i64NV, zeros_glUniform2i64NV, (location: i32, x: i64, y: i64) -> (), {
+export! { 1236, glUniform2i64NV, first_glUniform2i64NV, hook_glUniform2i64NV, zeros_glUniform2i64NV, (location: i32, x: i64, y: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i64NV(location, x, y) };
 } }
-export! { 1235, glUniform2i64vARB, first_glUniform2i64vARB, hook_glUniform2i64vARB, zeros_glUniform2i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1237, glUniform2i64vARB, first_glUniform2i64vARB, hook_glUniform2i64vARB, zeros_glUniform2i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i64vARB(location, count, value) };
 } }
-export! { 1236, glUniform2i64vNV, first_glUniform2i64vNV, hook_glUniform2i64vNV, zeros_glUniform2i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1238, glUniform2i64vNV, first_glUniform2i64vNV, hook_glUniform2i64vNV, zeros_glUniform2i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i64vNV(location, count, value) };
 } }
-export! { 1237, glUniform2ui64ARB, first_glUniform2ui64ARB, hook_glUniform2ui64ARB, zeros_glUniform2ui64ARB, (location: i32, x: u64, y: u64) -> (), {
+export! { 1239, glUniform2ui64ARB, first_glUniform2ui64ARB, hook_glUniform2ui64ARB, zeros_glUniform2ui64ARB, (location: i32, x: u64, y: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui64ARB(location, x, y) };
 } }
-export! { 1238, glUniform2ui64NV, first_glUniform2ui64NV, hook_glUniform2ui64NV, zeros_glUniform2ui64NV, (location: i32, x: u64, y: u64) -> (), {
+export! { 1240, glUniform2ui64NV, first_glUniform2ui64NV, hook_glUniform2ui64NV, zeros_glUniform2ui64NV, (location: i32, x: u64, y: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui64NV(location, x, y) };
 } }
-export! { 1239, glUniform2ui64vARB, first_glUniform2ui64vARB, hook_glUniform2ui64vARB, zeros_glUniform2ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1241, glUniform2ui64vARB, first_glUniform2ui64vARB, hook_glUniform2ui64vARB, zeros_glUniform2ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui64vARB(location, count, value) };
 } }
-export! { 1240, glUniform2ui64vNV, first_glUniform2ui64vNV, hook_glUniform2ui64vNV, zeros_glUniform2ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1242, glUniform2ui64vNV, first_glUniform2ui64vNV, hook_glUniform2ui64vNV, zeros_glUniform2ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui64vNV(location, count, value) };
 } }
-export! { 1241, glUniform3i64ARB, first_glUniform3i64ARB, hook_glUniform3i64ARB, zeros_glUniform3i64ARB, (location: i32, x: i64, y: i64, z: i64) -> (), {
+export! { 1243, glUniform3i64ARB, first_glUniform3i64ARB, hook_glUniform3i64ARB, zeros_glUniform3i64ARB, (location: i32, x: i64, y: i64, z: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i64ARB(location, x, y, z) };
 } }
-export! { 1242, glUniform3i64NV, first_glUniform3i64NV, hook_glUniform3i64NV, zeros_glUniform3i64NV, (location: i32, x: i64, y: i64, z: i64) -> (), {
+export! { 1244, glUniform3i64NV, first_glUniform3i64NV, hook_glUniform3i64NV, zeros_glUniform3i64NV, (location: i32, x: i64, y: i64, z: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i64NV(location, x, y, z) };
 } }
-export! { 1243, glUniform3i64vARB, first_glUniform3i64vARB, hook_glUniform3i64vARB, zeros_glUniform3i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1245, glUniform3i64vARB, first_glUniform3i64vARB, hook_glUniform3i64vARB, zeros_glUniform3i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i64vARB(location, count, value) };
 } }
-export! { 1244, glUniform3i64vNV, first_glUniform3i64vNV, hook_glUniform3i64vNV, zeros_glUniform3i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1246, glUniform3i64vNV, first_glUniform3i64vNV, hook_glUniform3i64vNV, zeros_glUniform3i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i64vNV(location, count, value) };
 } }
-export! { 1245, glUniform3ui64ARB, first_glUniform3ui64ARB, hook_glUniform3ui64ARB, zeros_glUniform3ui64ARB, (location: i32, x: u64, y: u64, z: u64) -> (), {
+export! { 1247, glUniform3ui64ARB, first_glUniform3ui64ARB, hook_glUniform3ui64ARB, zeros_glUniform3ui64ARB, (location: i32, x: u64, y: u64, z: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui64ARB(location, x, y, z) };
 } }
-export! { 1246, glUniform3ui64NV, first_glUniform3ui64NV, hook_glUniform3ui64NV, zeros_glUniform3ui64NV, (location: i32, x: u64, y: u64, z: u64) -> (), {
+export! { 1248, glUniform3ui64NV, first_glUniform3ui64NV, hook_glUniform3ui64NV, zeros_glUniform3ui64NV, (location: i32, x: u64, y: u64, z: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui64NV(location, x, y, z) };
 } }
-export! { 1247, glUniform3ui64vARB, first_glUniform3ui64vARB, hook_glUniform3ui64vARB, zeros_glUniform3ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1249, glUniform3ui64vARB, first_glUniform3ui64vARB, hook_glUniform3ui64vARB, zeros_glUniform3ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui64vARB(location, count, value) };
 } }
-export! { 1248, glUniform3ui64vNV, first_glUniform3ui64vNV, hook_glUniform3ui64vNV, zeros_glUniform3ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1250, glUniform3ui64vNV, first_glUniform3ui64vNV, hook_glUniform3ui64vNV, zeros_glUniform3ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui64vNV(location, count, value) };
 } }
-export! { 1249, glUniform4i64ARB, first_glUniform4i64ARB, hook_glUniform4i64ARB, zeros_glUniform4i64ARB, (location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
+export! { 1251, glUniform4i64ARB, first_glUniform4i64ARB, hook_glUniform4i64ARB, zeros_glUniform4i64ARB, (location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i64ARB(location, x, y, z, w) };
 } }
-export! { 1250, glUniform4i64NV, first_glUniform4i64NV, hook_glUniform4i64NV, zeros_glUniform4i64NV, (location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
+export! { 1252, glUniform4i64NV, first_glUniform4i64NV, hook_glUniform4i64NV, zeros_glUniform4i64NV, (location: i32, x: i64, y: i64, z: i64, w: i64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i64NV(location, x, y, z, w) };
 } }
-export! { 1251, glUniform4i64vARB, first_glUniform4i64vARB, hook_glUniform4i64vARB, zeros_glUniform4i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1253, glUniform4i64vARB, first_glUniform4i64vARB, hook_glUniform4i64vARB, zeros_glUniform4i64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i64vARB(location, count, value) };
 } }
-export! { 1252, glUniform4i64vNV, first_glUniform4i64vNV, hook_glUniform4i64vNV, zeros_glUniform4i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1254, glUniform4i64vNV, first_glUniform4i64vNV, hook_glUniform4i64vNV, zeros_glUniform4i64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i64vNV(location, count, value) };
 } }
-export! { 1253, glUniform4ui64ARB, first_glUniform4ui64ARB, hook_glUniform4ui64ARB, zeros_glUniform4ui64ARB, (location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
+export! { 1255, glUniform4ui64ARB, first_glUniform4ui64ARB, hook_glUniform4ui64ARB, zeros_glUniform4ui64ARB, (location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui64ARB(location, x, y, z, w) };
 } }
-export! { 1254, glUniform4ui64NV, first_glUniform4ui64NV, hook_glUniform4ui64NV, zeros_glUniform4ui64NV, (location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
+export! { 1256, glUniform4ui64NV, first_glUniform4ui64NV, hook_glUniform4ui64NV, zeros_glUniform4ui64NV, (location: i32, x: u64, y: u64, z: u64, w: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui64NV(location, x, y, z, w) };
 } }
-export! { 1255, glUniform4ui64vARB, first_glUniform4ui64vARB, hook_glUniform4ui64vARB, zeros_glUniform4ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1257, glUniform4ui64vARB, first_glUniform4ui64vARB, hook_glUniform4ui64vARB, zeros_glUniform4ui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui64vARB(location, count, value) };
 } }
-export! { 1256, glUniform4ui64vNV, first_glUniform4ui64vNV, hook_glUniform4ui64vNV, zeros_glUniform4ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1258, glUniform4ui64vNV, first_glUniform4ui64vNV, hook_glUniform4ui64vNV, zeros_glUniform4ui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui64vNV(location, count, value) };
 } }
-export! { 1257, glProgramUniformHandleui64ARB, first_glProgramUniformHandleui64ARB, hook_glProgramUniformHandleui64ARB, zeros_glProgramUniformHandleui64ARB, (program: u32, location: i32, value: u64) -> (), {
+export! { 1259, glProgramUniformHandleui64ARB, first_glProgramUniformHandleui64ARB, hook_glProgramUniformHandleui64ARB, zeros_glProgramUniformHandleui64ARB, (program: u32, location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64ARB(program, location, value) };
 } }
-export! { 1258, glProgramUniformHandleui64IMG, first_glProgramUniformHandleui64IMG, hook_glProgramUniformHandleui64IMG, zeros_glProgramUniformHandleui64IMG, (program: u32, location: i32, value: u64) -> (), {
+export! { 1260, glProgramUniformHandleui64IMG, first_glProgramUniformHandleui64IMG, hook_glProgramUniformHandleui64IMG, zeros_glProgramUniformHandleui64IMG, (program: u32, location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64IMG(program, location, value) };
 } }
-export! { 1259, glProgramUniformHandleui64NV, first_glProgramUniformHandleui64NV, hook_glProgramUniformHandleui64NV, zeros_glProgramUniformHandleui64NV, (program: u32, location: i32, value: u64) -> (), {
+export! { 1261, glProgramUniformHandleui64NV, first_glProgramUniformHandleui64NV, hook_glProgramUniformHandleui64NV, zeros_glProgramUniformHandleui64NV, (program: u32, location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64NV(program, location, value) };
 } }
-export! { 1260, glProgramUniformHandleui64vARB, first_glProgramUniformHandleui64vARB, hook_glProgramUniformHandleui64vARB, zeros_glProgramUniformHandleui64vARB, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
+export! { 1262, glProgramUniformHandleui64vARB, first_glProgramUniformHandleui64vARB, hook_glProgramUniformHandleui64vARB, zeros_glProgramUniformHandleui64vARB, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64vARB(program, location, count, values) };
 } }
-export! { 1261, glProgramUniformHandleui64vIMG, first_glProgramUniformHandleui64vIMG, hook_glProgramUniformHandleui64vIMG, zeros_glProgramUniformHandleui64vIMG, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
+export! { 1263, glProgramUniformHandleui64vIMG, first_glProgramUniformHandleui64vIMG, hook_glProgramUniformHandleui64vIMG, zeros_glProgramUniformHandleui64vIMG, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64vIMG(program, location, count, values) };
 } }
-export! { 1262, glProgramUniformHandleui64vNV, first_glProgramUniformHandleui64vNV, hook_glProgramUniformHandleui64vNV, zeros_glProgramUniformHandleui64vNV, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
+export! { 1264, glProgramUniformHandleui64vNV, first_glProgramUniformHandleui64vNV, hook_glProgramUniformHandleui64vNV, zeros_glProgramUniformHandleui64vNV, (program: u32, location: i32, count: i32, values: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformHandleui64vNV(program, location, count, values) };
 } }
-export! { 1263, glUniformHandleui64ARB, first_glUniformHandleui64ARB, hook_glUniformHandleui64ARB, zeros_glUniformHandleui64ARB, (location: i32, value: u64) -> (), {
+export! { 1265, glUniformHandleui64ARB, first_glUniformHandleui64ARB, hook_glUniformHandleui64ARB, zeros_glUniformHandleui64ARB, (location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64ARB(location, value) };
 } }
-export! { 1264, glUniformHandleui64IMG, first_glUniformHandleui64IMG, hook_glUniformHandleui64IMG, zeros_glUniformHandleui64IMG, (location: i32, value: u64) -> (), {
+export! { 1266, glUniformHandleui64IMG, first_glUniformHandleui64IMG, hook_glUniformHandleui64IMG, zeros_glUniformHandleui64IMG, (location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64IMG(location, value) };
 } }
-export! { 1265, glUniformHandleui64NV, first_glUniformHandleui64NV, hook_glUniformHandleui64NV, zeros_glUniformHandleui64NV, (location: i32, value: u64) -> (), {
+export! { 1267, glUniformHandleui64NV, first_glUniformHandleui64NV, hook_glUniformHandleui64NV, zeros_glUniformHandleui64NV, (location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64NV(location, value) };
 } }
-export! { 1266, glUniformHandleui64vARB, first_glUniformHandleui64vARB, hook_glUniformHandleui64vARB, zeros_glUniformHandleui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1268, glUniformHandleui64vARB, first_glUniformHandleui64vARB, hook_glUniformHandleui64vARB, zeros_glUniformHandleui64vARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64vARB(location, count, value) };
 } }
-export! { 1267, glUniformHandleui64vIMG, first_glUniformHandleui64vIMG, hook_glUniformHandleui64vIMG, zeros_glUniformHandleui64vIMG, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1269, glUniformHandleui64vIMG, first_glUniformHandleui64vIMG, hook_glUniformHandleui64vIMG, zeros_glUniformHandleui64vIMG, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64vIMG(location, count, value) };
 } }
-export! { 1268, glUniformHandleui64vNV, first_glUniformHandleui64vNV, hook_glUniformHandleui64vNV, zeros_glUniformHandleui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1270, glUniformHandleui64vNV, first_glUniformHandleui64vNV, hook_glUniformHandleui64vNV, zeros_glUniformHandleui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformHandleui64vNV(location, count, value) };
 } }
-export! { 1269, glProgramUniformui64NV, first_glProgramUniformui64NV, hook_glProgramUniformui64NV, zeros_glProgramUniformui64NV, (program: u32, location: i32, value: u64) -> (), {
+export! { 1271, glProgramUniformui64NV, first_glProgramUniformui64NV, hook_glProgramUniformui64NV, zeros_glProgramUniformui64NV, (program: u32, location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformui64NV(program, location, value) };
 } }
-export! { 1270, glProgramUniformui64vNV, first_glProgramUniformui64vNV, hook_glProgramUniformui64vNV, zeros_glProgramUniformui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1272, glProgramUniformui64vNV, first_glProgramUniformui64vNV, hook_glProgramUniformui64vNV, zeros_glProgramUniformui64vNV, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformui64vNV(program, location, count, value) };
 } }
-export! { 1271, glUniformui64NV, first_glUniformui64NV, hook_glUniformui64NV, zeros_glUniformui64NV, (location: i32, value: u64) -> (), {
+export! { 1273, glUniformui64NV, first_glUniformui64NV, hook_glUniformui64NV, zeros_glUniformui64NV, (location: i32, value: u64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformui64NV(location, value) };
 } }
-export! { 1272, glUniformui64vNV, first_glUniformui64vNV, hook_glUniformui64vNV, zeros_glUniformui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 1274, glUniformui64vNV, first_glUniformui64vNV, hook_glUniformui64vNV, zeros_glUniformui64vNV, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformui64vNV(location, count, value) };
 } }
-export! { 1273, glUniformBufferEXT, first_glUniformBufferEXT, hook_glUniformBufferEXT, zeros_glUniformBufferEXT, (program: u32, location: i32, buffer: u32) -> (), {
+export! { 1275, glUniformBufferEXT, first_glUniformBufferEXT, hook_glUniformBufferEXT, zeros_glUniformBufferEXT, (program: u32, location: i32, buffer: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformBufferEXT(program, location, buffer) };
 } }
-export! { 1274, glProgramUniform1dEXT, first_glProgramUniform1dEXT, hook_glProgramUniform1dEXT, zeros_glProgramUniform1dEXT, (program: u32, location: i32, x: f64) -> (), {
+export! { 1276, glProgramUniform1dEXT, first_glProgramUniform1dEXT, hook_glProgramUniform1dEXT, zeros_glProgramUniform1dEXT, (program: u32, location: i32, x: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dEXT(program, location, x) };
 } }
-export! { 1275, glProgramUniform1dvEXT, first_glProgramUniform1dvEXT, hook_glProgramUniform1dvEXT, zeros_glProgramUniform1dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1277, glProgramUniform1dvEXT, first_glProgramUniform1dvEXT, hook_glProgramUniform1dvEXT, zeros_glProgramUniform1dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dvEXT(program, location, count, value) };
 } }
-export! { 1276, glProgramUniform2dEXT, first_glProgramUniform2dEXT, hook_glProgramUniform2dEXT, zeros_glProgramUniform2dEXT, (program: u32, location: i32, x: f64, y: f64) -> (), {
+export! { 1278, glProgramUniform2dEXT, first_glProgramUniform2dEXT, hook_glProgramUniform2dEXT, zeros_glProgramUniform2dEXT, (program: u32, location: i32, x: f64, y: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dEXT(program, location, x, y) };
 } }
-export! { 1277, glProgramUniform2dvEXT, first_glProgramUniform2dvEXT, hook_glProgramUniform2dvEXT, zeros_glProgramUniform2dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1279, glProgramUniform2dvEXT, first_glProgramUniform2dvEXT, hook_glProgramUniform2dvEXT, zeros_glProgramUniform2dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dvEXT(program, location, count, value) };
 } }
-export! { 1278, glProgramUniform3dEXT, first_glProgramUniform3dEXT, hook_glProgramUniform3dEXT, zeros_glProgramUniform3dEXT, (program: u32, location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 1280, glProgramUniform3dEXT, first_glProgramUniform3dEXT, hook_glProgramUniform3dEXT, zeros_glProgramUniform3dEXT, (program: u32, location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dEXT(program, location, x, y, z) };
 } }
-export! { 1279, glProgramUniform3dvEXT, first_glProgramUniform3dvEXT, hook_glProgramUniform3dvEXT, zeros_glProgramUniform3dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1281, glProgramUniform3dvEXT, first_glProgramUniform3dvEXT, hook_glProgramUniform3dvEXT, zeros_glProgramUniform3dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dvEXT(program, location, count, value) };
 } }
-export! { 1280, glProgramUniform4dEXT, first_glProgramUniform4dEXT, hook_glProgramUniform4dEXT, zeros_glProgramUniform4dEXT, (program: u32, location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 1282, glProgramUniform4dEXT, first_glProgramUniform4dEXT, hook_glProgramUniform4dEXT, zeros_glProgramUniform4dEXT, (program: u32, location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dEXT(program, location, x, y, z, w) };
 } }
-export! { 1281, glProgramUniform4dvEXT, first_glProgramUniform4dvEXT, hook_glProgramUniform4dvEXT, zeros_glProgramUniform4dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1283, glProgramUniform4dvEXT, first_glProgramUniform4dvEXT, hook_glProgramUniform4dvEXT, zeros_glProgramUniform4dvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dvEXT(program, location, count, value) };
 } }
-export! { 1282, glProgramUniformMatrix2dvEXT, first_glProgramUniformMatrix2dvEXT, hook_glProgramUniformMatrix2dvEXT, zeros_glProgramUniformMatrix2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1284, glProgramUniformMatrix2dvEXT, first_glProgramUniformMatrix2dvEXT, hook_glProgramUniformMatrix2dvEXT, zeros_glProgramUniformMatrix2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1283, glProgramUniformMatrix2x3dvEXT, first_glProgramUniformMatrix2x3dvEXT, hook_glProgramUniformMatrix2x3dvEXT, zeros_glProgramUniformMatrix2x3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1285, glProgramUniformMatrix2x3dvEXT, first_glProgramUniformMatrix2x3dvEXT, hook_glProgramUniformMatrix2x3dvEXT, zeros_glProgramUniformMatrix2x3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1284, glProgramUniformMatrix2x4dvEXT, first_glProgramUniformMatrix2x4dvEXT, hook_glProgramUniformMatrix2x4dvEXT, zeros_glProgramUniformMatrix2x4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1286, glProgramUniformMatrix2x4dvEXT, first_glProgramUniformMatrix2x4dvEXT, hook_glProgramUniformMatrix2x4dvEXT, zeros_glProgramUniformMatrix2x4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1285, glProgramUniformMatrix3dvEXT, first_glProgramUniformMatrix3dvEXT, hook_glProgramUniformMatrix3dvEXT, zeros_glProgramUniformMatrix3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1287, glProgramUniformMatrix3dvEXT, first_glProgramUniformMatrix3dvEXT, hook_glProgramUniformMatrix3dvEXT, zeros_glProgramUniformMatrix3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1286, glProgramUniformMatrix3x2dvEXT, first_glProgramUniformMatrix3x2dvEXT, hook_glProgramUniformMatrix3x2dvEXT, zeros_glProgramUniformMatrix3x2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1288, glProgramUniformMatrix3x2dvEXT, first_glProgramUniformMatrix3x2dvEXT, hook_glProgramUniformMatrix3x2dvEXT, zeros_glProgramUniformMatrix3x2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1287, glProgramUniformMatrix3x4dvEXT, first_glProgramUniformMatrix3x4dvEXT, hook_glProgramUniformMatrix3x4dvEXT, zeros_glProgramUniformMatrix3x4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1289, glProgramUniformMatrix3x4dvEXT, first_glProgramUniformMatrix3x4dvEXT, hook_glProgramUniformMatrix3x4dvEXT, zeros_glProgramUniformMatrix3x4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1288, glProgramUniformMatrix4dvEXT, first_glProgramUniformMatrix4dvEXT, hook_glProgramUniformMatrix4dvEXT, zeros_glProgramUniformMatrix4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1290, glProgramUniformMatrix4dvEXT, first_glProgramUniformMatrix4dvEXT, hook_glProgramUniformMatrix4dvEXT, zeros_glProgramUniformMatrix4dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1289, glProgramUniformMatrix4x2dvEXT, first_glProgramUniformMatrix4x2dvEXT, hook_glProgramUniformMatrix4x2dvEXT, zeros_glProgramUniformMatrix4x2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1291, glProgramUniformMatrix4x2dvEXT, first_glProgramUniformMatrix4x2dvEXT, hook_glProgramUniformMatrix4x2dvEXT, zeros_glProgramUniformMatrix4x2dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1290, glProgramUniformMatrix4x3dvEXT, first_glProgramUniformMatrix4x3dvEXT, hook_glProgramUniformMatrix4x3dvEXT, zeros_glProgramUniformMatrix4x3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1292, glProgramUniformMatrix4x3dvEXT, first_glProgramUniformMatrix4x3dvEXT, hook_glProgramUniformMatrix4x3dvEXT, zeros_glProgramUniformMatrix4x3dvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3dvEXT(program, location, count, transpose, value) };
 } }
-export! { 1291, glUniformSubroutinesuiv, first_glUniformSubroutinesuiv, hook_glUniformSubroutinesuiv, zeros_glUniformSubroutinesuiv, (shadertype: u32, count: i32, indices: Ptr) -> (), {
+export! { 1293, glUniformSubroutinesuiv, first_glUniformSubroutinesuiv, hook_glUniformSubroutinesuiv, zeros_glUniformSubroutinesuiv, (shadertype: u32, count: i32, indices: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformSubroutinesuiv(shadertype, count, indices) };
 } }
-export! { 1292, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, zeros_glLinkProgram, (program: u32) -> (), {
+export! { 1294, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, zeros_glLinkProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(program) }
 } }
-export! { 1293, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, zeros_glLinkProgramARB, (programObj: u32) -> (), {
+export! { 1295, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, zeros_glLinkProgramARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(programObj) }
 } }
-export! { 1294, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, zeros_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1296, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, zeros_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 1295, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, zeros_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1297, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, zeros_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 1296, glUseProgram, first_glUseProgram, hook_glUseProgram, zeros_glUseProgram, (program: u32) -> (), {
+export! { 1298, glUseProgram, first_glUseProgram, hook_glUseProgram, zeros_glUseProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(program) }
 } }
-export! { 1297, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, zeros_glUseProgramObjectARB, (programObj: u32) -> (), {
+export! { 1299, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, zeros_glUseProgramObjectARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(programObj) }
 } }
-export! { 1298, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, zeros_glDeleteProgram, (program: u32) -> (), {
+export! { 1300, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, zeros_glDeleteProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteProgram(program) }
 } }
-export! { 1299, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, zeros_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
+export! { 1301, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, zeros_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetProgramiv(program, pname, params) }
 } }
-export! { 1300, glClear, first_glClear, hook_glClear, zeros_glClear, (mask: u32) -> (), {
+export! { 1302, glClear, first_glClear, hook_glClear, zeros_glClear, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClear(mask) }
 } }
-export! { 1301, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, zeros_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1303, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, zeros_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
-export! { 1302, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, zeros_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1304, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, zeros_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferfv(buffer, drawbuffer, value) }
 } }
-export! { 1303, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, zeros_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1305, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, zeros_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferiv(buffer, drawbuffer, value) }
 } }
-export! { 1304, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, zeros_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1306, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, zeros_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferuiv(buffer, drawbuffer, value) }
 } }
-export! { 1305, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, zeros_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1307, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, zeros_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 1306, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, zeros_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1308, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, zeros_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 1307, glDrawElements, first_glDrawElements, hook_glDrawElements, zeros_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1309, glDrawElements, first_glDrawElements, hook_glDrawElements, zeros_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawElements(mode, count, type_, indices) }
 } }
-export! { 1308, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, zeros_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1310, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, zeros_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 1309, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, zeros_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1311, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, zeros_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 1310, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, zeros_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
+export! { 1312, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, zeros_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArrays(mode, first, count, drawcount) })
 } }
-export! { 1311, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, zeros_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1313, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, zeros_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysEXT(mode, first, count, primcount) })
 } }
-export! { 1312, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, zeros_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
+export! { 1314, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, zeros_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElements(mode, count, type_, indices, drawcount) })
 } }
-export! { 1313, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, zeros_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1315, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, zeros_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1314, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, zeros_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1316, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, zeros_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertex(mode, count, type_, indices, basevertex) })
 } }
-export! { 1315, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, zeros_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1317, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, zeros_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexEXT(mode, count, type_, indices, basevertex) })
 } }
-export! { 1316, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, zeros_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1318, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, zeros_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexOES(mode, count, type_, indices, basevertex) })
 } }
-export! { 1317, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, zeros_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1319, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, zeros_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertex(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1318, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, zeros_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1320, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, zeros_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexEXT(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1319, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, zeros_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1321, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, zeros_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexOES(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1320, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, zeros_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1322, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, zeros_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertex(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1321, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, zeros_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1323, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, zeros_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertexEXT(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1322, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, zeros_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
+export! { 1324, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, zeros_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstanced(mode, first, count, instancecount) })
 } }
-export! { 1323, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, zeros_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1325, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, zeros_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedANGLE(mode, first, count, primcount) })
 } }
-export! { 1324, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, zeros_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1326, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, zeros_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedARB(mode, first, count, primcount) })
 } }
-export! { 1325, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, zeros_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
+export! { 1327, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, zeros_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedEXT(mode, start, count, primcount) })
 } }
-export! { 1326, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, zeros_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1328, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, zeros_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedNV(mode, first, count, primcount) })
 } }
-export! { 1327, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, zeros_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
+export! { 1329, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, zeros_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstanced(mode, count, type_, indices, instancecount) })
 } }
-export! { 1328, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, zeros_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1330, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, zeros_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedANGLE(mode, count, type_, indices, primcount) })
 } }
-export! { 1329, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, zeros_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1331, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, zeros_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedARB(mode, count, type_, indices, primcount) })
 } }
-export! { 1330, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, zeros_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1332, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, zeros_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1331, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, zeros_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1333, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, zeros_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedNV(mode, count, type_, indices, primcount) })
 } }
-export! { 1332, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, zeros_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1334, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, zeros_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertex(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1333, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, zeros_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1335, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, zeros_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexEXT(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1334, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, zeros_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1336, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, zeros_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexOES(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1335, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, zeros_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1337, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, zeros_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstance(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1336, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, zeros_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1338, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, zeros_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstanceEXT(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1337, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, zeros_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1339, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, zeros_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstance(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1338, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, zeros_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1340, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, zeros_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstanceEXT(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1339, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, zeros_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1341, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, zeros_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstance(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1340, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, zeros_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1342, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, zeros_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstanceEXT(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1341, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, zeros_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
+export! { 1343, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, zeros_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysIndirect(mode, indirect) })
 } }
-export! { 1342, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, zeros_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
+export! { 1344, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, zeros_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsIndirect(mode, type_, indirect) })
 } }
-export! { 1343, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, zeros_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1345, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, zeros_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirect(mode, indirect, drawcount, stride) })
 } }
-export! { 1344, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, zeros_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1346, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, zeros_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectAMD(mode, indirect, primcount, stride) })
 } }
-export! { 1345, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, zeros_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1347, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, zeros_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectEXT(mode, indirect, drawcount, stride) })
 } }
-export! { 1346, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, zeros_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1348, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, zeros_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirect(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1347, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, zeros_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1349, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, zeros_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectAMD(mode, type_, indirect, primcount, stride) })
 } }
-export! { 1348, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, zeros_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1350, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, zeros_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectEXT(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1349, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, zeros_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
+export! { 1351, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, zeros_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedback(mode, id) })
 } }
-export! { 1350, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, zeros_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
+export! { 1352, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, zeros_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackEXT(mode, id) })
 } }
-export! { 1351, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, zeros_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
+export! { 1353, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, zeros_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackNV(mode, id) })
 } }
-export! { 1352, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, zeros_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1354, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, zeros_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstanced(mode, id, instancecount) })
 } }
-export! { 1353, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, zeros_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1355, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, zeros_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstancedEXT(mode, id, instancecount) })
 } }
-export! { 1354, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, zeros_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
+export! { 1356, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, zeros_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStream(mode, id, stream) })
 } }
-export! { 1355, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, zeros_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
+export! { 1357, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, zeros_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStreamInstanced(mode, id, stream, instancecount) })
 } }
-export! { 1356, glRectd, first_glRectd, hook_glRectd, zeros_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
+export! { 1358, glRectd, first_glRectd, hook_glRectd, zeros_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectd(x1, y1, x2, y2) })
 } }
-export! { 1357, glRectdv, first_glRectdv, hook_glRectdv, zeros_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1359, glRectdv, first_glRectdv, hook_glRectdv, zeros_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectdv(v1, v2) })
 } }
-export! { 1358, glRectf, first_glRectf, hook_glRectf, zeros_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
+export! { 1360, glRectf, first_glRectf, hook_glRectf, zeros_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectf(x1, y1, x2, y2) })
 } }
-export! { 1359, glRectfv, first_glRectfv, hook_glRectfv, zeros_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1361, glRectfv, first_glRectfv, hook_glRectfv, zeros_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectfv(v1, v2) })
 } }
-export! { 1360, glRecti, first_glRecti, hook_glRecti, zeros_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 1362, glRecti, first_glRecti, hook_glRecti, zeros_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRecti(x1, y1, x2, y2) })
 } }
-export! { 1361, glRectiv, first_glRectiv, hook_glRectiv, zeros_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1363, glRectiv, first_glRectiv, hook_glRectiv, zeros_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectiv(v1, v2) })
 } }
-export! { 1362, glRects, first_glRects, hook_glRects, zeros_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
+export! { 1364, glRects, first_glRects, hook_glRects, zeros_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRects(x1, y1, x2, y2) })
 } }
-export! { 1363, glRectsv, first_glRectsv, hook_glRectsv, zeros_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1365, glRectsv, first_glRectsv, hook_glRectsv, zeros_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectsv(v1, v2) })
 } }
-export! { 1364, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, zeros_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
+export! { 1366, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, zeros_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh1(mode, i1, i2) })
 } }
-export! { 1365, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, zeros_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
+export! { 1367, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, zeros_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
-export! { 1366, glMultiDrawArraysIndirectCount, first_glMultiDrawArraysIndirectCount, hook_glMultiDrawArraysIndirectCount, zeros_glMultiDrawArraysIndirectCount, (mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1368, glMultiDrawArraysIndirectCount, first_glMultiDrawArraysIndirectCount, hook_glMultiDrawArraysIndirectCount, zeros_glMultiDrawArraysIndirectCount, (mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectCount(mode, indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1367, glMultiDrawArraysIndirectCountARB, first_glMultiDrawArraysIndirectCountARB, hook_glMultiDrawArraysIndirectCountARB, zeros_glMultiDrawArraysIndirectCountARB, (mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1369, glMultiDrawArraysIndirectCountARB, first_glMultiDrawArraysIndirectCountARB, hook_glMultiDrawArraysIndirectCountARB, zeros_glMultiDrawArraysIndirectCountARB, (mode: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectCountARB(mode, indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1368, glMultiDrawElementsIndirectCount, first_glMultiDrawElementsIndirectCount, hook_glMultiDrawElementsIndirectCount, zeros_glMultiDrawElementsIndirectCount, (mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1370, glMultiDrawElementsIndirectCount, first_glMultiDrawElementsIndirectCount, hook_glMultiDrawElementsIndirectCount, zeros_glMultiDrawElementsIndirectCount, (mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectCount(mode, type_, indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1369, glMultiDrawElementsIndirectCountARB, first_glMultiDrawElementsIndirectCountARB, hook_glMultiDrawElementsIndirectCountARB, zeros_glMultiDrawElementsIndirectCountARB, (mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1371, glMultiDrawElementsIndirectCountARB, first_glMultiDrawElementsIndirectCountARB, hook_glMultiDrawElementsIndirectCountARB, zeros_glMultiDrawElementsIndirectCountARB, (mode: u32, type_: u32, indirect: Ptr, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectCountARB(mode, type_, indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1370, glMultiModeDrawArraysIBM, first_glMultiModeDrawArraysIBM, hook_glMultiModeDrawArraysIBM, zeros_glMultiModeDrawArraysIBM, (mode: Ptr, first: Ptr, count: Ptr, primcount: i32, modestride: i32) -> (), {
+export! { 1372, glMultiModeDrawArraysIBM, first_glMultiModeDrawArraysIBM, hook_glMultiModeDrawArraysIBM, zeros_glMultiModeDrawArraysIBM, (mode: Ptr, first: Ptr, count: Ptr, primcount: i32, modestride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiModeDrawArraysIBM(mode, first, count, primcount, modestride) })
 } }
-export! { 1371, glMultiModeDrawElementsIBM, first_glMultiModeDrawElementsIBM, hook_glMultiModeDrawElementsIBM, zeros_glMultiModeDrawElementsIBM, (mode: Ptr, count: Ptr, type_: u32, indices: Ptr, primcount: i32, modestride: i32) -> (), {
+export! { 1373, glMultiModeDrawElementsIBM, first_glMultiModeDrawElementsIBM, hook_glMultiModeDrawElementsIBM, zeros_glMultiModeDrawElementsIBM, (mode: Ptr, count: Ptr, type_: u32, indices: Ptr, primcount: i32, modestride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiModeDrawElementsIBM(mode, count, type_, indices, primcount, modestride) })
 } }
-export! { 1372, glMultiDrawArraysIndirectBindlessCountNV, first_glMultiDrawArraysIndirectBindlessCountNV, hook_glMultiDrawArraysIndirectBindlessCountNV, zeros_glMultiDrawArraysIndirectBindlessCountNV, (mode: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
+export! { 1374, glMultiDrawArraysIndirectBindlessCountNV, first_glMultiDrawArraysIndirectBindlessCountNV, hook_glMultiDrawArraysIndirectBindlessCountNV, zeros_glMultiDrawArraysIndirectBindlessCountNV, (mode: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectBindlessCountNV(mode, indirect, drawCount, maxDrawCount, stride, vertexBufferCount) })
 } }
-export! { 1373, glMultiDrawArraysIndirectBindlessNV, first_glMultiDrawArraysIndirectBindlessNV, hook_glMultiDrawArraysIndirectBindlessNV, zeros_glMultiDrawArraysIndirectBindlessNV, (mode: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
+export! { 1375, glMultiDrawArraysIndirectBindlessNV, first_glMultiDrawArraysIndirectBindlessNV, hook_glMultiDrawArraysIndirectBindlessNV, zeros_glMultiDrawArraysIndirectBindlessNV, (mode: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectBindlessNV(mode, indirect, drawCount, stride, vertexBufferCount) })
 } }
-export! { 1374, glMultiDrawElementsIndirectBindlessCountNV, first_glMultiDrawElementsIndirectBindlessCountNV, hook_glMultiDrawElementsIndirectBindlessCountNV, zeros_glMultiDrawElementsIndirectBindlessCountNV, (mode: u32, type_: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
+export! { 1376, glMultiDrawElementsIndirectBindlessCountNV, first_glMultiDrawElementsIndirectBindlessCountNV, hook_glMultiDrawElementsIndirectBindlessCountNV, zeros_glMultiDrawElementsIndirectBindlessCountNV, (mode: u32, type_: u32, indirect: Ptr, drawCount: i32, maxDrawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectBindlessCountNV(mode, type_, indirect, drawCount, maxDrawCount, stride, vertexBufferCount) })
 } }
-export! { 1375, glMultiDrawElementsIndirectBindlessNV, first_glMultiDrawElementsIndirectBindlessNV, hook_glMultiDrawElementsIndirectBindlessNV, zeros_glMultiDrawElementsIndirectBindlessNV, (mode: u32, type_: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
+export! { 1377, glMultiDrawElementsIndirectBindlessNV, first_glMultiDrawElementsIndirectBindlessNV, hook_glMultiDrawElementsIndirectBindlessNV, zeros_glMultiDrawElementsIndirectBindlessNV, (mode: u32, type_: u32, indirect: Ptr, drawCount: i32, stride: i32, vertexBufferCount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectBindlessNV(mode, type_, indirect, drawCount, stride, vertexBufferCount) })
 } }
-export! { 1376, glDrawMeshTasksIndirectNV, first_glDrawMeshTasksIndirectNV, hook_glDrawMeshTasksIndirectNV, zeros_glDrawMeshTasksIndirectNV, (indirect: isize) -> (), {
+export! { 1378, glDrawMeshTasksIndirectNV, first_glDrawMeshTasksIndirectNV, hook_glDrawMeshTasksIndirectNV, zeros_glDrawMeshTasksIndirectNV, (indirect: isize) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawMeshTasksIndirectNV(indirect) })
 } }
-export! { 1377, glDrawMeshTasksNV, first_glDrawMeshTasksNV, hook_glDrawMeshTasksNV, zeros_glDrawMeshTasksNV, (first: u32, count: u32) -> (), {
+export! { 1379, glDrawMeshTasksNV, first_glDrawMeshTasksNV, hook_glDrawMeshTasksNV, zeros_glDrawMeshTasksNV, (first: u32, count: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawMeshTasksNV(first, count) })
 } }
-export! { 1378, glMultiDrawMeshTasksIndirectCountNV, first_glMultiDrawMeshTasksIndirectCountNV, hook_glMultiDrawMeshTasksIndirectCountNV, zeros_glMultiDrawMeshTasksIndirectCountNV, (indirect: isize, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
+export! { 1380, glMultiDrawMeshTasksIndirectCountNV, first_glMultiDrawMeshTasksIndirectCountNV, hook_glMultiDrawMeshTasksIndirectCountNV, zeros_glMultiDrawMeshTasksIndirectCountNV, (indirect: isize, drawcount: isize, maxdrawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawMeshTasksIndirectCountNV(indirect, drawcount, maxdrawcount, stride) })
 } }
-export! { 1379, glMultiDrawMeshTasksIndirectNV, first_glMultiDrawMeshTasksIndirectNV, hook_glMultiDrawMeshTasksIndirectNV, zeros_glMultiDrawMeshTasksIndirectNV, (indirect: isize, drawcount: i32, stride: i32) -> (), {
+export! { 1381, glMultiDrawMeshTasksIndirectNV, first_glMultiDrawMeshTasksIndirectNV, hook_glMultiDrawMeshTasksIndirectNV, zeros_glMultiDrawMeshTasksIndirectNV, (indirect: isize, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawMeshTasksIndirectNV(indirect, drawcount, stride) })
 } }
-export! { 1380, glDrawElementArrayAPPLE, first_glDrawElementArrayAPPLE, hook_glDrawElementArrayAPPLE, zeros_glDrawElementArrayAPPLE, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1382, glDrawElementArrayAPPLE, first_glDrawElementArrayAPPLE, hook_glDrawElementArrayAPPLE, zeros_glDrawElementArrayAPPLE, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementArrayAPPLE(mode, first, count) })
 } }
-export! { 1381, glDrawRangeElementArrayAPPLE, first_glDrawRangeElementArrayAPPLE, hook_glDrawRangeElementArrayAPPLE, zeros_glDrawRangeElementArrayAPPLE, (mode: u32, start: u32, end: u32, first: i32, count: i32) -> (), {
+export! { 1383, glDrawRangeElementArrayAPPLE, first_glDrawRangeElementArrayAPPLE, hook_glDrawRangeElementArrayAPPLE, zeros_glDrawRangeElementArrayAPPLE, (mode: u32, start: u32, end: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementArrayAPPLE(mode, start, end, first, count) })
 } }
-export! { 1382, glMultiDrawElementArrayAPPLE, first_glMultiDrawElementArrayAPPLE, hook_glMultiDrawElementArrayAPPLE, zeros_glMultiDrawElementArrayAPPLE, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1384, glMultiDrawElementArrayAPPLE, first_glMultiDrawElementArrayAPPLE, hook_glMultiDrawElementArrayAPPLE, zeros_glMultiDrawElementArrayAPPLE, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementArrayAPPLE(mode, first, count, primcount) })
 } }
-export! { 1383, glMultiDrawRangeElementArrayAPPLE, first_glMultiDrawRangeElementArrayAPPLE, hook_glMultiDrawRangeElementArrayAPPLE, zeros_glMultiDrawRangeElementArrayAPPLE, (mode: u32, start: u32, end: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1385, glMultiDrawRangeElementArrayAPPLE, first_glMultiDrawRangeElementArrayAPPLE, hook_glMultiDrawRangeElementArrayAPPLE, zeros_glMultiDrawRangeElementArrayAPPLE, (mode: u32, start: u32, end: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawRangeElementArrayAPPLE(mode, start, end, first, count, primcount) })
 } }
-export! { 1384, glDrawElementArrayATI, first_glDrawElementArrayATI, hook_glDrawElementArrayATI, zeros_glDrawElementArrayATI, (mode: u32, count: i32) -> (), {
+export! { 1386, glDrawElementArrayATI, first_glDrawElementArrayATI, hook_glDrawElementArrayATI, zeros_glDrawElementArrayATI, (mode: u32, count: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementArrayATI(mode, count) })
 } }
-export! { 1385, glDrawRangeElementArrayATI, first_glDrawRangeElementArrayATI, hook_glDrawRangeElementArrayATI, zeros_glDrawRangeElementArrayATI, (mode: u32, start: u32, end: u32, count: i32) -> (), {
+export! { 1387, glDrawRangeElementArrayATI, first_glDrawRangeElementArrayATI, hook_glDrawRangeElementArrayATI, zeros_glDrawRangeElementArrayATI, (mode: u32, start: u32, end: u32, count: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementArrayATI(mode, start, end, count) })
 } }
-export! { 1386, glDrawMeshArraysSUN, first_glDrawMeshArraysSUN, hook_glDrawMeshArraysSUN, zeros_glDrawMeshArraysSUN, (mode: u32, first: i32, count: i32, width: i32) -> (), {
+export! { 1388, glDrawMeshArraysSUN, first_glDrawMeshArraysSUN, hook_glDrawMeshArraysSUN, zeros_glDrawMeshArraysSUN, (mode: u32, first: i32, count: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawMeshArraysSUN(mode, first, count, width) })
 } }
-export! { 1387, glDrawTextureNV, first_glDrawTextureNV, hook_glDrawTextureNV, zeros_glDrawTextureNV, (texture: u32, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32) -> (), {
+export! { 1389, glDrawTextureNV, first_glDrawTextureNV, hook_glDrawTextureNV, zeros_glDrawTextureNV, (texture: u32, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTextureNV(texture, sampler, x0, y0, x1, y1, z, s0, t0, s1, t1) })
 } }
-export! { 1388, glDrawVkImageNV, first_glDrawVkImageNV, hook_glDrawVkImageNV, zeros_glDrawVkImageNV, (vkImage: u64, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32) -> (), {
+export! { 1390, glDrawVkImageNV, first_glDrawVkImageNV, hook_glDrawVkImageNV, zeros_glDrawVkImageNV, (vkImage: u64, sampler: u32, x0: f32, y0: f32, x1: f32, y1: f32, z: f32, s0: f32, t0: f32, s1: f32, t1: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawVkImageNV(vkImage, sampler, x0, y0, x1, y1, z, s0, t0, s1, t1) })
 } }
-export! { 1389, glEvalMapsNV, first_glEvalMapsNV, hook_glEvalMapsNV, zeros_glEvalMapsNV, (target: u32, mode: u32) -> (), {
+export! { 1391, glEvalMapsNV, first_glEvalMapsNV, hook_glEvalMapsNV, zeros_glEvalMapsNV, (target: u32, mode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMapsNV(target, mode) })
 } }
-export! { 1390, glCoverFillPathInstancedNV, first_glCoverFillPathInstancedNV, hook_glCoverFillPathInstancedNV, zeros_glCoverFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1392, glCoverFillPathInstancedNV, first_glCoverFillPathInstancedNV, hook_glCoverFillPathInstancedNV, zeros_glCoverFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glCoverFillPathInstancedNV(numPaths, pathNameType, paths, pathBase, coverMode, transformType, transformValues) })
 } }
-export! { 1391, glCoverFillPathNV, first_glCoverFillPathNV, hook_glCoverFillPathNV, zeros_glCoverFillPathNV, (path: u32, coverMode: u32) -> (), {
+export! { 1393, glCoverFillPathNV, first_glCoverFillPathNV, hook_glCoverFillPathNV, zeros_glCoverFillPathNV, (path: u32, coverMode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glCoverFillPathNV(path, coverMode) })
 } }
-export! { 1392, glCoverStrokePathInstancedNV, first_glCoverStrokePathInstancedNV, hook_glCoverStrokePathInstancedNV, zeros_glCoverStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1394, glCoverStrokePathInstancedNV, first_glCoverStrokePathInstancedNV, hook_glCoverStrokePathInstancedNV, zeros_glCoverStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glCoverStrokePathInstancedNV(numPaths, pathNameType, paths, pathBase, coverMode, transformType, transformValues) })
 } }
-export! { 1393, glCoverStrokePathNV, first_glCoverStrokePathNV, hook_glCoverStrokePathNV, zeros_glCoverStrokePathNV, (path: u32, coverMode: u32) -> (), {
+export! { 1395, glCoverStrokePathNV, first_glCoverStrokePathNV, hook_glCoverStrokePathNV, zeros_glCoverStrokePathNV, (path: u32, coverMode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glCoverStrokePathNV(path, coverMode) })
 } }
-export! { 1394, glStencilFillPathInstancedNV, first_glStencilFillPathInstancedNV, hook_glStencilFillPathInstancedNV, zeros_glStencilFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1396, glStencilFillPathInstancedNV, first_glStencilFillPathInstancedNV, hook_glStencilFillPathInstancedNV, zeros_glStencilFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilFillPathInstancedNV(numPaths, pathNameType, paths, pathBase, fillMode, mask, transformType, transformValues) })
 } }
-export! { 1395, glStencilFillPathNV, first_glStencilFillPathNV, hook_glStencilFillPathNV, zeros_glStencilFillPathNV, (path: u32, fillMode: u32, mask: u32) -> (), {
+export! { 1397, glStencilFillPathNV, first_glStencilFillPathNV, hook_glStencilFillPathNV, zeros_glStencilFillPathNV, (path: u32, fillMode: u32, mask: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilFillPathNV(path, fillMode, mask) })
 } }
-export! { 1396, glStencilStrokePathInstancedNV, first_glStencilStrokePathInstancedNV, hook_glStencilStrokePathInstancedNV, zeros_glStencilStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1398, glStencilStrokePathInstancedNV, first_glStencilStrokePathInstancedNV, hook_glStencilStrokePathInstancedNV, zeros_glStencilStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilStrokePathInstancedNV(numPaths, pathNameType, paths, pathBase, reference, mask, transformType, transformValues) })
 } }
-export! { 1397, glStencilStrokePathNV, first_glStencilStrokePathNV, hook_glStencilStrokePathNV, zeros_glStencilStrokePathNV, (path: u32, reference: i32, mask: u32) -> (), {
+export! { 1399, glStencilStrokePathNV, first_glStencilStrokePathNV, hook_glStencilStrokePathNV, zeros_glStencilStrokePathNV, (path: u32, reference: i32, mask: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilStrokePathNV(path, reference, mask) })
 } }
-export! { 1398, glStencilThenCoverFillPathInstancedNV, first_glStencilThenCoverFillPathInstancedNV, hook_glStencilThenCoverFillPathInstancedNV, zeros_glStencilThenCoverFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1400, glStencilThenCoverFillPathInstancedNV, first_glStencilThenCoverFillPathInstancedNV, hook_glStencilThenCoverFillPathInstancedNV, zeros_glStencilThenCoverFillPathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, fillMode: u32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilThenCoverFillPathInstancedNV(numPaths, pathNameType, paths, pathBase, fillMode, mask, coverMode, transformType, transformValues) })
 } }
-export! { 1399, glStencilThenCoverFillPathNV, first_glStencilThenCoverFillPathNV, hook_glStencilThenCoverFillPathNV, zeros_glStencilThenCoverFillPathNV, (path: u32, fillMode: u32, mask: u32, coverMode: u32) -> (), {
+export! { 1401, glStencilThenCoverFillPathNV, first_glStencilThenCoverFillPathNV, hook_glStencilThenCoverFillPathNV, zeros_glStencilThenCoverFillPathNV, (path: u32, fillMode: u32, mask: u32, coverMode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilThenCoverFillPathNV(path, fillMode, mask, coverMode) })
 } }
-export! { 1400, glStencilThenCoverStrokePathInstancedNV, first_glStencilThenCoverStrokePathInstancedNV, hook_glStencilThenCoverStrokePathInstancedNV, zeros_glStencilThenCoverStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
+export! { 1402, glStencilThenCoverStrokePathInstancedNV, first_glStencilThenCoverStrokePathInstancedNV, hook_glStencilThenCoverStrokePathInstancedNV, zeros_glStencilThenCoverStrokePathInstancedNV, (numPaths: i32, pathNameType: u32, paths: Ptr, pathBase: u32, reference: i32, mask: u32, coverMode: u32, transformType: u32, transformValues: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilThenCoverStrokePathInstancedNV(numPaths, pathNameType, paths, pathBase, reference, mask, coverMode, transformType, transformValues) })
 } }
-export! { 1401, glStencilThenCoverStrokePathNV, first_glStencilThenCoverStrokePathNV, hook_glStencilThenCoverStrokePathNV, zeros_glStencilThenCoverStrokePathNV, (path: u32, reference: i32, mask: u32, coverMode: u32) -> (), {
+export! { 1403, glStencilThenCoverStrokePathNV, first_glStencilThenCoverStrokePathNV, hook_glStencilThenCoverStrokePathNV, zeros_glStencilThenCoverStrokePathNV, (path: u32, reference: i32, mask: u32, coverMode: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glStencilThenCoverStrokePathNV(path, reference, mask, coverMode) })
 } }
-export! { 1402, glDrawTexfOES, first_glDrawTexfOES, hook_glDrawTexfOES, zeros_glDrawTexfOES, (x: f32, y: f32, z: f32, width: f32, height: f32) -> (), {
+export! { 1404, glDrawTexfOES, first_glDrawTexfOES, hook_glDrawTexfOES, zeros_glDrawTexfOES, (x: f32, y: f32, z: f32, width: f32, height: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexfOES(x, y, z, width, height) })
 } }
-export! { 1403, glDrawTexfvOES, first_glDrawTexfvOES, hook_glDrawTexfvOES, zeros_glDrawTexfvOES, (coords: Ptr) -> (), {
+export! { 1405, glDrawTexfvOES, first_glDrawTexfvOES, hook_glDrawTexfvOES, zeros_glDrawTexfvOES, (coords: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexfvOES(coords) })
 } }
-export! { 1404, glDrawTexiOES, first_glDrawTexiOES, hook_glDrawTexiOES, zeros_glDrawTexiOES, (x: i32, y: i32, z: i32, width: i32, height: i32) -> (), {
+export! { 1406, glDrawTexiOES, first_glDrawTexiOES, hook_glDrawTexiOES, zeros_glDrawTexiOES, (x: i32, y: i32, z: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexiOES(x, y, z, width, height) })
 } }
-export! { 1405, glDrawTexivOES, first_glDrawTexivOES, hook_glDrawTexivOES, zeros_glDrawTexivOES, (coords: Ptr) -> (), {
+export! { 1407, glDrawTexivOES, first_glDrawTexivOES, hook_glDrawTexivOES, zeros_glDrawTexivOES, (coords: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexivOES(coords) })
 } }
-export! { 1406, glDrawTexsOES, first_glDrawTexsOES, hook_glDrawTexsOES, zeros_glDrawTexsOES, (x: i16, y: i16, z: i16, width: i16, height: i16) -> (), {
+export! { 1408, glDrawTexsOES, first_glDrawTexsOES, hook_glDrawTexsOES, zeros_glDrawTexsOES, (x: i16, y: i16, z: i16, width: i16, height: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexsOES(x, y, z, width, height) })
 } }
-export! { 1407, glDrawTexsvOES, first_glDrawTexsvOES, hook_glDrawTexsvOES, zeros_glDrawTexsvOES, (coords: Ptr) -> (), {
+export! { 1409, glDrawTexsvOES, first_glDrawTexsvOES, hook_glDrawTexsvOES, zeros_glDrawTexsvOES, (coords: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexsvOES(coords) })
 } }
-export! { 1408, glDrawTexxOES, first_glDrawTexxOES, hook_glDrawTexxOES, zeros_glDrawTexxOES, (x: i32, y: i32, z: i32, width: i32, height: i32) -> (), {
+export! { 1410, glDrawTexxOES, first_glDrawTexxOES, hook_glDrawTexxOES, zeros_glDrawTexxOES, (x: i32, y: i32, z: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexxOES(x, y, z, width, height) })
 } }
-export! { 1409, glDrawTexxvOES, first_glDrawTexxvOES, hook_glDrawTexxvOES, zeros_glDrawTexxvOES, (coords: Ptr) -> (), {
+export! { 1411, glDrawTexxvOES, first_glDrawTexxvOES, hook_glDrawTexxvOES, zeros_glDrawTexxvOES, (coords: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTexxvOES(coords) })
 } }
-export! { 1410, glRectxOES, first_glRectxOES, hook_glRectxOES, zeros_glRectxOES, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 1412, glRectxOES, first_glRectxOES, hook_glRectxOES, zeros_glRectxOES, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectxOES(x1, y1, x2, y2) })
 } }
-export! { 1411, glRectxvOES, first_glRectxvOES, hook_glRectxvOES, zeros_glRectxvOES, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1413, glRectxvOES, first_glRectxvOES, hook_glRectxvOES, zeros_glRectxvOES, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectxvOES(v1, v2) })
 } }
-export! { 1412, glAccum, first_glAccum, hook_glAccum, zeros_glAccum, (op: u32, value: f32) -> (), {
+export! { 1414, glAccum, first_glAccum, hook_glAccum, zeros_glAccum, (op: u32, value: f32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glAccum(op, value) }
 } }
-export! { 1413, glBitmap, first_glBitmap, hook_glBitmap, zeros_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
+export! { 1415, glBitmap, first_glBitmap, hook_glBitmap, zeros_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBitmap(width, height, xorig, yorig, xmove, ymove, bitmap) }
 } }
-export! { 1414, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, zeros_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1416, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, zeros_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawPixels(width, height, format, type_, pixels) }
 } }
-export! { 1415, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, zeros_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
+export! { 1417, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, zeros_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyPixels(x, y, width, height, type_) }
 } }
-export! { 1416, glNewList, first_glNewList, hook_glNewList, zeros_glNewList, (list: u32, mode: u32) -> (), {
+export! { 1418, glNewList, first_glNewList, hook_glNewList, zeros_glNewList, (list: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNewList(list, mode) }
 } }
-export! { 1417, glEndList, first_glEndList, hook_glEndList, zeros_glEndList, () -> (), {
+export! { 1419, glEndList, first_glEndList, hook_glEndList, zeros_glEndList, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndList() }
 } }
-export! { 1418, glCallList, first_glCallList, hook_glCallList, zeros_glCallList, (list: u32) -> (), {
+export! { 1420, glCallList, first_glCallList, hook_glCallList, zeros_glCallList, (list: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallList(list) }
 } }
-export! { 1419, glCallLists, first_glCallLists, hook_glCallLists, zeros_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
+export! { 1421, glCallLists, first_glCallLists, hook_glCallLists, zeros_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallLists(n, type_, lists) }
 } }
-export! { 1420, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, zeros_glDeleteLists, (list: u32, range: i32) -> (), {
+export! { 1422, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, zeros_glDeleteLists, (list: u32, range: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteLists(list, range) }
 } }
-export! { 1421, glGenLists, first_glGenLists, hook_glGenLists, zeros_glGenLists, (range: i32) -> u32, {
+export! { 1423, glGenLists, first_glGenLists, hook_glGenLists, zeros_glGenLists, (range: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenLists(range) }
 } }
-export! { 1422, glIsList, first_glIsList, hook_glIsList, zeros_glIsList, (list: u32) -> u8, {
+export! { 1424, glIsList, first_glIsList, hook_glIsList, zeros_glIsList, (list: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsList(list) }
 } }
-export! { 1423, glBindTexture, first_glBindTexture, hook_glBindTexture, zeros_glBindTexture, (target: u32, texture: u32) -> (), {
+export! { 1425, glBindTexture, first_glBindTexture, hook_glBindTexture, zeros_glBindTexture, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1424, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, zeros_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+export! { 1426, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, zeros_glBindTextureEXT, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1425, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, zeros_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1427, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, zeros_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
-export! { 1426, glIsTexture, first_glIsTexture, hook_glIsTexture, zeros_glIsTexture, (texture: u32) -> u8, {
+export! { 1428, glIsTexture, first_glIsTexture, hook_glIsTexture, zeros_glIsTexture, (texture: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsTexture(texture) }
 } }
-export! { 1427, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, zeros_glIsFramebuffer, (framebuffer: u32) -> u8, {
+export! { 1429, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, zeros_glIsFramebuffer, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1428, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, zeros_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
+export! { 1430, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, zeros_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1429, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, zeros_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+export! { 1431, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, zeros_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
-export! { 1430, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, zeros_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+export! { 1432, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, zeros_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
-export! { 1431, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, zeros_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1433, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, zeros_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1432, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, zeros_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1434, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, zeros_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1433, glDrawBuffersNV, first_glDrawBuffersNV, hook_glDrawBuffersNV, zeros_glDrawBuffersNV, (n: i32, bufs: Ptr) -> (), {
+export! { 1435, glDrawBuffersNV, first_glDrawBuffersNV, hook_glDrawBuffersNV, zeros_glDrawBuffersNV, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffersNV(n, bufs) }
 } }
-export! { 1434, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, zeros_glDrawBuffer, (buf: u32) -> (), {
+export! { 1436, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, zeros_glDrawBuffer, (buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
-export! { 1435, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, zeros_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+export! { 1437, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, zeros_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1436, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, zeros_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+export! { 1438, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, zeros_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1437, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, zeros_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+export! { 1439, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, zeros_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1438, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, zeros_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+export! { 1440, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, zeros_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1439, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, zeros_glReadBuffer, (src: u32) -> (), {
+export! { 1441, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, zeros_glReadBuffer, (src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
-export! { 1440, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, zeros_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+export! { 1442, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, zeros_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
-export! { 1441, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, zeros_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1443, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, zeros_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
-export! { 1442, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, zeros_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+export! { 1444, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, zeros_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 1443, glGetFramebufferParameterivEXT, first_glGetFramebufferParameterivEXT, hook_glGetFramebufferParameterivEXT, zeros_glGetFramebufferParameterivEXT, (framebuffer: u32, pname: u32, params: Ptr) -> (), {
+export! { 1445, glGetFramebufferParameterivEXT, first_glGetFramebufferParameterivEXT, hook_glGetFramebufferParameterivEXT, zeros_glGetFramebufferParameterivEXT, (framebuffer: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFramebufferParameterivEXT(framebuffer, pname, params) }
 } }
-export! { 1444, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, zeros_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1446, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, zeros_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 1445, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, zeros_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1447, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, zeros_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 1446, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, zeros_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1448, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, zeros_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 1447, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, zeros_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1449, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, zeros_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1448, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, zeros_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1450, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, zeros_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1449, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, zeros_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1451, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, zeros_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1450, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, zeros_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1452, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, zeros_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1451, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, zeros_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1453, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, zeros_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1452, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, zeros_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1454, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, zeros_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1453, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, zeros_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1455, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, zeros_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1454, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, zeros_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1456, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, zeros_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 1455, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, zeros_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 1457, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, zeros_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 1456, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, zeros_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 1458, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, zeros_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 1457, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, zeros_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 1459, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, zeros_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 1458, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, zeros_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 1460, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, zeros_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 1459, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, zeros_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 1461, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, zeros_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1460, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, zeros_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1462, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, zeros_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 1461, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, zeros_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1463, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, zeros_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1462, glFramebufferTexture3DOES, first_glFramebufferTexture3DOES, hook_glFramebufferTexture3DOES, zeros_glFramebufferTexture3DOES, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1464, glFramebufferTexture3DOES, first_glFramebufferTexture3DOES, hook_glFramebufferTexture3DOES, zeros_glFramebufferTexture3DOES, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DOES(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1463, glFramebufferTexture2DMultisampleEXT, first_glFramebufferTexture2DMultisampleEXT, hook_glFramebufferTexture2DMultisampleEXT, zeros_glFramebufferTexture2DMultisampleEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
+export! { 1465, glFramebufferTexture2DMultisampleEXT, first_glFramebufferTexture2DMultisampleEXT, hook_glFramebufferTexture2DMultisampleEXT, zeros_glFramebufferTexture2DMultisampleEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DMultisampleEXT(target, attachment, textarget, texture, level, samples) })
 } }
-export! { 1464, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, zeros_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1466, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, zeros_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1465, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, zeros_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1467, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, zeros_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1466, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, zeros_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1468, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, zeros_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1467, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, zeros_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1469, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, zeros_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1468, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, zeros_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1470, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, zeros_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1469, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, zeros_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1471, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, zeros_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1470, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, zeros_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1472, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, zeros_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1471, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, zeros_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1473, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, zeros_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1472, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, zeros_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1474, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, zeros_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1473, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, zeros_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1475, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, zeros_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1474, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, zeros_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1476, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, zeros_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1475, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, zeros_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1477, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, zeros_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1476, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, zeros_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1478, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, zeros_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1477, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, zeros_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1479, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, zeros_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1478, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, zeros_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1480, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, zeros_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1479, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, zeros_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1481, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, zeros_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture(framebuffer, attachment, texture, level) };
 } }
-export! { 1480, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, zeros_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1482, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, zeros_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayer(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1481, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, zeros_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1483, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, zeros_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbuffer(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1482, glNamedFramebufferTexture1DEXT, first_glNamedFramebufferTexture1DEXT, hook_glNamedFramebufferTexture1DEXT, zeros_glNamedFramebufferTexture1DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1484, glNamedFramebufferTexture1DEXT, first_glNamedFramebufferTexture1DEXT, hook_glNamedFramebufferTexture1DEXT, zeros_glNamedFramebufferTexture1DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture1DEXT(framebuffer, attachment, textarget, texture, level) };
 } }
-export! { 1483, glNamedFramebufferTexture2DEXT, first_glNamedFramebufferTexture2DEXT, hook_glNamedFramebufferTexture2DEXT, zeros_glNamedFramebufferTexture2DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1485, glNamedFramebufferTexture2DEXT, first_glNamedFramebufferTexture2DEXT, hook_glNamedFramebufferTexture2DEXT, zeros_glNamedFramebufferTexture2DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture2DEXT(framebuffer, attachment, textarget, texture, level) };
 } }
-export! { 1484, glNamedFramebufferTexture3DEXT, first_glNamedFramebufferTexture3DEXT, hook_glNamedFramebufferTexture3DEXT, zeros_glNamedFramebufferTexture3DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1486, glNamedFramebufferTexture3DEXT, first_glNamedFramebufferTexture3DEXT, hook_glNamedFramebufferTexture3DEXT, zeros_glNamedFramebufferTexture3DEXT, (framebuffer: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture3DEXT(framebuffer, attachment, textarget, texture, level, zoffset) };
 } }
-export! { 1485, glNamedFramebufferTextureEXT, first_glNamedFramebufferTextureEXT, hook_glNamedFramebufferTextureEXT, zeros_glNamedFramebufferTextureEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1487, glNamedFramebufferTextureEXT, first_glNamedFramebufferTextureEXT, hook_glNamedFramebufferTextureEXT, zeros_glNamedFramebufferTextureEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureEXT(framebuffer, attachment, texture, level) };
 } }
-export! { 1486, glNamedFramebufferTextureFaceEXT, first_glNamedFramebufferTextureFaceEXT, hook_glNamedFramebufferTextureFaceEXT, zeros_glNamedFramebufferTextureFaceEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1488, glNamedFramebufferTextureFaceEXT, first_glNamedFramebufferTextureFaceEXT, hook_glNamedFramebufferTextureFaceEXT, zeros_glNamedFramebufferTextureFaceEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureFaceEXT(framebuffer, attachment, texture, level, face) };
 } }
-export! { 1487, glNamedFramebufferTextureLayerEXT, first_glNamedFramebufferTextureLayerEXT, hook_glNamedFramebufferTextureLayerEXT, zeros_glNamedFramebufferTextureLayerEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1489, glNamedFramebufferTextureLayerEXT, first_glNamedFramebufferTextureLayerEXT, hook_glNamedFramebufferTextureLayerEXT, zeros_glNamedFramebufferTextureLayerEXT, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayerEXT(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1488, glNamedFramebufferRenderbufferEXT, first_glNamedFramebufferRenderbufferEXT, hook_glNamedFramebufferRenderbufferEXT, zeros_glNamedFramebufferRenderbufferEXT, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1490, glNamedFramebufferRenderbufferEXT, first_glNamedFramebufferRenderbufferEXT, hook_glNamedFramebufferRenderbufferEXT, zeros_glNamedFramebufferRenderbufferEXT, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbufferEXT(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1489, glNamedFramebufferParameteri, first_glNamedFramebufferParameteri, hook_glNamedFramebufferParameteri, zeros_glNamedFramebufferParameteri, (framebuffer: u32, pname: u32, param: i32) -> (), {
+export! { 1491, glNamedFramebufferParameteri, first_glNamedFramebufferParameteri, hook_glNamedFramebufferParameteri, zeros_glNamedFramebufferParameteri, (framebuffer: u32, pname: u32, param: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferParameteri(framebuffer, pname, param) };
 } }
-export! { 1490, glNamedFramebufferParameteriEXT, first_glNamedFramebufferParameteriEXT, hook_glNamedFramebufferParameteriEXT, zeros_glNamedFramebufferParameteriEXT, (framebuffer: u32, pname: u32, param: i32) -> (), {
+export! { 1492, glNamedFramebufferParameteriEXT, first_glNamedFramebufferParameteriEXT, hook_glNamedFramebufferParameteriEXT, zeros_glNamedFramebufferParameteriEXT, (framebuffer: u32, pname: u32, param: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferParameteriEXT(framebuffer, pname, param) };
 } }
-export! { 1491, glNamedFramebufferSampleLocationsfvARB, first_glNamedFramebufferSampleLocationsfvARB, hook_glNamedFramebufferSampleLocationsfvARB, zeros_glNamedFramebufferSampleLocationsfvARB, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1493, glNamedFramebufferSampleLocationsfvARB, first_glNamedFramebufferSampleLocationsfvARB, hook_glNamedFramebufferSampleLocationsfvARB, zeros_glNamedFramebufferSampleLocationsfvARB, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSampleLocationsfvARB(framebuffer, start, count, v) };
 } }
-export! { 1492, glNamedFramebufferSampleLocationsfvNV, first_glNamedFramebufferSampleLocationsfvNV, hook_glNamedFramebufferSampleLocationsfvNV, zeros_glNamedFramebufferSampleLocationsfvNV, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1494, glNamedFramebufferSampleLocationsfvNV, first_glNamedFramebufferSampleLocationsfvNV, hook_glNamedFramebufferSampleLocationsfvNV, zeros_glNamedFramebufferSampleLocationsfvNV, (framebuffer: u32, start: u32, count: i32, v: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSampleLocationsfvNV(framebuffer, start, count, v) };
 } }
-export! { 1493, glNamedFramebufferSamplePositionsfvAMD, first_glNamedFramebufferSamplePositionsfvAMD, hook_glNamedFramebufferSamplePositionsfvAMD, zeros_glNamedFramebufferSamplePositionsfvAMD, (framebuffer: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
+export! { 1495, glNamedFramebufferSamplePositionsfvAMD, first_glNamedFramebufferSamplePositionsfvAMD, hook_glNamedFramebufferSamplePositionsfvAMD, zeros_glNamedFramebufferSamplePositionsfvAMD, (framebuffer: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferSamplePositionsfvAMD(framebuffer, numsamples, pixelindex, values) };
 } }
-export! { 1494, glFramebufferTextureFaceARB, first_glFramebufferTextureFaceARB, hook_glFramebufferTextureFaceARB, zeros_glFramebufferTextureFaceARB, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1496, glFramebufferTextureFaceARB, first_glFramebufferTextureFaceARB, hook_glFramebufferTextureFaceARB, zeros_glFramebufferTextureFaceARB, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureFaceARB(target, attachment, texture, level, face) })
 } }
-export! { 1495, glFramebufferTextureFaceEXT, first_glFramebufferTextureFaceEXT, hook_glFramebufferTextureFaceEXT, zeros_glFramebufferTextureFaceEXT, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
+export! { 1497, glFramebufferTextureFaceEXT, first_glFramebufferTextureFaceEXT, hook_glFramebufferTextureFaceEXT, zeros_glFramebufferTextureFaceEXT, (target: u32, attachment: u32, texture: u32, level: i32, face: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureFaceEXT(target, attachment, texture, level, face) })
 } }
-export! { 1496, glFramebufferTextureMultisampleMultiviewOVR, first_glFramebufferTextureMultisampleMultiviewOVR, hook_glFramebufferTextureMultisampleMultiviewOVR, zeros_glFramebufferTextureMultisampleMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, samples: i32, baseViewIndex: i32, numViews: i32) -> (), {
+export! { 1498, glFramebufferTextureMultisampleMultiviewOVR, first_glFramebufferTextureMultisampleMultiviewOVR, hook_glFramebufferTextureMultisampleMultiviewOVR, zeros_glFramebufferTextureMultisampleMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, samples: i32, baseViewIndex: i32, numViews: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureMultisampleMultiviewOVR(target, attachment, texture, level, samples, baseViewIndex, numViews) })
 } }
-export! { 1497, glFramebufferTextureMultiviewOVR, first_glFramebufferTextureMultiviewOVR, hook_glFramebufferTextureMultiviewOVR, zeros_glFramebufferTextureMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, baseViewIndex: i32, numViews: i32) -> (), {
+export! { 1499, glFramebufferTextureMultiviewOVR, first_glFramebufferTextureMultiviewOVR, hook_glFramebufferTextureMultiviewOVR, zeros_glFramebufferTextureMultiviewOVR, (target: u32, attachment: u32, texture: u32, level: i32, baseViewIndex: i32, numViews: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureMultiviewOVR(target, attachment, texture, level, baseViewIndex, numViews) })
 } }
-export! { 1498, glFramebufferTexture2DDownsampleIMG, first_glFramebufferTexture2DDownsampleIMG, hook_glFramebufferTexture2DDownsampleIMG, zeros_glFramebufferTexture2DDownsampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, xscale: i32, yscale: i32) -> (), {
+export! { 1500, glFramebufferTexture2DDownsampleIMG, first_glFramebufferTexture2DDownsampleIMG, hook_glFramebufferTexture2DDownsampleIMG, zeros_glFramebufferTexture2DDownsampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, xscale: i32, yscale: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DDownsampleIMG(target, attachment, textarget, texture, level, xscale, yscale) })
 } }
-export! { 1499, glFramebufferTexture2DMultisampleIMG, first_glFramebufferTexture2DMultisampleIMG, hook_glFramebufferTexture2DMultisampleIMG, zeros_glFramebufferTexture2DMultisampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
+export! { 1501, glFramebufferTexture2DMultisampleIMG, first_glFramebufferTexture2DMultisampleIMG, hook_glFramebufferTexture2DMultisampleIMG, zeros_glFramebufferTexture2DMultisampleIMG, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DMultisampleIMG(target, attachment, textarget, texture, level, samples) })
 } }
-export! { 1500, glFramebufferTextureLayerDownsampleIMG, first_glFramebufferTextureLayerDownsampleIMG, hook_glFramebufferTextureLayerDownsampleIMG, zeros_glFramebufferTextureLayerDownsampleIMG, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32, xscale: i32, yscale: i32) -> (), {
+export! { 1502, glFramebufferTextureLayerDownsampleIMG, first_glFramebufferTextureLayerDownsampleIMG, hook_glFramebufferTextureLayerDownsampleIMG, zeros_glFramebufferTextureLayerDownsampleIMG, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32, xscale: i32, yscale: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerDownsampleIMG(target, attachment, texture, level, layer, xscale, yscale) })
 } }
-export! { 1501, glFramebufferSampleLocationsfvARB, first_glFramebufferSampleLocationsfvARB, hook_glFramebufferSampleLocationsfvARB, zeros_glFramebufferSampleLocationsfvARB, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1503, glFramebufferSampleLocationsfvARB, first_glFramebufferSampleLocationsfvARB, hook_glFramebufferSampleLocationsfvARB, zeros_glFramebufferSampleLocationsfvARB, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSampleLocationsfvARB(target, start, count, v) })
 } }
-export! { 1502, glFramebufferSampleLocationsfvNV, first_glFramebufferSampleLocationsfvNV, hook_glFramebufferSampleLocationsfvNV, zeros_glFramebufferSampleLocationsfvNV, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
+export! { 1504, glFramebufferSampleLocationsfvNV, first_glFramebufferSampleLocationsfvNV, hook_glFramebufferSampleLocationsfvNV, zeros_glFramebufferSampleLocationsfvNV, (target: u32, start: u32, count: i32, v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSampleLocationsfvNV(target, start, count, v) })
 } }
-export! { 1503, glFramebufferSamplePositionsfvAMD, first_glFramebufferSamplePositionsfvAMD, hook_glFramebufferSamplePositionsfvAMD, zeros_glFramebufferSamplePositionsfvAMD, (target: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
+export! { 1505, glFramebufferSamplePositionsfvAMD, first_glFramebufferSamplePositionsfvAMD, hook_glFramebufferSamplePositionsfvAMD, zeros_glFramebufferSamplePositionsfvAMD, (target: u32, numsamples: u32, pixelindex: u32, values: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferSamplePositionsfvAMD(target, numsamples, pixelindex, values) })
 } }
-export! { 1504, glFramebufferParameteriMESA, first_glFramebufferParameteriMESA, hook_glFramebufferParameteriMESA, zeros_glFramebufferParameteriMESA, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1506, glFramebufferParameteriMESA, first_glFramebufferParameteriMESA, hook_glFramebufferParameteriMESA, zeros_glFramebufferParameteriMESA, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferParameteriMESA(target, pname, param) })
 } }
-export! { 1505, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, zeros_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1507, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, zeros_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1506, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, zeros_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1508, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, zeros_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1507, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, zeros_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1509, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, zeros_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1508, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, zeros_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1510, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, zeros_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1509, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, zeros_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1511, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, zeros_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1510, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, zeros_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1512, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, zeros_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1511, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, zeros_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1513, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, zeros_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1512, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, zeros_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1514, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, zeros_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1513, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, zeros_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1515, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, zeros_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1514, glGetFramebufferParameterivMESA, first_glGetFramebufferParameterivMESA, hook_glGetFramebufferParameterivMESA, zeros_glGetFramebufferParameterivMESA, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1516, glGetFramebufferParameterivMESA, first_glGetFramebufferParameterivMESA, hook_glGetFramebufferParameterivMESA, zeros_glGetFramebufferParameterivMESA, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameterivMESA(target, pname, params) })
 } }
-export! { 1515, glGetFramebufferParameterfvAMD, first_glGetFramebufferParameterfvAMD, hook_glGetFramebufferParameterfvAMD, zeros_glGetFramebufferParameterfvAMD, (target: u32, pname: u32, numsamples: u32, pixelindex: u32, size: i32, values: Ptr) -> (), {
+export! { 1517, glGetFramebufferParameterfvAMD, first_glGetFramebufferParameterfvAMD, hook_glGetFramebufferParameterfvAMD, zeros_glGetFramebufferParameterfvAMD, (target: u32, pname: u32, numsamples: u32, pixelindex: u32, size: i32, values: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameterfvAMD(target, pname, numsamples, pixelindex, size, values) })
 } }
-export! { 1516, glFramebufferPixelLocalStorageSizeEXT, first_glFramebufferPixelLocalStorageSizeEXT, hook_glFramebufferPixelLocalStorageSizeEXT, zeros_glFramebufferPixelLocalStorageSizeEXT, (target: u32, size: i32) -> (), {
+export! { 1518, glFramebufferPixelLocalStorageSizeEXT, first_glFramebufferPixelLocalStorageSizeEXT, hook_glFramebufferPixelLocalStorageSizeEXT, zeros_glFramebufferPixelLocalStorageSizeEXT, (target: u32, size: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferPixelLocalStorageSizeEXT(target, size) })
 } }
-export! { 1517, glGetFramebufferPixelLocalStorageSizeEXT, first_glGetFramebufferPixelLocalStorageSizeEXT, hook_glGetFramebufferPixelLocalStorageSizeEXT, zeros_glGetFramebufferPixelLocalStorageSizeEXT, (target: u32) -> i32, {
+export! { 1519, glGetFramebufferPixelLocalStorageSizeEXT, first_glGetFramebufferPixelLocalStorageSizeEXT, hook_glGetFramebufferPixelLocalStorageSizeEXT, zeros_glGetFramebufferPixelLocalStorageSizeEXT, (target: u32) -> i32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferPixelLocalStorageSizeEXT(target) })
 } }
-export! { 1518, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, zeros_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1520, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, zeros_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Bound(target), x, width, &mut |gl, _| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1519, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, zeros_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1521, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, zeros_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Bound(target), x, width, &mut |gl, _| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1520, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, zeros_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1522, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, zeros_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Bound(target), x, width, &mut |gl, _| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1521, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, zeros_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1523, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, zeros_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Bound(target), x, width, &mut |gl, _| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1522, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, zeros_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1524, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, zeros_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Bound(target), x, width, &mut |gl, _| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1523, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, zeros_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1525, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, zeros_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Bound(target), x, width, &mut |gl, _| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1524, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, zeros_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1526, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, zeros_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Bound(target), x, width, &mut |gl, _| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1525, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, zeros_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1527, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, zeros_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Bound(target), x, width, &mut |gl, _| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1526, glReadPixels, first_glReadPixels, hook_glReadPixels, zeros_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1528, glReadPixels, first_glReadPixels, hook_glReadPixels, zeros_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1527, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, zeros_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1529, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, zeros_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1528, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, zeros_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1530, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, zeros_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1529, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, zeros_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1531, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, zeros_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1530, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, zeros_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1532, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, zeros_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1531, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, zeros_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1533, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, zeros_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy_now(TextureName(texture), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1532, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, zeros_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1534, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, zeros_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy_now(TextureName(texture), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1533, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, zeros_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1535, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, zeros_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Named(TextureName(texture)), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1534, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, zeros_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1536, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, zeros_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Named(TextureName(texture)), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1535, glCopyTextureSubImage1DEXT, first_glCopyTextureSubImage1DEXT, hook_glCopyTextureSubImage1DEXT, zeros_glCopyTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1537, glCopyTextureSubImage1DEXT, first_glCopyTextureSubImage1DEXT, hook_glCopyTextureSubImage1DEXT, zeros_glCopyTextureSubImage1DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Named(TextureName(texture)), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureSubImage1DEXT(texture, target, level, xoffset, x, y, width) })
 } }
-export! { 1536, glCopyTextureSubImage2DEXT, first_glCopyTextureSubImage2DEXT, hook_glCopyTextureSubImage2DEXT, zeros_glCopyTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1538, glCopyTextureSubImage2DEXT, first_glCopyTextureSubImage2DEXT, hook_glCopyTextureSubImage2DEXT, zeros_glCopyTextureSubImage2DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Named(TextureName(texture)), x, width, &mut |gl, TextureName(texture)| unsafe { gl.glCopyTextureSubImage2DEXT(texture, target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1537, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, zeros_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1539, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, zeros_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Unit(texunit, target), x, width, &mut |gl, _| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1538, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, zeros_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1540, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, zeros_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Unit(texunit, target), x, width, &mut |gl, _| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1539, glCopyMultiTexSubImage1DEXT, first_glCopyMultiTexSubImage1DEXT, hook_glCopyMultiTexSubImage1DEXT, zeros_glCopyMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1541, glCopyMultiTexSubImage1DEXT, first_glCopyMultiTexSubImage1DEXT, hook_glCopyMultiTexSubImage1DEXT, zeros_glCopyMultiTexSubImage1DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Unit(texunit, target), x, width, &mut |gl, _| unsafe { gl.glCopyMultiTexSubImage1DEXT(texunit, target, level, xoffset, x, y, width) })
 } }
-export! { 1540, glCopyMultiTexSubImage2DEXT, first_glCopyMultiTexSubImage2DEXT, hook_glCopyMultiTexSubImage2DEXT, zeros_glCopyMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1542, glCopyMultiTexSubImage2DEXT, first_glCopyMultiTexSubImage2DEXT, hook_glCopyMultiTexSubImage2DEXT, zeros_glCopyMultiTexSubImage2DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call, also on a texture of ours.
     hooks::copy(TextureAt::Unit(texunit, target), x, width, &mut |gl, _| unsafe { gl.glCopyMultiTexSubImage2DEXT(texunit, target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1541, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, zeros_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1543, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, zeros_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1542, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, zeros_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1544, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, zeros_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1543, glCopyTexSubImage3DOES, first_glCopyTexSubImage3DOES, hook_glCopyTexSubImage3DOES, zeros_glCopyTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1545, glCopyTexSubImage3DOES, first_glCopyTexSubImage3DOES, hook_glCopyTexSubImage3DOES, zeros_glCopyTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DOES(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1544, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, zeros_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1546, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, zeros_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1545, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, zeros_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1547, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, zeros_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1546, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, zeros_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1548, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, zeros_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1547, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, zeros_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1549, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, zeros_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1548, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, zeros_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1550, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, zeros_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1549, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, zeros_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1551, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, zeros_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1550, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, zeros_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1552, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, zeros_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1551, glCopyTextureSubImage3DEXT, first_glCopyTextureSubImage3DEXT, hook_glCopyTextureSubImage3DEXT, zeros_glCopyTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1553, glCopyTextureSubImage3DEXT, first_glCopyTextureSubImage3DEXT, hook_glCopyTextureSubImage3DEXT, zeros_glCopyTextureSubImage3DEXT, (texture: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3DEXT(texture, target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1552, glCopyMultiTexSubImage3DEXT, first_glCopyMultiTexSubImage3DEXT, hook_glCopyMultiTexSubImage3DEXT, zeros_glCopyMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1554, glCopyMultiTexSubImage3DEXT, first_glCopyMultiTexSubImage3DEXT, hook_glCopyMultiTexSubImage3DEXT, zeros_glCopyMultiTexSubImage3DEXT, (texunit: u32, target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexSubImage3DEXT(texunit, target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1553, glCopyColorSubTable, first_glCopyColorSubTable, hook_glCopyColorSubTable, zeros_glCopyColorSubTable, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1555, glCopyColorSubTable, first_glCopyColorSubTable, hook_glCopyColorSubTable, zeros_glCopyColorSubTable, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorSubTable(target, start, x, y, width) })
 } }
-export! { 1554, glCopyColorSubTableEXT, first_glCopyColorSubTableEXT, hook_glCopyColorSubTableEXT, zeros_glCopyColorSubTableEXT, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1556, glCopyColorSubTableEXT, first_glCopyColorSubTableEXT, hook_glCopyColorSubTableEXT, zeros_glCopyColorSubTableEXT, (target: u32, start: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorSubTableEXT(target, start, x, y, width) })
 } }
-export! { 1555, glReadBufferNV, first_glReadBufferNV, hook_glReadBufferNV, zeros_glReadBufferNV, (mode: u32) -> (), {
+export! { 1557, glReadBufferNV, first_glReadBufferNV, hook_glReadBufferNV, zeros_glReadBufferNV, (mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBufferNV(mode) }
 } }
-export! { 1556, glBlitFramebufferANGLE, first_glBlitFramebufferANGLE, hook_glBlitFramebufferANGLE, zeros_glBlitFramebufferANGLE, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1558, glBlitFramebufferANGLE, first_glBlitFramebufferANGLE, hook_glBlitFramebufferANGLE, zeros_glBlitFramebufferANGLE, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebufferANGLE(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1557, glBeginQueryEXT, first_glBeginQueryEXT, hook_glBeginQueryEXT, zeros_glBeginQueryEXT, (target: u32, id: u32) -> (), {
+export! { 1559, glBeginQueryEXT, first_glBeginQueryEXT, hook_glBeginQueryEXT, zeros_glBeginQueryEXT, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQueryEXT(target, id) }
 } }
-export! { 1558, glEndQueryEXT, first_glEndQueryEXT, hook_glEndQueryEXT, zeros_glEndQueryEXT, (target: u32) -> (), {
+export! { 1560, glEndQueryEXT, first_glEndQueryEXT, hook_glEndQueryEXT, zeros_glEndQueryEXT, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQueryEXT(target) }
 } }
-export! { 1559, glGetQueryivEXT, first_glGetQueryivEXT, hook_glGetQueryivEXT, zeros_glGetQueryivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1561, glGetQueryivEXT, first_glGetQueryivEXT, hook_glGetQueryivEXT, zeros_glGetQueryivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryivEXT(target, pname, params) }
 } }
-export! { 1560, glGetQueryObjectuivEXT, first_glGetQueryObjectuivEXT, hook_glGetQueryObjectuivEXT, zeros_glGetQueryObjectuivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1562, glGetQueryObjectuivEXT, first_glGetQueryObjectuivEXT, hook_glGetQueryObjectuivEXT, zeros_glGetQueryObjectuivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuivEXT(id, pname, params) }
 } }
-export! { 1561, glFinish, first_glFinish, hook_glFinish, zeros_glFinish, () -> (), {
+export! { 1563, glFinish, first_glFinish, hook_glFinish, zeros_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1562, glFlush, first_glFlush, hook_glFlush, zeros_glFlush, () -> (), {
+export! { 1564, glFlush, first_glFlush, hook_glFlush, zeros_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1563, glGetError, first_glGetError, hook_glGetError, zeros_glGetError, () -> u32, {
+export! { 1565, glGetError, first_glGetError, hook_glGetError, zeros_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1564, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, zeros_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
+export! { 1566, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, zeros_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1565, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, zeros_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
+export! { 1567, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, zeros_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1566, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, zeros_glEndConditionalRender, () -> (), {
+export! { 1568, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, zeros_glEndConditionalRender, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1567, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, zeros_glEndConditionalRenderNV, () -> (), {
+export! { 1569, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, zeros_glEndConditionalRenderNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1568, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, zeros_glEndConditionalRenderNVX, () -> (), {
+export! { 1570, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, zeros_glEndConditionalRenderNVX, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1569, glGetQueryBufferObjecti64v, first_glGetQueryBufferObjecti64v, hook_glGetQueryBufferObjecti64v, zeros_glGetQueryBufferObjecti64v, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
+export! { 1571, glGetQueryBufferObjecti64v, first_glGetQueryBufferObjecti64v, hook_glGetQueryBufferObjecti64v, zeros_glGetQueryBufferObjecti64v, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryBufferObjecti64v(id, buffer, pname, offset) }
 } }
-export! { 1570, glGetQueryBufferObjectiv, first_glGetQueryBufferObjectiv, hook_glGetQueryBufferObjectiv, zeros_glGetQueryBufferObjectiv, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
+export! { 1572, glGetQueryBufferObjectiv, first_glGetQueryBufferObjectiv, hook_glGetQueryBufferObjectiv, zeros_glGetQueryBufferObjectiv, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryBufferObjectiv(id, buffer, pname, offset) }
 } }
-export! { 1571, glGetQueryBufferObjectui64v, first_glGetQueryBufferObjectui64v, hook_glGetQueryBufferObjectui64v, zeros_glGetQueryBufferObjectui64v, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
+export! { 1573, glGetQueryBufferObjectui64v, first_glGetQueryBufferObjectui64v, hook_glGetQueryBufferObjectui64v, zeros_glGetQueryBufferObjectui64v, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryBufferObjectui64v(id, buffer, pname, offset) }
 } }
-export! { 1572, glGetQueryBufferObjectuiv, first_glGetQueryBufferObjectuiv, hook_glGetQueryBufferObjectuiv, zeros_glGetQueryBufferObjectuiv, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
+export! { 1574, glGetQueryBufferObjectuiv, first_glGetQueryBufferObjectuiv, hook_glGetQueryBufferObjectuiv, zeros_glGetQueryBufferObjectuiv, (id: u32, buffer: u32, pname: u32, offset: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryBufferObjectuiv(id, buffer, pname, offset) }
 } }
-export! { 1573, glBeginQueryIndexed, first_glBeginQueryIndexed, hook_glBeginQueryIndexed, zeros_glBeginQueryIndexed, (target: u32, index: u32, id: u32) -> (), {
+export! { 1575, glBeginQueryIndexed, first_glBeginQueryIndexed, hook_glBeginQueryIndexed, zeros_glBeginQueryIndexed, (target: u32, index: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQueryIndexed(target, index, id) }
 } }
-export! { 1574, glEndQueryIndexed, first_glEndQueryIndexed, hook_glEndQueryIndexed, zeros_glEndQueryIndexed, (target: u32, index: u32) -> (), {
+export! { 1576, glEndQueryIndexed, first_glEndQueryIndexed, hook_glEndQueryIndexed, zeros_glEndQueryIndexed, (target: u32, index: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQueryIndexed(target, index) }
 } }
-export! { 1575, glGetQueryIndexediv, first_glGetQueryIndexediv, hook_glGetQueryIndexediv, zeros_glGetQueryIndexediv, (target: u32, index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1577, glGetQueryIndexediv, first_glGetQueryIndexediv, hook_glGetQueryIndexediv, zeros_glGetQueryIndexediv, (target: u32, index: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryIndexediv(target, index, pname, params) }
 } }
-export! { 1576, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, zeros_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1578, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, zeros_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1577, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, zeros_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1579, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, zeros_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1578, glEndQuery, first_glEndQuery, hook_glEndQuery, zeros_glEndQuery, (target: u32) -> (), {
+export! { 1580, glEndQuery, first_glEndQuery, hook_glEndQuery, zeros_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1579, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, zeros_glEndQueryARB, (target: u32) -> (), {
+export! { 1581, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, zeros_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1580, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, zeros_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1582, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, zeros_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1581, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, zeros_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1583, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, zeros_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1582, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, zeros_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1584, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, zeros_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1583, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, zeros_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1585, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, zeros_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1584, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, zeros_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1586, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, zeros_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1585, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, zeros_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1587, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, zeros_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1586, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, zeros_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1588, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, zeros_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1587, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, zeros_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1589, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, zeros_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1588, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, zeros_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1590, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, zeros_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1589, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, zeros_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1591, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, zeros_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1590, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, zeros_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1592, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, zeros_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1591, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, zeros_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1593, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, zeros_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1592, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, zeros_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1594, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, zeros_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1593, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, zeros_glIsEnabled, (cap: u32) -> u8, {
+export! { 1595, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, zeros_glIsEnabled, (cap: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
-export! { 1594, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, zeros_glIsEnabledi, (target: u32, index: u32) -> u8, {
+export! { 1596, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, zeros_glIsEnabledi, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
-export! { 1595, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, zeros_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+export! { 1597, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, zeros_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
-export! { 1596, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, zeros_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+export! { 1598, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, zeros_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
-export! { 1597, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, zeros_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+export! { 1599, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, zeros_glIsEnablediNV, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
-export! { 1598, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, zeros_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+export! { 1600, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, zeros_glIsEnablediOES, (target: u32, index: u32) -> u8, {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
-export! { 1599, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, zeros_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1601, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, zeros_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
-export! { 1600, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, zeros_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1602, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, zeros_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
-export! { 1601, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, zeros_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1603, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, zeros_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
-export! { 1602, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, zeros_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1604, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, zeros_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
-export! { 1603, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, zeros_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1605, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, zeros_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
-export! { 1604, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, zeros_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1606, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, zeros_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
-export! { 1605, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, zeros_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1607, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, zeros_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
-export! { 1606, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, zeros_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1608, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, zeros_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
-export! { 1607, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, zeros_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1609, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, zeros_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
-export! { 1608, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, zeros_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1610, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, zeros_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
-export! { 1609, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, zeros_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1611, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, zeros_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
-export! { 1610, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, zeros_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1612, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, zeros_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
-export! { 1611, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, zeros_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1613, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, zeros_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
-export! { 1612, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, zeros_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 1614, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, zeros_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
-export! { 1613, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, zeros_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1615, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, zeros_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
-export! { 1614, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, zeros_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1616, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, zeros_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
-export! { 1615, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, zeros_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1617, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, zeros_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
-export! { 1616, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, zeros_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+export! { 1618, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, zeros_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
-export! { 1617, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, zeros_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+export! { 1619, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, zeros_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
-export! { 1618, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, zeros_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+export! { 1620, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, zeros_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
-export! { 1619, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, zeros_glGetPolygonStipple, (mask: Ptr) -> (), {
+export! { 1621, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, zeros_glGetPolygonStipple, (mask: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
-export! { 1620, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, zeros_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1622, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, zeros_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
-export! { 1621, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, zeros_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1623, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, zeros_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
-export! { 1622, glDebugMessageCallback, first_glDebugMessageCallback, hook_glDebugMessageCallback, zeros_glDebugMessageCallback, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1624, glDebugMessageCallback, first_glDebugMessageCallback, hook_glDebugMessageCallback, zeros_glDebugMessageCallback, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1623, glDebugMessageCallbackARB, first_glDebugMessageCallbackARB, hook_glDebugMessageCallbackARB, zeros_glDebugMessageCallbackARB, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1625, glDebugMessageCallbackARB, first_glDebugMessageCallbackARB, hook_glDebugMessageCallbackARB, zeros_glDebugMessageCallbackARB, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1624, glDebugMessageCallbackKHR, first_glDebugMessageCallbackKHR, hook_glDebugMessageCallbackKHR, zeros_glDebugMessageCallbackKHR, (callback: Ptr, userParam: Ptr) -> (), {
+export! { 1626, glDebugMessageCallbackKHR, first_glDebugMessageCallbackKHR, hook_glDebugMessageCallbackKHR, zeros_glDebugMessageCallbackKHR, (callback: Ptr, userParam: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDebugMessageCallback(callback, userParam) }
 } }
-export! { 1625, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, zeros_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+export! { 1627, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, zeros_glGetPointerv, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1626, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, zeros_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+export! { 1628, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, zeros_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1627, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, zeros_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+export! { 1629, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, zeros_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetPointerv(pname, params) }
 } }
-export! { 1628, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, zeros_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1630, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, zeros_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
 } }
-export! { 1629, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, zeros_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1631, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, zeros_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
 } }
-export! { 1630, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, zeros_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1632, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, zeros_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImage(target, level, img) };
 } }
-export! { 1631, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, zeros_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1633, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, zeros_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImageARB(target, level, img) };
 } }
-export! { 1632, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, zeros_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1634, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, zeros_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnCompressedTexImage(target, lod, bufSize, pixels) };
 } }
-export! { 1633, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, zeros_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1635, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, zeros_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
-export! { 1634, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, zeros_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1636, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, zeros_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
-export! { 1635, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, zeros_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1637, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, zeros_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
-export! { 1636, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, zeros_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1638, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, zeros_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
-export! { 1637, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, zeros_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1639, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, zeros_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
-export! { 1638, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, zeros_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1640, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, zeros_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
-export! { 1639, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, zeros_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1641, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, zeros_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
-export! { 1640, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, zeros_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1642, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, zeros_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
-export! { 1641, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, zeros_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1643, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, zeros_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
-export! { 1642, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, zeros_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1644, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, zeros_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
-export! { 1643, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, zeros_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1645, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, zeros_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
-export! { 1644, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, zeros_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1646, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, zeros_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
-export! { 1645, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, zeros_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1647, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, zeros_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
-export! { 1646, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, zeros_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1648, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, zeros_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
-export! { 1647, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, zeros_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1649, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, zeros_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
-export! { 1648, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, zeros_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1650, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, zeros_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
-export! { 1649, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, zeros_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+export! { 1651, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, zeros_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
-export! { 1650, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, zeros_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+export! { 1652, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, zeros_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
-export! { 1651, glGenTextures, first_glGenTextures, hook_glGenTextures, zeros_glGenTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1653, glGenTextures, first_glGenTextures, hook_glGenTextures, zeros_glGenTextures, (n: i32, textures: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
-export! { 1652, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, zeros_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1654, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, zeros_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
-export! { 1653, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, zeros_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1655, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, zeros_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
-export! { 1654, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, zeros_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1656, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, zeros_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
-export! { 1655, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, zeros_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1657, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, zeros_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1656, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, zeros_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+export! { 1658, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, zeros_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
 } }
-export! { 1657, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, zeros_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1659, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, zeros_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
 } }
-export! { 1658, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, zeros_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1660, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, zeros_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
 } }
-export! { 1659, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, zeros_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1661, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, zeros_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
 } }
-export! { 1660, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, zeros_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1662, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, zeros_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
 } }
-export! { 1661, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, zeros_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1663, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, zeros_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
 } }
-export! { 1662, glEGLImageTargetRenderbufferStorageOES, first_glEGLImageTargetRenderbufferStorageOES, hook_glEGLImageTargetRenderbufferStorageOES, zeros_glEGLImageTargetRenderbufferStorageOES, (target: u32, image: Ptr) -> (), {
+export! { 1664, glEGLImageTargetRenderbufferStorageOES, first_glEGLImageTargetRenderbufferStorageOES, hook_glEGLImageTargetRenderbufferStorageOES, zeros_glEGLImageTargetRenderbufferStorageOES, (target: u32, image: Ptr) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEGLImageTargetRenderbufferStorageOES(target, image) };
 } }
-export! { 1663, glRenderbufferStorageMultisampleANGLE, first_glRenderbufferStorageMultisampleANGLE, hook_glRenderbufferStorageMultisampleANGLE, zeros_glRenderbufferStorageMultisampleANGLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1665, glRenderbufferStorageMultisampleANGLE, first_glRenderbufferStorageMultisampleANGLE, hook_glRenderbufferStorageMultisampleANGLE, zeros_glRenderbufferStorageMultisampleANGLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleANGLE(target, samples, internalformat, width, height) };
 } }
-export! { 1664, glRenderbufferStorageMultisampleAPPLE, first_glRenderbufferStorageMultisampleAPPLE, hook_glRenderbufferStorageMultisampleAPPLE, zeros_glRenderbufferStorageMultisampleAPPLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1666, glRenderbufferStorageMultisampleAPPLE, first_glRenderbufferStorageMultisampleAPPLE, hook_glRenderbufferStorageMultisampleAPPLE, zeros_glRenderbufferStorageMultisampleAPPLE, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleAPPLE(target, samples, internalformat, width, height) };
 } }
-export! { 1665, glRenderbufferStorageMultisampleAdvancedAMD, first_glRenderbufferStorageMultisampleAdvancedAMD, hook_glRenderbufferStorageMultisampleAdvancedAMD, zeros_glRenderbufferStorageMultisampleAdvancedAMD, (target: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1667, glRenderbufferStorageMultisampleAdvancedAMD, first_glRenderbufferStorageMultisampleAdvancedAMD, hook_glRenderbufferStorageMultisampleAdvancedAMD, zeros_glRenderbufferStorageMultisampleAdvancedAMD, (target: u32, samples: i32, storageSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleAdvancedAMD(target, samples, storageSamples, internalformat, width, height) };
 } }
-export! { 1666, glRenderbufferStorageMultisampleCoverageNV, first_glRenderbufferStorageMultisampleCoverageNV, hook_glRenderbufferStorageMultisampleCoverageNV, zeros_glRenderbufferStorageMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1668, glRenderbufferStorageMultisampleCoverageNV, first_glRenderbufferStorageMultisampleCoverageNV, hook_glRenderbufferStorageMultisampleCoverageNV, zeros_glRenderbufferStorageMultisampleCoverageNV, (target: u32, coverageSamples: i32, colorSamples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleCoverageNV(target, coverageSamples, colorSamples, internalformat, width, height) };
 } }
-export! { 1667, glRenderbufferStorageMultisampleIMG, first_glRenderbufferStorageMultisampleIMG, hook_glRenderbufferStorageMultisampleIMG, zeros_glRenderbufferStorageMultisampleIMG, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1669, glRenderbufferStorageMultisampleIMG, first_glRenderbufferStorageMultisampleIMG, hook_glRenderbufferStorageMultisampleIMG, zeros_glRenderbufferStorageMultisampleIMG, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleIMG(target, samples, internalformat, width, height) };
 } }
-export! { 1668, glBindRenderbufferEXT, first_glBindRenderbufferEXT, hook_glBindRenderbufferEXT, zeros_glBindRenderbufferEXT, (target: u32, renderbuffer: u32) -> (), {
+export! { 1670, glBindRenderbufferEXT, first_glBindRenderbufferEXT, hook_glBindRenderbufferEXT, zeros_glBindRenderbufferEXT, (target: u32, renderbuffer: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbufferEXT(target, renderbuffer) };
 } }
-export! { 1669, glEvaluateDepthValuesARB, first_glEvaluateDepthValuesARB, hook_glEvaluateDepthValuesARB, zeros_glEvaluateDepthValuesARB, () -> (), {
+export! { 1671, glEvaluateDepthValuesARB, first_glEvaluateDepthValuesARB, hook_glEvaluateDepthValuesARB, zeros_glEvaluateDepthValuesARB, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEvaluateDepthValuesARB() };
 } }
-export! { 1670, glResolveDepthValuesNV, first_glResolveDepthValuesNV, hook_glResolveDepthValuesNV, zeros_glResolveDepthValuesNV, () -> (), {
+export! { 1672, glResolveDepthValuesNV, first_glResolveDepthValuesNV, hook_glResolveDepthValuesNV, zeros_glResolveDepthValuesNV, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glResolveDepthValuesNV() };
 } }
-export! { 1671, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, zeros_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1673, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, zeros_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1672, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, zeros_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1674, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, zeros_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1673, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, zeros_glBindBuffer, (target: u32, buffer: u32) -> (), {
+export! { 1675, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, zeros_glBindBuffer, (target: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffer(target, buffer) }
 } }
-export! { 1674, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, zeros_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+export! { 1676, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, zeros_glBindBufferARB, (target: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffer(target, buffer) }
 } }
-export! { 1675, glBindBufferBase, first_glBindBufferBase, hook_glBindBufferBase, zeros_glBindBufferBase, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1677, glBindBufferBase, first_glBindBufferBase, hook_glBindBufferBase, zeros_glBindBufferBase, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1676, glBindBufferBaseEXT, first_glBindBufferBaseEXT, hook_glBindBufferBaseEXT, zeros_glBindBufferBaseEXT, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1678, glBindBufferBaseEXT, first_glBindBufferBaseEXT, hook_glBindBufferBaseEXT, zeros_glBindBufferBaseEXT, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1677, glBindBufferBaseNV, first_glBindBufferBaseNV, hook_glBindBufferBaseNV, zeros_glBindBufferBaseNV, (target: u32, index: u32, buffer: u32) -> (), {
+export! { 1679, glBindBufferBaseNV, first_glBindBufferBaseNV, hook_glBindBufferBaseNV, zeros_glBindBufferBaseNV, (target: u32, index: u32, buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferBase(target, index, buffer) }
 } }
-export! { 1678, glBindBufferRange, first_glBindBufferRange, hook_glBindBufferRange, zeros_glBindBufferRange, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1680, glBindBufferRange, first_glBindBufferRange, hook_glBindBufferRange, zeros_glBindBufferRange, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1679, glBindBufferRangeEXT, first_glBindBufferRangeEXT, hook_glBindBufferRangeEXT, zeros_glBindBufferRangeEXT, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1681, glBindBufferRangeEXT, first_glBindBufferRangeEXT, hook_glBindBufferRangeEXT, zeros_glBindBufferRangeEXT, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1680, glBindBufferRangeNV, first_glBindBufferRangeNV, hook_glBindBufferRangeNV, zeros_glBindBufferRangeNV, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
+export! { 1682, glBindBufferRangeNV, first_glBindBufferRangeNV, hook_glBindBufferRangeNV, zeros_glBindBufferRangeNV, (target: u32, index: u32, buffer: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBufferRange(target, index, buffer, offset, size) }
 } }
-export! { 1681, glBindBuffersBase, first_glBindBuffersBase, hook_glBindBuffersBase, zeros_glBindBuffersBase, (target: u32, first: u32, count: i32, buffers: Ptr) -> (), {
+export! { 1683, glBindBuffersBase, first_glBindBuffersBase, hook_glBindBuffersBase, zeros_glBindBuffersBase, (target: u32, first: u32, count: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffersBase(target, first, count, buffers) }
 } }
-export! { 1682, glBindBuffersRange, first_glBindBuffersRange, hook_glBindBuffersRange, zeros_glBindBuffersRange, (target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr, sizes: Ptr) -> (), {
+export! { 1684, glBindBuffersRange, first_glBindBuffersRange, hook_glBindBuffersRange, zeros_glBindBuffersRange, (target: u32, first: u32, count: i32, buffers: Ptr, offsets: Ptr, sizes: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindBuffersRange(target, first, count, buffers, offsets, sizes) }
 } }
-export! { 1683, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, zeros_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+export! { 1685, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, zeros_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteBuffers(n, buffers) }
 } }
-export! { 1684, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, zeros_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+export! { 1686, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, zeros_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteBuffers(n, buffers) }
 } }
-export! { 1685, glBufferData, first_glBufferData, hook_glBufferData, zeros_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1687, glBufferData, first_glBufferData, hook_glBufferData, zeros_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferData(target, size, data, usage) }
 } }
-export! { 1686, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, zeros_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1688, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, zeros_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferData(target, size, data, usage) }
 } }
-export! { 1687, glNamedBufferData, first_glNamedBufferData, hook_glNamedBufferData, zeros_glNamedBufferData, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1689, glNamedBufferData, first_glNamedBufferData, hook_glNamedBufferData, zeros_glNamedBufferData, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferData(buffer, size, data, usage) }
 } }
-export! { 1688, glBufferStorage, first_glBufferStorage, hook_glBufferStorage, zeros_glBufferStorage, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1690, glBufferStorage, first_glBufferStorage, hook_glBufferStorage, zeros_glBufferStorage, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferStorage(target, size, data, flags) }
 } }
-export! { 1689, glBufferStorageEXT, first_glBufferStorageEXT, hook_glBufferStorageEXT, zeros_glBufferStorageEXT, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1691, glBufferStorageEXT, first_glBufferStorageEXT, hook_glBufferStorageEXT, zeros_glBufferStorageEXT, (target: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferStorage(target, size, data, flags) }
 } }
-export! { 1690, glNamedBufferStorage, first_glNamedBufferStorage, hook_glNamedBufferStorage, zeros_glNamedBufferStorage, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1692, glNamedBufferStorage, first_glNamedBufferStorage, hook_glNamedBufferStorage, zeros_glNamedBufferStorage, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferStorage(buffer, size, data, flags) }
 } }
-export! { 1691, glNamedBufferStorageEXT, first_glNamedBufferStorageEXT, hook_glNamedBufferStorageEXT, zeros_glNamedBufferStorageEXT, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
+export! { 1693, glNamedBufferStorageEXT, first_glNamedBufferStorageEXT, hook_glNamedBufferStorageEXT, zeros_glNamedBufferStorageEXT, (buffer: u32, size: isize, data: Ptr, flags: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferStorage(buffer, size, data, flags) }
 } }
-export! { 1692, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, zeros_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1694, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, zeros_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferSubData(target, offset, size, data) }
 } }
-export! { 1693, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, zeros_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1695, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, zeros_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBufferSubData(target, offset, size, data) }
 } }
-export! { 1694, glNamedBufferSubData, first_glNamedBufferSubData, hook_glNamedBufferSubData, zeros_glNamedBufferSubData, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1696, glNamedBufferSubData, first_glNamedBufferSubData, hook_glNamedBufferSubData, zeros_glNamedBufferSubData, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferSubData(buffer, offset, size, data) }
 } }
-export! { 1695, glNamedBufferSubDataEXT, first_glNamedBufferSubDataEXT, hook_glNamedBufferSubDataEXT, zeros_glNamedBufferSubDataEXT, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1697, glNamedBufferSubDataEXT, first_glNamedBufferSubDataEXT, hook_glNamedBufferSubDataEXT, zeros_glNamedBufferSubDataEXT, (buffer: u32, offset: isize, size: isize, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferSubData(buffer, offset, size, data) }
 } }
-export! { 1696, glNamedBufferDataEXT, first_glNamedBufferDataEXT, hook_glNamedBufferDataEXT, zeros_glNamedBufferDataEXT, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1698, glNamedBufferDataEXT, first_glNamedBufferDataEXT, hook_glNamedBufferDataEXT, zeros_glNamedBufferDataEXT, (buffer: u32, size: isize, data: Ptr, usage: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedBufferDataEXT(buffer, size, data, usage) }
 } }
-export! { 1697, glMapNamedBufferEXT, first_glMapNamedBufferEXT, hook_glMapNamedBufferEXT, zeros_glMapNamedBufferEXT, (buffer: u32, access: u32) -> Ptr, {
+export! { 1699, glMapNamedBufferEXT, first_glMapNamedBufferEXT, hook_glMapNamedBufferEXT, zeros_glMapNamedBufferEXT, (buffer: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferEXT(buffer, access) }
 } }
-export! { 1698, glMapNamedBufferRangeEXT, first_glMapNamedBufferRangeEXT, hook_glMapNamedBufferRangeEXT, zeros_glMapNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1700, glMapNamedBufferRangeEXT, first_glMapNamedBufferRangeEXT, hook_glMapNamedBufferRangeEXT, zeros_glMapNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferRangeEXT(buffer, offset, length, access) }
 } }
-export! { 1699, glUnmapNamedBufferEXT, first_glUnmapNamedBufferEXT, hook_glUnmapNamedBufferEXT, zeros_glUnmapNamedBufferEXT, (buffer: u32) -> u8, {
+export! { 1701, glUnmapNamedBufferEXT, first_glUnmapNamedBufferEXT, hook_glUnmapNamedBufferEXT, zeros_glUnmapNamedBufferEXT, (buffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapNamedBufferEXT(buffer) }
 } }
-export! { 1700, glFlushMappedNamedBufferRangeEXT, first_glFlushMappedNamedBufferRangeEXT, hook_glFlushMappedNamedBufferRangeEXT, zeros_glFlushMappedNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1702, glFlushMappedNamedBufferRangeEXT, first_glFlushMappedNamedBufferRangeEXT, hook_glFlushMappedNamedBufferRangeEXT, zeros_glFlushMappedNamedBufferRangeEXT, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedNamedBufferRangeEXT(buffer, offset, length) }
 } }
-export! { 1701, glNamedCopyBufferSubDataEXT, first_glNamedCopyBufferSubDataEXT, hook_glNamedCopyBufferSubDataEXT, zeros_glNamedCopyBufferSubDataEXT, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1703, glNamedCopyBufferSubDataEXT, first_glNamedCopyBufferSubDataEXT, hook_glNamedCopyBufferSubDataEXT, zeros_glNamedCopyBufferSubDataEXT, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedCopyBufferSubDataEXT(readBuffer, writeBuffer, readOffset, writeOffset, size) }
 } }
-export! { 1702, glClearNamedBufferDataEXT, first_glClearNamedBufferDataEXT, hook_glClearNamedBufferDataEXT, zeros_glClearNamedBufferDataEXT, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1704, glClearNamedBufferDataEXT, first_glClearNamedBufferDataEXT, hook_glClearNamedBufferDataEXT, zeros_glClearNamedBufferDataEXT, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferDataEXT(buffer, internalformat, format, type_, data) }
 } }
-export! { 1703, glClearNamedBufferSubDataEXT, first_glClearNamedBufferSubDataEXT, hook_glClearNamedBufferSubDataEXT, zeros_glClearNamedBufferSubDataEXT, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1705, glClearNamedBufferSubDataEXT, first_glClearNamedBufferSubDataEXT, hook_glClearNamedBufferSubDataEXT, zeros_glClearNamedBufferSubDataEXT, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferSubDataEXT(buffer, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1704, glCopyBufferSubData, first_glCopyBufferSubData, hook_glCopyBufferSubData, zeros_glCopyBufferSubData, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1706, glCopyBufferSubData, first_glCopyBufferSubData, hook_glCopyBufferSubData, zeros_glCopyBufferSubData, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyBufferSubData(readTarget, writeTarget, readOffset, writeOffset, size) }
 } }
-export! { 1705, glCopyBufferSubDataNV, first_glCopyBufferSubDataNV, hook_glCopyBufferSubDataNV, zeros_glCopyBufferSubDataNV, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1707, glCopyBufferSubDataNV, first_glCopyBufferSubDataNV, hook_glCopyBufferSubDataNV, zeros_glCopyBufferSubDataNV, (readTarget: u32, writeTarget: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyBufferSubData(readTarget, writeTarget, readOffset, writeOffset, size) }
 } }
-export! { 1706, glCopyNamedBufferSubData, first_glCopyNamedBufferSubData, hook_glCopyNamedBufferSubData, zeros_glCopyNamedBufferSubData, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
+export! { 1708, glCopyNamedBufferSubData, first_glCopyNamedBufferSubData, hook_glCopyNamedBufferSubData, zeros_glCopyNamedBufferSubData, (readBuffer: u32, writeBuffer: u32, readOffset: isize, writeOffset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyNamedBufferSubData(readBuffer, writeBuffer, readOffset, writeOffset, size) }
 } }
-export! { 1707, glInvalidateBufferData, first_glInvalidateBufferData, hook_glInvalidateBufferData, zeros_glInvalidateBufferData, (buffer: u32) -> (), {
+export! { 1709, glInvalidateBufferData, first_glInvalidateBufferData, hook_glInvalidateBufferData, zeros_glInvalidateBufferData, (buffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glInvalidateBufferData(buffer) }
 } }
-export! { 1708, glInvalidateBufferSubData, first_glInvalidateBufferSubData, hook_glInvalidateBufferSubData, zeros_glInvalidateBufferSubData, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1710, glInvalidateBufferSubData, first_glInvalidateBufferSubData, hook_glInvalidateBufferSubData, zeros_glInvalidateBufferSubData, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glInvalidateBufferSubData(buffer, offset, length) }
 } }
-export! { 1709, glClearBufferData, first_glClearBufferData, hook_glClearBufferData, zeros_glClearBufferData, (target: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1711, glClearBufferData, first_glClearBufferData, hook_glClearBufferData, zeros_glClearBufferData, (target: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferData(target, internalformat, format, type_, data) }
 } }
-export! { 1710, glClearBufferSubData, first_glClearBufferSubData, hook_glClearBufferSubData, zeros_glClearBufferSubData, (target: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1712, glClearBufferSubData, first_glClearBufferSubData, hook_glClearBufferSubData, zeros_glClearBufferSubData, (target: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearBufferSubData(target, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1711, glClearNamedBufferData, first_glClearNamedBufferData, hook_glClearNamedBufferData, zeros_glClearNamedBufferData, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1713, glClearNamedBufferData, first_glClearNamedBufferData, hook_glClearNamedBufferData, zeros_glClearNamedBufferData, (buffer: u32, internalformat: u32, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferData(buffer, internalformat, format, type_, data) }
 } }
-export! { 1712, glClearNamedBufferSubData, first_glClearNamedBufferSubData, hook_glClearNamedBufferSubData, zeros_glClearNamedBufferSubData, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 1714, glClearNamedBufferSubData, first_glClearNamedBufferSubData, hook_glClearNamedBufferSubData, zeros_glClearNamedBufferSubData, (buffer: u32, internalformat: u32, offset: isize, size: isize, format: u32, type_: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedBufferSubData(buffer, internalformat, offset, size, format, type_, data) }
 } }
-export! { 1713, glMapBuffer, first_glMapBuffer, hook_glMapBuffer, zeros_glMapBuffer, (target: u32, access: u32) -> Ptr, {
+export! { 1715, glMapBuffer, first_glMapBuffer, hook_glMapBuffer, zeros_glMapBuffer, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1714, glMapBufferARB, first_glMapBufferARB, hook_glMapBufferARB, zeros_glMapBufferARB, (target: u32, access: u32) -> Ptr, {
+export! { 1716, glMapBufferARB, first_glMapBufferARB, hook_glMapBufferARB, zeros_glMapBufferARB, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1715, glMapBufferOES, first_glMapBufferOES, hook_glMapBufferOES, zeros_glMapBufferOES, (target: u32, access: u32) -> Ptr, {
+export! { 1717, glMapBufferOES, first_glMapBufferOES, hook_glMapBufferOES, zeros_glMapBufferOES, (target: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBuffer(target, access) }
 } }
-export! { 1716, glMapNamedBuffer, first_glMapNamedBuffer, hook_glMapNamedBuffer, zeros_glMapNamedBuffer, (buffer: u32, access: u32) -> Ptr, {
+export! { 1718, glMapNamedBuffer, first_glMapNamedBuffer, hook_glMapNamedBuffer, zeros_glMapNamedBuffer, (buffer: u32, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBuffer(buffer, access) }
 } }
-export! { 1717, glMapBufferRange, first_glMapBufferRange, hook_glMapBufferRange, zeros_glMapBufferRange, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1719, glMapBufferRange, first_glMapBufferRange, hook_glMapBufferRange, zeros_glMapBufferRange, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBufferRange(target, offset, length, access) }
 } }
-export! { 1718, glMapBufferRangeEXT, first_glMapBufferRangeEXT, hook_glMapBufferRangeEXT, zeros_glMapBufferRangeEXT, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1720, glMapBufferRangeEXT, first_glMapBufferRangeEXT, hook_glMapBufferRangeEXT, zeros_glMapBufferRangeEXT, (target: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapBufferRange(target, offset, length, access) }
 } }
-export! { 1719, glMapNamedBufferRange, first_glMapNamedBufferRange, hook_glMapNamedBufferRange, zeros_glMapNamedBufferRange, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
+export! { 1721, glMapNamedBufferRange, first_glMapNamedBufferRange, hook_glMapNamedBufferRange, zeros_glMapNamedBufferRange, (buffer: u32, offset: isize, length: isize, access: u32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glMapNamedBufferRange(buffer, offset, length, access) }
 } }
-export! { 1720, glUnmapBuffer, first_glUnmapBuffer, hook_glUnmapBuffer, zeros_glUnmapBuffer, (target: u32) -> u8, {
+export! { 1722, glUnmapBuffer, first_glUnmapBuffer, hook_glUnmapBuffer, zeros_glUnmapBuffer, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1721, glUnmapBufferARB, first_glUnmapBufferARB, hook_glUnmapBufferARB, zeros_glUnmapBufferARB, (target: u32) -> u8, {
+export! { 1723, glUnmapBufferARB, first_glUnmapBufferARB, hook_glUnmapBufferARB, zeros_glUnmapBufferARB, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1722, glUnmapBufferOES, first_glUnmapBufferOES, hook_glUnmapBufferOES, zeros_glUnmapBufferOES, (target: u32) -> u8, {
+export! { 1724, glUnmapBufferOES, first_glUnmapBufferOES, hook_glUnmapBufferOES, zeros_glUnmapBufferOES, (target: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapBuffer(target) }
 } }
-export! { 1723, glUnmapNamedBuffer, first_glUnmapNamedBuffer, hook_glUnmapNamedBuffer, zeros_glUnmapNamedBuffer, (buffer: u32) -> u8, {
+export! { 1725, glUnmapNamedBuffer, first_glUnmapNamedBuffer, hook_glUnmapNamedBuffer, zeros_glUnmapNamedBuffer, (buffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glUnmapNamedBuffer(buffer) }
 } }
-export! { 1724, glFlushMappedBufferRange, first_glFlushMappedBufferRange, hook_glFlushMappedBufferRange, zeros_glFlushMappedBufferRange, (target: u32, offset: isize, length: isize) -> (), {
+export! { 1726, glFlushMappedBufferRange, first_glFlushMappedBufferRange, hook_glFlushMappedBufferRange, zeros_glFlushMappedBufferRange, (target: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, length) }
 } }
-export! { 1725, glFlushMappedBufferRangeAPPLE, first_glFlushMappedBufferRangeAPPLE, hook_glFlushMappedBufferRangeAPPLE, zeros_glFlushMappedBufferRangeAPPLE, (target: u32, offset: isize, size: isize) -> (), {
+export! { 1727, glFlushMappedBufferRangeAPPLE, first_glFlushMappedBufferRangeAPPLE, hook_glFlushMappedBufferRangeAPPLE, zeros_glFlushMappedBufferRangeAPPLE, (target: u32, offset: isize, size: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, size) }
 } }
-export! { 1726, glFlushMappedBufferRangeEXT, first_glFlushMappedBufferRangeEXT, hook_glFlushMappedBufferRangeEXT, zeros_glFlushMappedBufferRangeEXT, (target: u32, offset: isize, length: isize) -> (), {
+export! { 1728, glFlushMappedBufferRangeEXT, first_glFlushMappedBufferRangeEXT, hook_glFlushMappedBufferRangeEXT, zeros_glFlushMappedBufferRangeEXT, (target: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedBufferRange(target, offset, length) }
 } }
-export! { 1727, glFlushMappedNamedBufferRange, first_glFlushMappedNamedBufferRange, hook_glFlushMappedNamedBufferRange, zeros_glFlushMappedNamedBufferRange, (buffer: u32, offset: isize, length: isize) -> (), {
+export! { 1729, glFlushMappedNamedBufferRange, first_glFlushMappedNamedBufferRange, hook_glFlushMappedNamedBufferRange, zeros_glFlushMappedNamedBufferRange, (buffer: u32, offset: isize, length: isize) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlushMappedNamedBufferRange(buffer, offset, length) }
 } }
-export! { 1728, glMemoryBarrier, first_glMemoryBarrier, hook_glMemoryBarrier, zeros_glMemoryBarrier, (barriers: u32) -> (), {
+export! { 1730, glMemoryBarrier, first_glMemoryBarrier, hook_glMemoryBarrier, zeros_glMemoryBarrier, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrier(barriers) }
 } }
-export! { 1729, glMemoryBarrierEXT, first_glMemoryBarrierEXT, hook_glMemoryBarrierEXT, zeros_glMemoryBarrierEXT, (barriers: u32) -> (), {
+export! { 1731, glMemoryBarrierEXT, first_glMemoryBarrierEXT, hook_glMemoryBarrierEXT, zeros_glMemoryBarrierEXT, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrier(barriers) }
 } }
-export! { 1730, glMemoryBarrierByRegion, first_glMemoryBarrierByRegion, hook_glMemoryBarrierByRegion, zeros_glMemoryBarrierByRegion, (barriers: u32) -> (), {
+export! { 1732, glMemoryBarrierByRegion, first_glMemoryBarrierByRegion, hook_glMemoryBarrierByRegion, zeros_glMemoryBarrierByRegion, (barriers: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glMemoryBarrierByRegion(barriers) }
 } }
-export! { 1731, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, zeros_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1733, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, zeros_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1732, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, zeros_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1734, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, zeros_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1733, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, zeros_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1735, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, zeros_glPushClientAttrib, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1734, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, zeros_glPopClientAttrib, () -> (), {
+export! { 1736, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, zeros_glPopClientAttrib, () -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1735, glClientAttribDefaultEXT, first_glClientAttribDefaultEXT, hook_glClientAttribDefaultEXT, zeros_glClientAttribDefaultEXT, (mask: u32) -> (), {
+export! { 1737, glClientAttribDefaultEXT, first_glClientAttribDefaultEXT, hook_glClientAttribDefaultEXT, zeros_glClientAttribDefaultEXT, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientAttribDefaultEXT(mask) };
 } }
-export! { 1736, glPushClientAttribDefaultEXT, first_glPushClientAttribDefaultEXT, hook_glPushClientAttribDefaultEXT, zeros_glPushClientAttribDefaultEXT, (mask: u32) -> (), {
+export! { 1738, glPushClientAttribDefaultEXT, first_glPushClientAttribDefaultEXT, hook_glPushClientAttribDefaultEXT, zeros_glPushClientAttribDefaultEXT, (mask: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttribDefaultEXT(mask) };
 } }
-export! { 1737, glBindVertexArray, first_glBindVertexArray, hook_glBindVertexArray, zeros_glBindVertexArray, (array: u32) -> (), {
+export! { 1739, glBindVertexArray, first_glBindVertexArray, hook_glBindVertexArray, zeros_glBindVertexArray, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindVertexArray(array) };
 } }
-export! { 1738, glBindVertexArrayOES, first_glBindVertexArrayOES, hook_glBindVertexArrayOES, zeros_glBindVertexArrayOES, (array: u32) -> (), {
+export! { 1740, glBindVertexArrayOES, first_glBindVertexArrayOES, hook_glBindVertexArrayOES, zeros_glBindVertexArrayOES, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindVertexArrayOES(array) };
 } }
-export! { 1739, glDeleteVertexArrays, first_glDeleteVertexArrays, hook_glDeleteVertexArrays, zeros_glDeleteVertexArrays, (n: i32, arrays: Ptr) -> (), {
+export! { 1741, glDeleteVertexArrays, first_glDeleteVertexArrays, hook_glDeleteVertexArrays, zeros_glDeleteVertexArrays, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArrays(n, arrays) };
 } }
-export! { 1740, glDeleteVertexArraysAPPLE, first_glDeleteVertexArraysAPPLE, hook_glDeleteVertexArraysAPPLE, zeros_glDeleteVertexArraysAPPLE, (n: i32, arrays: Ptr) -> (), {
+export! { 1742, glDeleteVertexArraysAPPLE, first_glDeleteVertexArraysAPPLE, hook_glDeleteVertexArraysAPPLE, zeros_glDeleteVertexArraysAPPLE, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArraysAPPLE(n, arrays) };
 } }
-export! { 1741, glDeleteVertexArraysOES, first_glDeleteVertexArraysOES, hook_glDeleteVertexArraysOES, zeros_glDeleteVertexArraysOES, (n: i32, arrays: Ptr) -> (), {
+export! { 1743, glDeleteVertexArraysOES, first_glDeleteVertexArraysOES, hook_glDeleteVertexArraysOES, zeros_glDeleteVertexArraysOES, (n: i32, arrays: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteVertexArraysOES(n, arrays) };
 } }
-export! { 1742, glBindSampler, first_glBindSampler, hook_glBindSampler, zeros_glBindSampler, (unit: u32, sampler: u32) -> (), {
+export! { 1744, glBindSampler, first_glBindSampler, hook_glBindSampler, zeros_glBindSampler, (unit: u32, sampler: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindSampler(unit, sampler) };
 } }
-export! { 1743, glBindSamplers, first_glBindSamplers, hook_glBindSamplers, zeros_glBindSamplers, (first: u32, count: i32, samplers: Ptr) -> (), {
+export! { 1745, glBindSamplers, first_glBindSamplers, hook_glBindSamplers, zeros_glBindSamplers, (first: u32, count: i32, samplers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindSamplers(first, count, samplers) };
 } }
-export! { 1744, glDeleteSamplers, first_glDeleteSamplers, hook_glDeleteSamplers, zeros_glDeleteSamplers, (count: i32, samplers: Ptr) -> (), {
+export! { 1746, glDeleteSamplers, first_glDeleteSamplers, hook_glDeleteSamplers, zeros_glDeleteSamplers, (count: i32, samplers: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteSamplers(count, samplers) };
 } }
-export! { 1745, glDeleteProgramPipelines, first_glDeleteProgramPipelines, hook_glDeleteProgramPipelines, zeros_glDeleteProgramPipelines, (n: i32, pipelines: Ptr) -> (), {
+export! { 1747, glDeleteProgramPipelines, first_glDeleteProgramPipelines, hook_glDeleteProgramPipelines, zeros_glDeleteProgramPipelines, (n: i32, pipelines: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteProgramPipelines(n, pipelines) };
 } }
-export! { 1746, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, zeros_glEnableClientState, (array: u32) -> (), {
+export! { 1748, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, zeros_glEnableClientState, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1747, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, zeros_glDisableClientState, (array: u32) -> (), {
+export! { 1749, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, zeros_glDisableClientState, (array: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1748, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, zeros_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1750, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, zeros_glClientActiveTexture, (texture: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1749, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, zeros_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1751, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, zeros_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1750, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, zeros_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1752, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, zeros_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1751, glColorPointer, first_glColorPointer, hook_glColorPointer, zeros_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1753, glColorPointer, first_glColorPointer, hook_glColorPointer, zeros_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1752, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, zeros_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1754, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, zeros_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1753, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, zeros_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1755, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, zeros_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1754, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, zeros_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1756, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, zeros_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1755, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, zeros_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1757, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, zeros_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1756, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, zeros_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1758, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, zeros_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1757, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, zeros_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1759, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, zeros_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1758, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, zeros_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1760, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, zeros_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1759, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, zeros_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1761, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, zeros_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1760, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, zeros_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1762, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, zeros_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1761, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, zeros_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1763, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, zeros_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1762, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, zeros_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1764, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, zeros_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1763, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, zeros_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1765, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, zeros_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1764, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, zeros_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1766, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, zeros_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1765, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, zeros_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1767, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, zeros_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1766, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, zeros_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1768, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, zeros_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1767, glVertexAttribBinding, first_glVertexAttribBinding, hook_glVertexAttribBinding, zeros_glVertexAttribBinding, (attribindex: u32, bindingindex: u32) -> (), {
+export! { 1769, glVertexAttribBinding, first_glVertexAttribBinding, hook_glVertexAttribBinding, zeros_glVertexAttribBinding, (attribindex: u32, bindingindex: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribBinding(attribindex, bindingindex) };
 } }
-export! { 1768, glVertexArrayAttribBinding, first_glVertexArrayAttribBinding, hook_glVertexArrayAttribBinding, zeros_glVertexArrayAttribBinding, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
+export! { 1770, glVertexArrayAttribBinding, first_glVertexArrayAttribBinding, hook_glVertexArrayAttribBinding, zeros_glVertexArrayAttribBinding, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayAttribBinding(vaobj, attribindex, bindingindex) };
 } }
-export! { 1769, glDisableVertexArrayAttrib, first_glDisableVertexArrayAttrib, hook_glDisableVertexArrayAttrib, zeros_glDisableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
+export! { 1771, glDisableVertexArrayAttrib, first_glDisableVertexArrayAttrib, hook_glDisableVertexArrayAttrib, zeros_glDisableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexArrayAttrib(vaobj, index) };
 } }
-export! { 1770, glDisableVertexArrayAttribEXT, first_glDisableVertexArrayAttribEXT, hook_glDisableVertexArrayAttribEXT, zeros_glDisableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
+export! { 1772, glDisableVertexArrayAttribEXT, first_glDisableVertexArrayAttribEXT, hook_glDisableVertexArrayAttribEXT, zeros_glDisableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexArrayAttribEXT(vaobj, index) };
 } }
-export! { 1771, glEnableVertexArrayAttrib, first_glEnableVertexArrayAttrib, hook_glEnableVertexArrayAttrib, zeros_glEnableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
+export! { 1773, glEnableVertexArrayAttrib, first_glEnableVertexArrayAttrib, hook_glEnableVertexArrayAttrib, zeros_glEnableVertexArrayAttrib, (vaobj: u32, index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexArrayAttrib(vaobj, index) };
 } }
-export! { 1772, glEnableVertexArrayAttribEXT, first_glEnableVertexArrayAttribEXT, hook_glEnableVertexArrayAttribEXT, zeros_glEnableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
+export! { 1774, glEnableVertexArrayAttribEXT, first_glEnableVertexArrayAttribEXT, hook_glEnableVertexArrayAttribEXT, zeros_glEnableVertexArrayAttribEXT, (vaobj: u32, index: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexArrayAttribEXT(vaobj, index) };
 } }
-export! { 1773, glVertexArrayVertexAttribBindingEXT, first_glVertexArrayVertexAttribBindingEXT, hook_glVertexArrayVertexAttribBindingEXT, zeros_glVertexArrayVertexAttribBindingEXT, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
+export! { 1775, glVertexArrayVertexAttribBindingEXT, first_glVertexArrayVertexAttribBindingEXT, hook_glVertexArrayVertexAttribBindingEXT, zeros_glVertexArrayVertexAttribBindingEXT, (vaobj: u32, attribindex: u32, bindingindex: u32) -> (), {
     hooks::before_uncompiled();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayVertexAttribBindingEXT(vaobj, attribindex, bindingindex) };
 } }
-export! { 1774, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, zeros_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
+export! { 1776, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, zeros_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseVisual(dpy, screen, attribs) }
 } }
-export! { 1775, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, zeros_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1777, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, zeros_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1776, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1778, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1777, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1779, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1778, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1780, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1779, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1781, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopySubBufferMESA(dpy, drawable, x, y, width, height) }
 } }
-export! { 1780, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
+export! { 1782, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXWaitGL() }
 } }
-export! { 1781, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
+export! { 1783, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXUseXFont(font, first, count, base) }
 } }
-export! { 1782, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
+export! { 1784, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXBindTexImageEXT(dpy, drawable, buffer, attribs) }
 } }
-export! { 1783, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1785, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1784, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1786, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1785, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1787, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1786, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1788, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1787, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1789, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1788, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1790, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1789, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1791, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1790, glXCopyContext, first_glXCopyContext, hook_glXCopyContext, zeros_glXCopyContext, (dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) -> (), {
+export! { 1792, glXCopyContext, first_glXCopyContext, hook_glXCopyContext, zeros_glXCopyContext, (dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopyContext(dpy, src, dst, mask) }
 } }
-export! { 1791, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1793, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1792, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1794, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1793, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1795, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1794, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1796, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPbuffer(dpy, pbuf) }
 } }
-export! { 1795, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1797, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPbufferSGIX(dpy, pbuf) }
 } }
-export! { 1796, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1798, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPixmap(dpy, pixmap) }
 } }
-export! { 1797, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1799, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPixmap(dpy, pixmap) }
 } }
-export! { 1798, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1800, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1799, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1801, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1801, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1803, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1802, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1804, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1803, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1805, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1804, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
+export! { 1806, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglPostSubBufferNV(dpy, surface, x, y, width, height) }
 } }
-export! { 1805, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1807, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegionNOK(dpy, surface, numRects, rects) }
 } }
-export! { 1806, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1808, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegion2NOK(dpy, surface, numRects, rects) }
 } }
-export! { 1807, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
+export! { 1809, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCopyBuffers(dpy, surface, target) }
 } }
-export! { 1808, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
+export! { 1810, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitGL() }
 } }
-export! { 1809, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
+export! { 1811, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitClient() }
 } }
-export! { 1810, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
+export! { 1812, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglBindTexImage(dpy, surface, buffer) }
 } }
-export! { 1811, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1813, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1812, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1814, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1813, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1815, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1814, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
+export! { 1816, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1815, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1817, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1816, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1818, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1817, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1819, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1818, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1820, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1819, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1821, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1820, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1822, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1821, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1823, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1822, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
+export! { 1824, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglTerminate(dpy) }
 } }
-export! { 1823, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1825, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1828, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1830, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1829, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1831, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1830, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1832, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1831, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1833, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1832, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1834, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1833, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1835, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

@@ -17,13 +17,20 @@ struct Entry {
     destroyed: bool,
 }
 
-struct Registry(Vec<Entry>);
+struct Registry {
+    contexts: Vec<Entry>,
+    /// Contexts without a record that have been current.
+    unseen: Vec<Key>,
+}
 
 // SAFETY: handles are only compared. A context is dereferenced by the one thread that its entry names, and freed by whoever takes its
 // entry out of the list, once no thread has it; both happen under the mutex.
 unsafe impl Send for Registry {}
 
-static CONTEXTS: Mutex<Registry> = Mutex::new(Registry(Vec::new()));
+static CONTEXTS: Mutex<Registry> = Mutex::new(Registry {
+    contexts: Vec::new(),
+    unseen: Vec::new(),
+});
 static RELEASED: Condvar = Condvar::new();
 
 /// The record of a context that the driver has made current on this thread; `make` makes the record of a new one. It belongs to this thread
@@ -35,7 +42,10 @@ pub(crate) fn take(key: Key, make: impl FnOnce() -> Context) -> Option<*mut Cont
     let until = Instant::now() + HANDOVER;
     let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
     loop {
-        let known = registry.0.iter_mut().find(|e| e.key == key && !e.destroyed);
+        let known = registry
+            .contexts
+            .iter_mut()
+            .find(|e| e.key == key && !e.destroyed);
         let Some(entry) = known else { break };
         if entry
             .thread
@@ -50,8 +60,12 @@ pub(crate) fn take(key: Key, make: impl FnOnce() -> Context) -> Option<*mut Cont
         let waited = RELEASED.wait_timeout(registry, HANDOVER / 20);
         registry = waited.unwrap_or_else(PoisonError::into_inner).0;
     }
-    let context = Box::into_raw(Box::new(make()));
-    registry.0.push(Entry {
+    let made = make();
+    if forget_unseen(&mut registry, key) {
+        made.shadow.changed();
+    }
+    let context = Box::into_raw(Box::new(made));
+    registry.contexts.push(Entry {
         key,
         context,
         thread: Some(this),
@@ -63,13 +77,36 @@ pub(crate) fn take(key: Key, make: impl FnOnce() -> Context) -> Option<*mut Cont
 /// Whether a context of the program has a record.
 pub(crate) fn knows(key: Key) -> bool {
     let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    registry.0.iter().any(|e| e.key == key && !e.destroyed)
+    registry
+        .contexts
+        .iter()
+        .any(|e| e.key == key && !e.destroyed)
+}
+
+/// The context is current on a thread that does not get its record: its calls are not followed.
+pub(crate) fn is_unseen(key: Key) {
+    changed(key);
+    if !knows(key) {
+        let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+        forget_unseen(&mut registry, key);
+        registry.unseen.push(key);
+    }
+}
+
+/// Whether a context without a record has been current, which is asked once.
+fn forget_unseen(registry: &mut Registry, key: Key) -> bool {
+    let before = registry.unseen.len();
+    registry.unseen.retain(|unseen| *unseen != key);
+    registry.unseen.len() != before
 }
 
 /// Another context has given state to this one.
 pub(crate) fn changed(key: Key) {
     let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    let known = registry.0.iter().find(|e| e.key == key && !e.destroyed);
+    let known = registry
+        .contexts
+        .iter()
+        .find(|e| e.key == key && !e.destroyed);
     if let Some(entry) = known {
         // SAFETY: records in the list are freed only after they are taken out of it, under the lock; other threads have shared references
         // alone.
@@ -80,7 +117,11 @@ pub(crate) fn changed(key: Key) {
 /// The number of threads that have a context.
 pub(crate) fn threads() -> usize {
     let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    registry.0.iter().filter(|e| e.thread.is_some()).count()
+    registry
+        .contexts
+        .iter()
+        .filter(|e| e.thread.is_some())
+        .count()
 }
 
 /// Whether a thread has ended. A thread that ends with a context current never releases it.
@@ -96,12 +137,15 @@ fn is_gone(thread: c_int) -> bool {
 /// `context` is from [`take`] on this thread, which has no reference to it any more.
 pub(crate) unsafe fn release(context: *mut Context) -> Option<Box<Context>> {
     let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    let at = registry.0.iter().position(|e| e.context == context)?;
-    let entry = registry.0.get_mut(at)?;
+    let at = registry
+        .contexts
+        .iter()
+        .position(|e| e.context == context)?;
+    let entry = registry.contexts.get_mut(at)?;
     entry.thread = None;
     let gone = entry.destroyed;
     if gone {
-        registry.0.swap_remove(at);
+        registry.contexts.swap_remove(at);
     }
     drop(registry);
     RELEASED.notify_all();
@@ -112,16 +156,20 @@ pub(crate) unsafe fn release(context: *mut Context) -> Option<Box<Context>> {
 /// Notes that the program destroys a context. Returns its record if no thread has it, and whether no other context is left.
 pub(crate) fn destroy(key: Key) -> (Option<Box<Context>>, bool) {
     let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    let found = registry.0.iter().position(|e| e.key == key && !e.destroyed);
+    let found = registry
+        .contexts
+        .iter()
+        .position(|e| e.key == key && !e.destroyed);
+    forget_unseen(&mut registry, key);
     let mut unused = None;
-    if let Some(entry) = found.and_then(|at| registry.0.get_mut(at)) {
+    if let Some(entry) = found.and_then(|at| registry.contexts.get_mut(at)) {
         entry.destroyed = true;
         unused = entry.thread.is_none().then_some(entry.context);
     }
     if unused.is_some() {
-        registry.0.retain(|e| Some(e.context) != unused);
+        registry.contexts.retain(|e| Some(e.context) != unused);
     }
-    let last = registry.0.iter().all(|e| e.destroyed);
+    let last = registry.contexts.iter().all(|e| e.destroyed);
     drop(registry);
     // SAFETY: made by `take`; out of the list, and no thread has it.
     (unused.map(|c| unsafe { Box::from_raw(c) }), last)
@@ -130,7 +178,7 @@ pub(crate) fn destroy(key: Key) -> (Option<Box<Context>>, bool) {
 /// Whether the program has destroyed a context that a thread still has.
 pub(crate) fn is_destroyed(context: *const Context) -> bool {
     let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut all = registry.0.iter();
+    let mut all = registry.contexts.iter();
     all.any(|e| core::ptr::eq(e.context, context) && e.destroyed)
 }
 

@@ -301,7 +301,9 @@ impl Layer {
                 let names: Vec<ListName> = names.map(|n| ListName(n.wrapping_add(base))).collect();
                 let bodies: Option<Vec<Body>> = names.iter().map(|&l| self.body(gl, l)).collect();
                 let send = &mut || gl.call_list(segment.name);
-                if !bodies.is_some_and(|bodies| self.text(gl, &bodies, send)) {
+                let text =
+                    depth < NESTING && bodies.is_some_and(|bodies| self.text(gl, &bodies, send));
+                if !text {
                     self.nested(gl, &names, depth);
                 }
             }

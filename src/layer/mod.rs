@@ -65,6 +65,7 @@ use crate::config::{Config, Optimisation, profile};
 use crate::draw::{Driver, Programs};
 use crate::gl::shadow::{are_textures_taken, is_own_texture};
 use crate::gl::{BufferName, FramebufferName, Gl, TextureName, consts as c};
+use crate::interleave::Interleaver;
 use crate::plan::Rig;
 use crate::plan::decide::Known;
 use crate::report::{Proof, Report};
@@ -142,7 +143,10 @@ impl Layer {
         group: Arc<Member>,
     ) -> Result<Box<Layer>, LayerError> {
         let support = Support::ask(gl)?;
-        let layer = Self::made(gl, config, drawable, group, support);
+        // First, because the driver's compiler of shaders needs much of the stack, and the program may have a small one.
+        let errors = gl.take_errors();
+        let pass = targets::interleaving(gl, config, &support);
+        let layer = Self::made(gl, config, drawable, group, support, pass, errors);
         if layer.is_err() {
             // The program must not see the errors of the attempt.
             gl.drop_errors();
@@ -150,17 +154,23 @@ impl Layer {
         layer
     }
 
+    /// In a frame of its own, as it takes more of the stack than the rest of a hook. `errors`: of the program, from before the pass was made.
+    #[inline(never)]
     fn made(
         gl: &Gl,
         config: &'static Config,
         drawable: CurrentDrawable,
         group: Arc<Member>,
         support: Support,
+        pass: (Names, Interleaver),
+        errors: Vec<u32>,
     ) -> Result<Box<Layer>, LayerError> {
         let (width, height) = drawable.size;
-        let window = Window::ask(gl, width, height, support.compatibility);
-        let state = State::ask(gl, window, support.compatibility);
         let mut report = Report::default();
+        (0..gl.drop_errors()).for_each(|_| report.error());
+        let window = Window::ask(gl, width, height, support.compatibility);
+        let mut state = State::ask(gl, window, support.compatibility);
+        state.keep(errors);
         report.proof = config.prove.map(|_| Proof::default());
         support
             .notes(gl.is_es())
@@ -178,7 +188,7 @@ impl Layer {
         note.into_iter().for_each(|note| report.note(note));
         let session = Session::new(gl, config, support, group, program.as_deref());
         orphans::delete_orphans(gl, &session.group);
-        let (targets, told) = Targets::new(gl, &session, &state, &mut report)?;
+        let (targets, told) = Targets::new(gl, pass, &session, &state, &mut report)?;
         let camera = session.live.camera;
         let rig = Rig::new(config.views, camera, config.profile.focal_depth);
         // The program may have a small stack.

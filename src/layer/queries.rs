@@ -205,7 +205,12 @@ impl Queries {
         let stopped = self.active.iter_mut().filter(|a| kind(a.target) == which);
         for a in stopped {
             let name = if a.counted {
-                let name = self.spare.pop().unwrap_or_else(|| gl.gen_query());
+                let spare = &mut self.spare;
+                let name = spare.pop().unwrap_or_else(|| {
+                    let [name, others @ ..] = gl.gen_queries();
+                    spare.extend(others);
+                    name
+                });
                 a.more.push(name);
                 name
             } else {

@@ -2,9 +2,10 @@
 
 use super::fit::{Fitted, fit_first};
 use super::session::Session;
+use super::support::Support;
 use super::{LayerError, accumulate, framebuffer};
 use crate::atlas::{Atlas, Names};
-use crate::config::ViewScale;
+use crate::config::{Config, ViewScale};
 use crate::gl::shadow::are_textures_taken;
 use crate::gl::{FramebufferName, Gl, TextureName};
 use crate::interleave::Interleaver;
@@ -30,21 +31,27 @@ pub(super) struct Targets {
     pub(super) pushed: Vec<framebuffer::Pushed>,
 }
 
+/// The pass that shows the views, and the names that the layer's textures get.
+pub(super) fn interleaving(gl: &Gl, config: &Config, support: &Support) -> (Names, Interleaver) {
+    let mut names = Names::default();
+    if are_textures_taken() {
+        names.hide();
+    }
+    let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
+    (names, interleaver)
+}
+
 impl Targets {
-    /// Makes the targets for a window of the state's size. The report says what is missing. The sentence tells the user why
+    /// Makes the targets for a window of the state's size, with what [`interleaving`] has made. The report says what is missing. The sentence tells the user why
     /// the atlas is not the wanted one. Fails on OpenGL ES where there is no pass.
     pub(super) fn new(
         gl: &Gl,
+        (mut names, interleaver): (Names, Interleaver),
         session: &Session,
         state: &State,
         report: &mut Report,
     ) -> Result<(Self, Option<String>), LayerError> {
         let (config, support) = (session.config, &session.support);
-        let mut names = Names::default();
-        if are_textures_taken() {
-            names.hide();
-        }
-        let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
         match interleaver.note() {
             Some(note) if gl.is_es() => return Err(LayerError::Passes(note)),
             Some(note) => report.note(note),

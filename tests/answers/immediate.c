@@ -18,10 +18,33 @@ static GLuint feeding(void)
     return program;
 }
 
+static const GLfloat corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+
+/* One query counts primitives that change the colour after their first vertex, and others. */
+static void counted(void)
+{
+    GLuint query, samples = 0;
+    glGenQueries(1, &query);
+    glBeginQuery(GL_SAMPLES_PASSED, query);
+    glBeginTransformFeedback(GL_TRIANGLES);
+    for (int primitive = 0; primitive < 4; primitive++) {
+        glBegin(GL_TRIANGLES);
+        for (int i = 0; i < 3; i++) {
+            glVertex2f(corners[i][0] / (float)(primitive + 1), corners[i][1]);
+            if (primitive % 2 == 0)
+                glColor3f(1, 0, 0.25f * (float)i);
+        }
+        glEnd();
+    }
+    glEndTransformFeedback();
+    glEndQuery(GL_SAMPLES_PASSED);
+    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &samples);
+    printf("%u samples, error 0x%x\n", samples, glGetError());
+}
+
 static void fed(void)
 {
     static const GLenum kinds[] = {GL_POINTS, GL_LINES, GL_TRIANGLES};
-    static const GLfloat corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     GLuint buffer, queries[2], written = 99, generated = 99, program = feeding();
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, buffer);
@@ -62,6 +85,7 @@ static void fed(void)
         glGetQueryObjectuiv(queries[1], GL_QUERY_RESULT, &generated);
         printf("%u: %u written, %u generated, error 0x%x\n", kinds[k], written, generated, glGetError());
     }
+    counted();
     glUseProgram(0);
 }
 

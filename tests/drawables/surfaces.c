@@ -8,7 +8,8 @@
  *   egl-copied       eglCopyBuffers to a pixmap
  *   egl-post         eglPostSubBufferNV, eglSwapBuffersRegionNOK and eglSwapBuffersRegion2NOK (offers.c)
  *   egl-none         a context that had a surface is current without one
- *   glx-none         the same with GLX */
+ *   glx-none         the same with GLX
+ *   egl-before       a context sets state before it has a surface */
 #define _GNU_SOURCE
 #include "drawables.h"
 #include <EGL/egl.h>
@@ -268,6 +269,30 @@ static void glx_none(void)
     pixels("pbuffer");
 }
 
+static void egl_before(void)
+{
+    static const GLubyte red[3] = {255};
+    open_egl();
+    EGLSurface aside = pbuffer(config);
+    EGLContext first = context();
+    bind("nothing", EGL_NO_SURFACE, EGL_NO_SURFACE, first);
+    glColorPointer(3, GL_UNSIGNED_BYTE, 0, red);
+    glEnableClientState(GL_COLOR_ARRAY);
+    bind("pbuffer", aside, aside, first);
+    clear(GREEN);
+    glBindVertexArray(0);
+    glColor3f(1, 1, 1);
+    glBegin(GL_QUADS);
+    glArrayElement(0);
+    glEnd();
+    glBegin(GL_QUADS);
+    for (int i = 0; i < 4; i++)
+        glVertex2f(i == 1 || i == 2, i > 1);
+    glColor3f(0, 0, 1);
+    glEnd();
+    pixels("pbuffer");
+}
+
 int surfaces(const char *mode)
 {
     if (is(mode, "egl-read"))
@@ -286,6 +311,8 @@ int surfaces(const char *mode)
         egl_none();
     else if (is(mode, "glx-none"))
         glx_none();
+    else if (is(mode, "egl-before"))
+        egl_before();
     else
         return 0;
     return 1;

@@ -45,13 +45,13 @@ class Side:
                 "MANYVIEW_ATLAS": options.atlas,
             }
 
-    def lines(self, first, count=1, drop=(), more=()):
+    def lines(self, first, count=1, drop=(), more=(), variables=None):
         command = [self.program, "--api", self.options.api, "--seed", str(first), "--count", str(count)]
         command += ["--without", self.options.without, *more]
         if drop:
             command += ["--drop", ",".join(drop)]
         try:
-            done = subprocess.run(command, env=self.environment, capture_output=True, text=True, errors="replace", timeout=300)
+            done = subprocess.run(command, env=self.environment | (variables or {}), capture_output=True, text=True, errors="replace", timeout=300)
         except subprocess.TimeoutExpired:
             return ["it does not end"]
         told = re.sub(r" calls \d+", "", done.stdout)  # with --apart there are others
@@ -65,10 +65,11 @@ def both(sides, *of):
 
 def differs(sides, seed, drop):
     bare, layer = both(sides, seed, 1, drop)
-    # A crash of the driver alone is no difference, nor is what a glFlush and a culled triangle change.
+    # A crash of the driver alone is no difference, nor is what a glFlush, a culled triangle and the contents of new memory change.
     if bare == layer or bare[-1].startswith("it "):
         return False
-    other = (sides[0].lines(seed, 1, drop, (how,)) for how in ("--disturb", "--apart"))
+    other = [sides[0].lines(seed, 1, drop, (how,)) for how in ("--disturb", "--apart")]
+    other += [sides[0].lines(seed, 1, drop, (), {"MALLOC_PERTURB_": byte}) for byte in ("85", "170")]
     return sides[0].options.mesa or all(lines == bare for lines in other)
 
 

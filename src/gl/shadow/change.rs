@@ -58,6 +58,8 @@ pub(super) struct Summary {
     pub(super) followers: bool,
     /// It may begin a primitive that it does not end.
     pub(super) open: bool,
+    /// It may have evaluators.
+    pub(super) evaluates: bool,
 }
 
 impl Summary {
@@ -67,18 +69,17 @@ impl Summary {
         material: true,
         followers: true,
         open: true,
+        evaluates: true,
     };
 
-    /// Of these changes. `called` tells of lists that they call, with the list base where it is known; `base` is that at their end.
+    /// Of these changes. `called` tells of lists that they call, with the list base where it is known; `base` is that when the list is called.
     pub(super) fn of(
         changes: &[Change],
         base: Option<u32>,
         called: impl Fn(&Change, Option<u32>) -> Summary,
     ) -> Summary {
         let mut all = Summary::default();
-        let sets_base = |change: &Change| matches!(change, Change::Put(LIST_BASE, _));
-        let mut base = base.filter(|_| !changes.iter().any(sets_base));
-        let same = base;
+        let mut base = base;
         for change in changes {
             match change {
                 Change::Put(LIST_BASE, value) => base = value.map(|[base, ..]| base),
@@ -94,7 +95,7 @@ impl Summary {
                 Change::ColorMaterial(_) => all.material = true,
                 Change::PopAttrib => {
                     all.followers = true;
-                    base = same;
+                    base = None;
                 }
                 Change::CallList(_) | Change::CallLists(_) | Change::ForgetAll => {
                     let called = called(change, base);
@@ -102,6 +103,9 @@ impl Summary {
                     all.material |= called.material;
                     all.followers |= called.followers;
                     all.open |= called.open;
+                    all.evaluates |= called.evaluates;
+                    // The list may have set it.
+                    base = None;
                 }
                 _ => {}
             }
@@ -208,6 +212,7 @@ impl Shadow {
         self.compiling = Some(Compiling {
             list,
             executes,
+            base: self.values.known(LIST_BASE).map(|[base, ..]| base),
             changes: Vec::new(),
             currents: 0,
             popped: 0,
@@ -217,28 +222,36 @@ impl Shadow {
 
     pub(super) fn end_list(&mut self) {
         let Some(list) = &self.compiling else { return };
-        let base = self.values.known(LIST_BASE).map(|[base, ..]| base);
-        let summary = Summary::of(&list.changes, base, |change, base| {
-            self.summary_of(change, base)
-        });
+        // Which lists it will call is not known before it is called itself.
+        let called = |change: &Change, base| self.summary_of(change, base);
+        let mut summary = Summary::of(&list.changes, None, called);
+        summary.evaluates |= list.evaluates;
+        let executed = list.executes.then(|| self.executed(list));
+        // Lists that it calls begin nothing as long as it is not executed.
+        let own = || Summary::of(&list.changes, None, |_, _| Summary::default());
+        let open = executed.unwrap_or_else(own).open;
         // The driver refuses it between a glBegin and a glEnd of the list.
-        if summary.open && self.integer(c::LIST_INDEX) != 0 {
+        if open && self.integer(c::LIST_INDEX) != 0 {
             return;
         }
         if let Some(mut list) = self.compiling.take() {
-            if list.evaluates {
+            if summary.evaluates {
                 list.forget_materials();
             }
             self.lists.compiled(list.list, list.changes, summary);
-            if list.executes {
-                // What was restored may be which parameters follow the colour.
-                let material = summary.material || list.popped & c::LIGHTING_BIT != 0;
-                self.forget_executed(Summary {
-                    material,
-                    ..summary
-                });
+            if let Some(executed) = executed {
+                self.forget_executed(executed);
             }
         }
+    }
+
+    /// What a list has done while it was compiled.
+    fn executed(&self, list: &Compiling) -> Summary {
+        let called = |change: &Change, base| self.summary_of(change, base);
+        let all = Summary::of(&list.changes, list.base, called);
+        // What was restored may be which parameters follow the colour.
+        let material = all.material || list.popped & c::LIGHTING_BIT != 0;
+        Summary { material, ..all }
     }
 
     /// What the lists that a change calls may do.
@@ -263,8 +276,10 @@ impl Shadow {
             self.forget_material();
         }
         if summary.followers {
-            self.followers_have_colour = false;
             self.set_followers(None);
+        }
+        if summary.material || summary.followers {
+            self.followers_have_colour = false;
         }
         self.forget_currents(summary.currents);
     }
@@ -327,9 +342,9 @@ impl Shadow {
                 _ => self.matrices.mode_is_unknown(),
             },
             Change::Matrix(ref operation) => self.operate(operation),
-            Change::PushMatrix => self.push_matrix(),
+            Change::PushMatrix => self.push_matrix(depth),
             Change::PopMatrix => self.pop_matrix(),
-            Change::PushAttrib(mask) => self.push_attrib(mask),
+            Change::PushAttrib(mask) => self.push_attrib(mask, depth),
             Change::PopAttrib => self.pop_attrib(),
             Change::CallList(list) => self.call_list(list, depth),
             Change::CallLists(ref names) => match self.values.known(Key::Value(c::LIST_BASE)) {
@@ -340,7 +355,7 @@ impl Shadow {
             },
             Change::ForgetMatrices => self.matrices.forget_stacks(),
             Change::ForgetUniforms => self.uniforms.forget_all(),
-            Change::ForgetAll => self.forget_all(),
+            Change::ForgetAll => self.forget_unseen(),
         }
     }
 
@@ -353,7 +368,10 @@ impl Shadow {
                 self.current_is_set(key);
             }
             Change::Put(key, _) | Change::Bind(key, _) => self.put(key, None),
-            Change::Enable(cap, _) if !key::is_of_unit(cap) => self.put(Key::Cap(cap), None),
+            Change::Enable(cap, _) if !key::is_of_unit(cap) => {
+                self.client_arrays.capability_on(cap);
+                self.put(Key::Cap(cap), None);
+            }
             Change::CallList(list) => self.call_list(list, depth),
             Change::Begin(_) => {}
             Change::End => self.inside = false,
@@ -362,6 +380,9 @@ impl Shadow {
     }
 
     fn enable(&mut self, cap: u32, on: bool) {
+        if on {
+            self.client_arrays.capability_on(cap);
+        }
         let value = Some([u32::from(on), 0, 0, 0]);
         if key::is_of_unit(cap) {
             let units = self.constant(c::MAX_TEXTURE_UNITS);
@@ -395,15 +416,17 @@ impl Shadow {
         }
     }
 
-    fn push_matrix(&mut self) {
+    /// `depth`: lists within lists that it is called in.
+    fn push_matrix(&mut self, depth: usize) {
         let unit = self.unit();
         let Some(stack) = self.matrices.current() else {
             return self.matrices.forget_stacks();
         };
-        let (limit, depth) = stack.depths();
-        if self.matrices.depth(stack, unit).is_none() {
+        let (limit, name) = stack.depths();
+        // The driver has made all calls of a list already, so its answer would be of later.
+        if self.matrices.depth(stack, unit).is_none() && depth == 0 {
             // The driver has pushed already, if it could.
-            let now = self.integer(depth);
+            let now = self.integer(name);
             self.matrices.depth_is(stack, unit, now.saturating_sub(1));
         }
         match self.matrices.depth(stack, unit) {
@@ -411,6 +434,25 @@ impl Shadow {
             // It is full, and the driver has refused.
             Some(_) => {}
             None => self.matrices.forget_stacks(),
+        }
+    }
+
+    /// After a list that may have pushed what only the driver knows the depth of: the next one finds that known.
+    fn depths_after_list(&mut self, changes: &[Change]) {
+        let calls = |change: &Change| matches!(change, Change::CallList(_) | Change::CallLists(_));
+        let pushes = |change: &Change| matches!(change, Change::PushAttrib(_)) || calls(change);
+        if changes.iter().any(pushes) {
+            self.attrib_depth();
+        }
+        let pushes = |change: &Change| matches!(change, Change::PushMatrix) || calls(change);
+        let unit = self.unit();
+        if let Some(stack) = self.matrices.current()
+            && self.matrices.depth(stack, unit).is_none()
+            && changes.iter().any(pushes)
+        {
+            let (_, name) = stack.depths();
+            let now = self.integer(name);
+            self.matrices.depth_is(stack, unit, now);
         }
     }
 
@@ -422,9 +464,14 @@ impl Shadow {
         }
     }
 
-    fn push_attrib(&mut self, mask: u32) {
+    /// `depth`: lists within lists that it is called in.
+    fn push_attrib(&mut self, mask: u32, depth: usize) {
         let most = self.constant(c::MAX_ATTRIB_STACK_DEPTH) as usize;
         if self.attribs.base.is_none() {
+            if depth > 0 {
+                // The driver has made all calls of the list already, so its answer would be of later. What is popped is unknown.
+                return;
+            }
             // The driver has pushed already.
             let depth = self.integer(c::ATTRIB_STACK_DEPTH) as usize;
             let below = depth.saturating_sub(1 + self.attribs.len());
@@ -464,9 +511,6 @@ impl Shadow {
         if lighting {
             self.forget_followers();
         }
-        if pushed.before_indices {
-            self.forget_indices(pushed.mask);
-        }
         for (key, before) in pushed.before {
             let (sure, maybe) = key.saved_with();
             let lost = pushed.deleted && key.binding().is_some();
@@ -483,6 +527,10 @@ impl Shadow {
             }
             entry.value = value;
             *self.values.entry(key) = entry;
+        }
+        if pushed.before_indices {
+            // Also those that were saved: they were those of before the first command by an index.
+            self.forget_indices(pushed.mask);
         }
         self.followers_have_colour = false;
         if lighting {
@@ -507,11 +555,17 @@ impl Shadow {
             return;
         }
         match self.lists.changes(list) {
-            Some(changes) => changes
-                .iter()
-                .for_each(|change| self.apply(change, depth + 1)),
+            Some(changes) => {
+                changes
+                    .iter()
+                    .for_each(|change| self.apply(change, depth + 1));
+                // Within a primitive nothing can be asked.
+                if depth == 0 && !self.inside {
+                    self.depths_after_list(&changes);
+                }
+            }
             // It does not exist, or only the driver knows it.
-            None => self.forget_all(),
+            None => self.forget_unseen(),
         }
         // Mesa 22.3 lets a list set what follows the colour.
         self.followers_have_colour = false;

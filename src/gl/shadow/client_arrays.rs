@@ -24,6 +24,14 @@ impl ClientArrays {
         self.used = u32::MAX;
     }
 
+    /// A capability is switched on. Mesa 22.3 takes the arrays as capabilities as well.
+    pub(super) fn capability_on(&mut self, cap: u32) {
+        let arrays = [c::FOG_COORD_ARRAY, c::SECONDARY_COLOR_ARRAY];
+        if (c::VERTEX_ARRAY..=c::EDGE_FLAG_ARRAY).contains(&cap) || arrays.contains(&cap) {
+            self.any();
+        }
+    }
+
     fn on(&mut self, key: Key) {
         self.used |= current_bit(key).map_or(0, |bit| 1 << bit);
     }

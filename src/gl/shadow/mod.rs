@@ -77,6 +77,8 @@ struct Entry {
 struct Compiling {
     list: u32,
     executes: bool,
+    /// The list base at its beginning, where it is known.
+    base: Option<u32>,
     changes: Vec<Change>,
     /// The current values that it changes, by [`key::current_bit`].
     currents: u32,
@@ -212,8 +214,9 @@ fn with<R>(work: impl FnOnce(&mut Shadow) -> R) -> Option<R> {
     };
     if shadow.changed.load(Relaxed) {
         shadow.changed.store(false, Relaxed);
-        kept.forget_all();
-        kept.client_arrays.any();
+        kept.forget_unseen();
+        kept.indexed = true;
+        kept.binding_points = true;
     }
     Some(work(&mut kept))
 }
@@ -347,6 +350,12 @@ impl Shadow {
         self.attribs.forget();
         self.client.forget();
         self.followers_have_colour = false;
+    }
+
+    /// Calls that are not followed may have changed the state.
+    fn forget_unseen(&mut self) {
+        self.forget_all();
+        self.client_arrays.any();
     }
 
     /// GL_ATTRIB_STACK_DEPTH, asked for once.

@@ -7,7 +7,7 @@ mod rectangles;
 
 use super::key::{Key, bits};
 use super::*;
-use crate::gl::fake::Fake;
+use crate::gl::fake::{Fake, Scope};
 use crate::gl::{Gl, ProgramName, TextureName};
 
 /// Numbers that look random and are the same for the same seed (xorshift, Marsaglia 2003).
@@ -172,8 +172,73 @@ fn a_colour_mask_by_index_in_an_executed_list_is_not_known() {
         set(0);
         gl.end_list();
         assert_eq!(known(&shadow, mask), None);
+        set(1);
         gl.call_list(list);
         assert_eq!(known(&shadow, mask), Some([0; 4]));
+    });
+}
+
+/// The driver has made all calls of a list before it can be asked for the depth of a stack: the pushes of the list may have been refused.
+#[test]
+fn what_a_list_pushes_on_a_stack_of_unknown_depth_is_not_known() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    let [attributes, matrices] = [5, 6].map(crate::gl::ListName);
+    let blends = || known(&shadow, Key::Cap(c::BLEND)).map(|[on, ..]| on);
+    current(&shadow, || {
+        let gl = fake.gl();
+        gl.new_list(attributes, c::COMPILE);
+        gl.push_attrib(c::COLOR_BUFFER_BIT);
+        gl.enable(c::BLEND);
+        gl.pop_attrib();
+        gl.end_list();
+        gl.new_list(matrices, c::COMPILE);
+        // SAFETY: no pointers.
+        unsafe { fake.real().glPushMatrix() };
+        gl.load_matrix(&[2.0; 16]);
+        // SAFETY: no pointers.
+        unsafe { fake.real().glPopMatrix() };
+        gl.end_list();
+        // A full stack has one less after the refused push and the pop.
+        fake.put(Scope::Context, c::ATTRIB_STACK_DEPTH, &[15.0]);
+        fake.put(Scope::Context, c::MODELVIEW_STACK_DEPTH, &[31.0]);
+        shadow.shadow.borrow_mut().attribs.forget();
+        gl.disable(c::BLEND);
+        gl.call_list(attributes);
+        assert_eq!(blends(), None, "the pop restores what was pushed before");
+        gl.matrix_mode(c::MODELVIEW);
+        gl.load_matrix(&[1.0; 16]);
+        gl.get_matrix(c::MODELVIEW_MATRIX);
+        gl.call_list(matrices);
+        assert_eq!(asked(&fake, |gl| _ = gl.get_matrix(c::MODELVIEW_MATRIX)), 1);
+        // From now on the depths are known.
+        gl.disable(c::BLEND);
+        let questions = asked(&fake, |gl| {
+            gl.call_list(attributes);
+            gl.call_list(matrices);
+            gl.get_matrix(c::MODELVIEW_MATRIX);
+        });
+        assert_eq!((questions, blends()), (0, Some(0)));
+    });
+}
+
+/// Calls that nobody has followed may have set state by an index, and arrays of fixed function.
+#[test]
+fn what_was_changed_unseen_is_not_known() {
+    let fake = Fake::new().window(64, 32);
+    let shadow = shadow(&fake);
+    let colour = Key::Value(c::CURRENT_COLOR);
+    current(&shadow, || {
+        let gl = fake.gl();
+        assert!(!are_capabilities_indexed());
+        shadow.changed();
+        gl.bind_vertex_array(crate::gl::VertexArrayName::ZERO);
+        assert!(are_capabilities_indexed());
+        gl.color_4f(0.5, 0.5, 0.5, 1.0);
+        assert!(known(&shadow, colour).is_some());
+        // SAFETY: the fake driver reads no arrays.
+        unsafe { fake.real().glArrayElement(0) };
+        assert_eq!(known(&shadow, colour), None);
     });
 }
 
@@ -245,6 +310,20 @@ fn a_list_may_have_primitives() {
         gl.end();
         gl.end_list();
         gl.call_list(list(9));
+        assert_eq!(ambient(), None);
+        // Also one in a list that is called after it.
+        gl.new_list(list(10), c::COMPILE);
+        gl.material(c::FRONT, c::AMBIENT, &[0.5; 4]);
+        gl.end_list();
+        gl.call_list(list(10));
+        assert_eq!(ambient(), Some(0.5));
+        gl.new_list(list(11), c::COMPILE);
+        gl.material(c::FRONT, c::AMBIENT, &[0.25; 4]);
+        gl.call_list(list(9));
+        gl.end_list();
+        gl.new_list(list(9), c::COMPILE);
+        gl.end_list();
+        gl.call_list(list(11));
         assert_eq!(ambient(), None);
     });
 }

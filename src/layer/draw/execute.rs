@@ -77,6 +77,7 @@ impl Layer {
             }
             // A second sending would start from the state that the first one has left.
             ReplayHazard::Current(_) | ReplayHazard::Anything { .. } if feeds => {
+                self.queries.drawn();
                 (draw.send)(Send::AsItIs);
             }
             _ => self.send_by(gl, draw, execution),

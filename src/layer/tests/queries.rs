@@ -1,13 +1,20 @@
 //! Queries: what is counted, and the queries of ours that continue those of the program.
 
 use super::super::Answer;
+use super::super::feedback::Feedback;
 use super::super::queries::Queries;
 use super::bench::Bench;
 use crate::gl::fake::{Fake, Scope};
 use crate::gl::{Gl, QueryName, consts as c};
+use std::collections::HashSet;
 
 /// GL_TIME_ELAPSED, which counts nothing that is drawn.
 const TIME_ELAPSED: u32 = 0x88BF;
+
+fn new_query(gl: &Gl) -> QueryName {
+    let [query, ..] = gl.gen_queries();
+    query
+}
 
 struct Counting {
     fake: Fake,
@@ -31,7 +38,7 @@ impl Counting {
 
     /// The program begins a new query.
     fn begin_new(&mut self, target: u32) -> QueryName {
-        let query = self.fake.program(Gl::gen_query);
+        let query = self.fake.program(new_query);
         self.begin(target, query);
         query
     }
@@ -90,6 +97,39 @@ fn what_was_drawn_once_is_not_forgotten() {
     assert_ne!(counting.draw(c::SAMPLES_PASSED), query);
 }
 
+/// Of each draw that transform feedback writes, the call that writes is counted before rasterisation, and the own view after it.
+#[test]
+fn queries_of_both_kinds_count_what_is_written_and_drawn_once() {
+    let mut counting = Counting::new();
+    let (samples, primitives) = (c::SAMPLES_PASSED, c::PRIMITIVES_GENERATED);
+    counting.queries.set_feedback(Feedback::On);
+    let own = [samples, primitives].map(|target| counting.begin_new(target));
+    let now = |counting: &Counting| [samples, primitives].map(|t| counting.gl.current_query(t));
+    let mut draw = || {
+        let gl = counting.gl;
+        counting.queries.start_writing(&gl);
+        let written = now(&counting);
+        counting.queries.hold_feedback(&gl);
+        counting.queries.pause(&gl);
+        assert_eq!(now(&counting), [QueryName::ZERO; 2], "other views");
+        counting.queries.resume(&gl);
+        let drawn = now(&counting);
+        counting.queries.release_feedback(&gl);
+        [written, drawn]
+    };
+    let none = QueryName::ZERO;
+    let mut counted = Vec::new();
+    for _ in 0..2 {
+        let [written, drawn] = draw();
+        assert_eq!([written[0], drawn[1]], [none; 2], "of the other kind");
+        counted.extend([written[1], drawn[0]]);
+    }
+    // A query that is begun again forgets its count.
+    assert_eq!(counted[0], own[1]);
+    assert!(!counted.contains(&none));
+    assert_eq!(counted.iter().collect::<HashSet<_>>().len(), 4);
+}
+
 #[test]
 fn an_answer_is_of_the_kind_of_its_query() {
     let mut counting = Counting::new();
@@ -117,7 +157,7 @@ fn an_answer_is_of_the_kind_of_its_query() {
 fn a_query_that_the_driver_refused_is_not_tracked() {
     let mut counting = Counting::new();
     let target = c::SAMPLES_PASSED;
-    let query = counting.fake.program(Gl::gen_query);
+    let query = counting.fake.program(new_query);
     let (gl, other) = (counting.gl, QueryName(query.0 + 1));
     counting.queries.begun(&gl, target, query);
     assert!(!counting.queries.active(), "the driver has none");
@@ -224,7 +264,7 @@ fn a_replayed_draw_is_counted_in_the_own_view() {
     bench.frame();
     bench.clear();
     let query = bench.fake.program(|gl| {
-        let query = gl.gen_query();
+        let query = new_query(gl);
         gl.begin_query(target, query);
         query
     });

@@ -3,7 +3,7 @@
 use super::super::LayerError;
 use super::super::Support;
 use super::super::session::Session;
-use super::super::targets::Targets;
+use super::super::targets::{Targets, interleaving};
 use super::bench::{Bench, MESA, config};
 use crate::gl::fake::Fake;
 use crate::gl::{FramebufferName, TextureName, consts as c};
@@ -23,10 +23,11 @@ fn targets(
 ) -> (Result<Targets, LayerError>, Vec<serde_json::Value>) {
     let (gl, mut report) = (fake.gl(), Report::default());
     let support = Support::ask(&gl).expect("a context for several views");
+    let pass = interleaving(&gl, config(options), &support);
     let window = Window::ask(&gl, 64, 48, support.compatibility);
     let state = State::ask(&gl, window, support.compatibility);
     let session = Session::new(&gl, config(options), support, Arc::default(), None);
-    let targets = Targets::new(&gl, &session, &state, &mut report);
+    let targets = Targets::new(&gl, pass, &session, &state, &mut report);
     let targets = targets.map(|(targets, told)| {
         told.into_iter().for_each(|told| report.note(told));
         targets

@@ -45,14 +45,21 @@ fn the_material_keeps_the_colour_that_it_followed() {
 fn only_the_driver_knows_a_material_after_a_list() {
     let list = ListName(9);
     for sets in [set_colour, set_material] {
-        let after = |gl: &Gl| {
-            set_colour(gl);
-            gl.new_list(list, c::COMPILE);
-            sets(gl);
-            gl.end_list();
-            gl.call_list(list);
-        };
-        assert_eq!(kept(after), None);
+        for executes in [false, true] {
+            let after = |gl: &Gl| {
+                set_colour(gl);
+                gl.new_list(
+                    list,
+                    [c::COMPILE, c::COMPILE_AND_EXECUTE][usize::from(executes)],
+                );
+                sets(gl);
+                gl.end_list();
+                if !executes {
+                    gl.call_list(list);
+                }
+            };
+            assert_eq!(kept(after), None, "executes: {executes}");
+        }
     }
 }
 

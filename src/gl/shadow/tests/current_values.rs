@@ -64,12 +64,19 @@ fn they_are_those_of_the_last_call() {
     });
 }
 
+/// Binds a vertex array object of which the driver has told that it is bound.
+fn other_array_object(fake: &Fake) {
+    let gl = fake.gl();
+    gl.bind_vertex_array(gl.gen_vertex_array());
+    assert_ne!(gl.get_integer(c::VERTEX_ARRAY_BINDING), 0);
+}
+
 /// An element sets the values of the arrays that are on.
 #[test]
 fn an_array_element_makes_unknown_what_its_arrays_set() {
     type Enable = fn(&Fake);
     // SAFETY: of each: no pointers that are read.
-    let cases: [(Enable, [bool; 4]); 7] = [
+    let cases: [(Enable, [bool; 4]); 9] = [
         (|_| (), [true; 4]),
         (
             |fake| unsafe { fake.real().glEnableClientState(c::COLOR_ARRAY) },
@@ -102,9 +109,21 @@ fn an_array_element_makes_unknown_what_its_arrays_set() {
             |fake| unsafe { fake.real().glEnableVertexAttribArray(3) },
             [false; 4],
         ),
+        // Mesa 22.3 takes the arrays as capabilities.
         (
-            |fake| fake.gl().bind_vertex_array(fake.gl().gen_vertex_array()),
+            |fake| unsafe { fake.real().glEnable(c::NORMAL_ARRAY) },
             [false; 4],
+        ),
+        (other_array_object, [false; 4]),
+        (
+            |fake| {
+                other_array_object(fake);
+                // SAFETY: no pointers.
+                unsafe { fake.real().glEnableClientState(c::COLOR_ARRAY) };
+                fake.gl()
+                    .bind_vertex_array(crate::gl::VertexArrayName::ZERO);
+            },
+            [true; 4],
         ),
     ];
     for (case, (enable, keeps)) in cases.into_iter().enumerate() {
@@ -241,7 +260,7 @@ fn a_list_makes_unknown_what_it_sets() {
     }
 }
 
-/// The driver refuses the end of a list between its glBegin and its glEnd, also those of lists that it calls.
+/// The driver refuses the end of a list between its glBegin and its glEnd, also those of lists that it calls, if they are executed.
 #[test]
 fn the_end_of_a_list_is_asked_about_within_a_primitive() {
     let fake = Fake::new().window(64, 32);
@@ -254,12 +273,14 @@ fn the_end_of_a_list_is_asked_about_within_a_primitive() {
             gl.end_list();
         });
         assert_eq!(questions, 1);
-        let questions = asked(&fake, |gl| {
-            gl.new_list(calls, c::COMPILE);
-            gl.call_list(opens);
-            gl.end_list();
-        });
-        assert_eq!(questions, 1);
+        for (mode, expected) in [(c::COMPILE, 0), (c::COMPILE_AND_EXECUTE, 1)] {
+            let questions = asked(&fake, |gl| {
+                gl.new_list(calls, mode);
+                gl.call_list(opens);
+                gl.end_list();
+            });
+            assert_eq!(questions, expected);
+        }
     });
 }
 

@@ -116,14 +116,19 @@ fn they_are_not_known_after_a_pop_of_what_was_pushed_before() {
         unsafe { fake.real().glViewportIndexedf(1, 5.0, 6.0, 7.0, 8.0) };
         gl.enablei(c::BLEND, 1);
         let blends = Key::CapAt(c::BLEND, 0);
-        for _ in 0..2 {
+        for changed in [false, true] {
             gl.get_floats_indexed(c::VIEWPORT, 0);
             gl.is_enabledi(c::BLEND, 0);
             assert!(known(&shadow, viewport(0)).is_some() && known(&shadow, blends).is_some());
+            if changed {
+                gl.disablei(c::BLEND, 0);
+                gl.viewport_indexed_f(0, 0.5, 0.5, 2.0, 2.0);
+            }
             gl.pop_attrib();
             assert_eq!(
                 [known(&shadow, viewport(0)), known(&shadow, blends)],
-                [None; 2]
+                [None; 2],
+                "changed before the pop: {changed}"
             );
         }
     });
