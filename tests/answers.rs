@@ -2,16 +2,15 @@
 //! view. (The programs lie in tests/answers; their heads list the modes.)
 #![forbid(unsafe_code)]
 
+#[path = "answers/lists.rs"]
+mod lists;
 mod support;
 
 use image::{RgbImage, imageops};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use support::views::{REPLAYED, VIEWS, Views, extents};
-use support::{
-    Compiled, bare, built, extent, layered, lines, own_screen, preloaded, rgb, succeed,
-    window_picture,
-};
+use support::{Compiled, bare, built, extent, layered, lines, preloaded, rgb, window_picture};
 
 const ATLASES: [&str; 2] = ["side-by-side", "layers"];
 
@@ -101,51 +100,6 @@ fn moved_beside_feedback(mode: &str) {
                 "{mode}, {atlas}: {by:?} for {shift}"
             );
         }
-    }
-}
-
-/// Checks that text of an X font is what it is without the layer, as it is read back and in the window, whichever view that shows.
-#[track_caller]
-fn written(mode: &str) {
-    let (program, screen) = (program("text"), own_screen());
-    let run = |mut command: Command| {
-        let output = succeed(screen.give(&mut command));
-        String::from_utf8(output.stdout).expect("text")
-    };
-    let expected = run(plain(&program, &[mode]));
-    assert!(!expected.contains(": 0 pixels"), "{expected}");
-    for atlas in ATLASES {
-        for view in ["view:0", "view:1", "view:2"] {
-            let options = [("VIEWS", "3"), ("ATLAS", atlas), ("OUTPUT", view)];
-            let told = run(under(&program, &[mode], &options));
-            assert_eq!(told, expected, "{mode}, {atlas}, {view}");
-        }
-    }
-}
-
-#[test]
-fn text_of_an_x_font_is_in_every_view() {
-    for mode in ["generated", "alone"] {
-        written(mode);
-    }
-}
-
-#[test]
-fn text_of_an_x_font_under_names_of_the_program_is_in_every_view() {
-    written("numbered");
-}
-
-#[test]
-fn text_of_an_x_font_takes_the_place_of_other_lists() {
-    for mode in ["again", "deleted"] {
-        written(mode);
-    }
-}
-
-#[test]
-fn text_of_an_x_font_is_called_by_other_lists() {
-    for mode in ["nested", "executed"] {
-        written(mode);
     }
 }
 

@@ -61,7 +61,7 @@ const ON_EGL: [Scene; 2] = [
 /// Scenes that are known to ask more, the most calls for a swap, and why.
 const MORE: [(Scene, f64, &str); 1] = [(
     &["lists"],
-    23.0,
+    20.0,
     "it executes lists while it compiles them, and after a list only the driver knows the values that it sets, and the raster position",
 )];
 

@@ -345,11 +345,12 @@ fn take(key: Key, drawables: Option<Pair>) -> Option<[CurrentDrawable; 2]> {
     deep::rebind_new_libraries();
     let taken = take_record(key, drawables);
     if taken.is_none() {
-        registry::is_unseen(key);
+        registry::note_unseen(key);
     }
     taken
 }
 
+/// Takes the record of a context for this thread. None where there is none to be had.
 fn take_record(key: Key, drawables: Option<Pair>) -> Option<[CurrentDrawable; 2]> {
     let current = match drawables {
         Some(Pair { draw, read }) => {

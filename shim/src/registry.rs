@@ -83,12 +83,11 @@ pub(crate) fn knows(key: Key) -> bool {
         .any(|e| e.key == key && !e.destroyed)
 }
 
-/// The context is current on a thread that does not get its record: its calls are not followed.
-pub(crate) fn is_unseen(key: Key) {
-    changed(key);
-    if !knows(key) {
-        let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-        forget_unseen(&mut registry, key);
+/// Notes that a context is current on a thread that does not get its record, so that its calls are not followed.
+pub(crate) fn note_unseen(key: Key) {
+    let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    forget_unseen(&mut registry, key);
+    if !tell_changed(&registry, key) {
         registry.unseen.push(key);
     }
 }
@@ -103,15 +102,19 @@ fn forget_unseen(registry: &mut Registry, key: Key) -> bool {
 /// Another context has given state to this one.
 pub(crate) fn changed(key: Key) {
     let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    let known = registry
-        .contexts
-        .iter()
-        .find(|e| e.key == key && !e.destroyed);
+    tell_changed(&registry, key);
+}
+
+/// Tells the record of a context that its state was changed otherwise than by calls that are followed. False where it has no record.
+fn tell_changed(registry: &Registry, key: Key) -> bool {
+    let mut all = registry.contexts.iter();
+    let known = all.find(|e| e.key == key && !e.destroyed);
     if let Some(entry) = known {
         // SAFETY: records in the list are freed only after they are taken out of it, under the lock; other threads have shared references
         // alone.
         unsafe { &*entry.context }.shadow.changed();
     }
+    known.is_some()
 }
 
 /// The number of threads that have a context.

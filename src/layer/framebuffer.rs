@@ -69,13 +69,15 @@ impl Layer {
     pub fn pop_attrib(&mut self, gl: &Gl, pop: &mut dyn FnMut()) {
         if self.compiles() {
             let mask = self.state.list.as_ref().and_then(|list| list.pushed());
-            self.compile(gl, Command::PopAttrib, touched_by_pop(mask));
+            // What was pushed before the run is known when that is executed.
+            let touch = mask.map_or(Touch::NONE, |mask| touched_by_pop(Some(mask)));
+            self.compile(gl, Command::PopAttrib, touch);
             if !self.executes() {
                 return pop();
             }
         }
         let depth = gl.get_integer(c::ATTRIB_STACK_DEPTH);
-        let pushed = self.targets.pushed.iter().find(|p| p.depth == depth);
+        let pushed = self.pushed_at(depth);
         let mut touched = touched_by_pop(pushed.map(|p| p.mask));
         let changes = self.targets.offscreen.parameter_changes();
         if pushed.is_some_and(|p| p.parameter_changes == changes) {
@@ -84,6 +86,21 @@ impl Layer {
         self.state.touch(touched);
         pop();
         self.popped_attribs(gl, depth);
+    }
+
+    fn pushed_at(&self, depth: i32) -> Option<&Pushed> {
+        self.targets.pushed.iter().find(|p| p.depth == depth)
+    }
+
+    /// The state groups that a run of a list touches, with those of what it pops from before it.
+    pub(super) fn touched_by_run(&self, gl: &Gl, run: &Segment) -> Touch {
+        if run.pops == 0 {
+            return run.touch;
+        }
+        let top = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+        let levels = (0..run.pops as i32).map(|below| self.pushed_at(top - below));
+        let masks = levels.map(|pushed| pushed.map(|p| p.mask));
+        masks.fold(run.touch, |touch, mask| touch | touched_by_pop(mask))
     }
 
     /// After a run of a list that has popped and pushed attributes; `depth` is the depth of the stack before the run.

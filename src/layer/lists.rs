@@ -291,7 +291,8 @@ impl Layer {
         {
             self.start_recording(mode);
             self.lists.opened_by(segment.name);
-            return self.state.touch(segment.touch);
+            let touch = self.touched_by_run(gl, segment);
+            return self.state.touch(touch);
         }
         match segment.run {
             Run::List(list) => self.nested(gl, &[list], depth),
@@ -375,7 +376,8 @@ impl Layer {
             lines_or_points: segment.lines_or_points,
             material: segment.immediate.changes_material(),
         };
-        self.run(gl, segment.run, segment.touch, content, &mut || {
+        let touch = self.touched_by_run(gl, segment);
+        self.run(gl, segment.run, touch, content, &mut || {
             touch_current_values(gl, sets);
             gl.call_list(segment.name);
         });

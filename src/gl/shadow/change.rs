@@ -375,6 +375,7 @@ impl Shadow {
             Change::CallList(list) => self.call_list(list, depth),
             Change::Begin(_) => {}
             Change::End => self.inside = false,
+            Change::ForgetAll => self.forget_unseen(),
             _ => self.forget_all(),
         }
     }
@@ -441,7 +442,7 @@ impl Shadow {
     fn depths_after_list(&mut self, changes: &[Change]) {
         let calls = |change: &Change| matches!(change, Change::CallList(_) | Change::CallLists(_));
         let pushes = |change: &Change| matches!(change, Change::PushAttrib(_)) || calls(change);
-        if changes.iter().any(pushes) {
+        if self.attribs.base.is_none() && changes.iter().any(pushes) {
             self.attrib_depth();
         }
         let pushes = |change: &Change| matches!(change, Change::PushMatrix) || calls(change);

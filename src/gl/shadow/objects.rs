@@ -19,7 +19,6 @@ impl Shadow {
     /// The command changes state in a way that is not followed.
     pub(in crate::gl) unsafe fn anything(&mut self) {
         self.change_now_or_later(Change::ForgetAll);
-        self.client_arrays.any();
     }
 
     /// The command sets values that glPushClientAttrib saves to those of a new context.
