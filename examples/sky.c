@@ -1,9 +1,14 @@
 /* Outdoors: a sky box that turns with the camera but never moves and writes no depth, a ground with pillars and smoke, balloons at the far end
- * of the depth range, a weapon in the viewer's hand at its near end, and over it a flat display. */
+ * of the depth range, a weapon in the viewer's hand at its near end, and over it a flat display. With --far-off the camera is far from the origin,
+ * and the sky is moved to it by a second matrix, so that the two cancel but for what they round. With --cleared the sky is a small box that writes
+ * depths, which are cleared for the ground. */
 #include "demo.h"
 #include <math.h>
 
-DEMO_NO_OPTIONS;
+static int far_off, cleared;
+const struct demo_option demo_options[] = {{"--far-off", "the camera and the sky are far from the origin", &far_off, 0},
+                                           {"--cleared", "the sky writes depths, which are cleared after it", &cleared, 0},
+                                           {0}};
 
 static GLuint clouds, grass, stone;
 
@@ -19,20 +24,35 @@ void demo_setup(void)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/* Six sides around the eye. Its size does not matter: it is drawn first, without depth. */
+/* Leaves of the matrix what is left of it where a program with a camera far from the origin moves something to that camera. */
+static void move_to_eye(void)
+{
+    static const double eye[3] = {431.7, -23.9, -871.3};
+    GLfloat view[16];
+    glGetFloatv(GL_MODELVIEW_MATRIX, view);
+    for (int row = 0; row < 3; row++)
+        view[12 + row] = (GLfloat)-(view[row] * eye[0] + view[4 + row] * eye[1] + view[8 + row] * eye[2]);
+    glLoadMatrixf(view);
+    glTranslated(eye[0], eye[1], eye[2]);
+}
+
+/* Six sides around the eye. Its size does not matter: it is drawn first, and none of its depths are left. */
 static void sky(void)
 {
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_FALSE);
+    const double size = cleared ? 2.0 : 10.0;
+    if (!cleared) {
+        glDisable(GL_DEPTH_TEST);
+        glDepthMask(GL_FALSE);
+    }
     glBindTexture(GL_TEXTURE_2D, clouds);
     glColor3f(1.0f, 1.0f, 1.0f);
     for (int side = 0; side < 6; side++) {
         glBegin(GL_QUADS);
         for (int c = 0; c < 4; c++) {
             double p[3], u = c == 1 || c == 2 ? 1.0 : -1.0, v = c >= 2 ? 1.0 : -1.0;
-            p[side % 3] = side < 3 ? 10.0 : -10.0;
-            p[(side + 1) % 3] = 10.0 * u;
-            p[(side + 2) % 3] = 10.0 * v;
+            p[side % 3] = side < 3 ? size : -size;
+            p[(side + 1) % 3] = size * u;
+            p[(side + 2) % 3] = size * v;
             glTexCoord2d(0.5 * u + 0.5, 0.5 * v + 0.5);
             glVertex3dv(p);
         }
@@ -40,6 +60,8 @@ static void sky(void)
     }
     glDepthMask(GL_TRUE);
     glEnable(GL_DEPTH_TEST);
+    if (cleared)
+        glClear(GL_DEPTH_BUFFER_BIT);
 }
 
 static void ground(void)
@@ -147,8 +169,12 @@ void demo_frame(int frame)
     glLoadIdentity();
     glRotated(8.0, 1.0, 0.0, 0.0);
     glRotated(25.0 + 30.0 * sin(t), 0.0, 1.0, 0.0);
+    glPushMatrix();
+    if (far_off)
+        move_to_eye();
     demo_perspective_sky(50.0, aspect, 0.5, 60.0);
     sky();
+    glPopMatrix();
     demo_perspective(50.0, aspect, 0.5, 60.0);
     glTranslated(0.5, -1.8, -9.0 + 2.0 * t);
     ground();

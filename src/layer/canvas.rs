@@ -430,7 +430,7 @@ impl Layer {
             return false;
         };
         canvas.frame.end();
-        canvas.known = decide::Frame::default();
+        canvas.known = canvas.known.next();
         canvas.synthesised = false;
         true
     }

@@ -110,14 +110,14 @@ impl Layer {
         }
         self.realign_tiles();
         self.frame.end();
-        self.known.frame = Default::default();
+        self.known.frame = self.known.frame.next();
     }
 
     /// The program has drawn the picture itself, into the true framebuffer 0.
     fn end_plain_frame(&mut self) {
         self.leave_scene();
         self.frame.end();
-        self.known.frame = Default::default();
+        self.known.frame = self.known.frame.next();
     }
 
     /// Whether the layer can draw a picture: it would be compiled into the program's list, be a hit of its selection, or be fed back to it.

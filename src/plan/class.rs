@@ -3,7 +3,7 @@
 //! The rules without a profile are few and careful: a scene taken for a sky or a display loses its depth, which is worse than a
 //! sky that keeps a little.
 
-use super::Kind;
+use super::{Kind, parallax};
 use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport, Word};
 use crate::gl::{FramebufferName, ListName, TextureName};
 use crate::state::{State, Touch};
@@ -37,10 +37,13 @@ pub struct Traits {
     pub program: u32,
     /// The hash of its sources; where asked for.
     pub shader: u64,
-    /// The modelview matrix rotates about the eye, translates nothing, and is not the identity; where asked for.
+    /// The modelview matrix rotates about the eye and is not the identity; where asked for. It translates by less than float arithmetic leaves
+    /// where the program moves its sky to the eye.
     pub turns: bool,
     /// Nothing in perspective has written depth since the frame began or was last cleared.
     pub first: bool,
+    /// The last frame began with draws around the eye whose depths were cleared for the scene, and this one may have begun so.
+    pub backdrop: bool,
 }
 
 /// Where a draw goes.
@@ -75,6 +78,8 @@ pub enum Why {
     NoProjection,
     /// It is rotated about the eye, writes no depth and comes before the scene.
     TurnsAboutEye,
+    /// It is rotated about the eye, and the depths are cleared after it, as in the last frame.
+    Backdrop,
     /// It lies at the far end of the depth range: behind everything.
     FarRange,
     /// In perspective, and nothing speaks against it.
@@ -95,6 +100,9 @@ impl core::fmt::Display for Why {
             Why::NoProjection => f.write_str("no projection"),
             Why::TurnsAboutEye => {
                 f.write_str("turns about the eye, writes no depth, comes before the scene")
+            }
+            Why::Backdrop => {
+                f.write_str("turns about the eye, and depths are cleared for the scene after it")
             }
             Why::FarRange => f.write_str("at the far end of the depth range, behind everything"),
             Why::Perspective => f.write_str("perspective projection"),
@@ -187,8 +195,16 @@ impl Classifier {
     }
 
     /// Whether the class may depend on the modelview matrix, once the depth state is known.
-    pub fn needs_modelview(&self, projection: Projection, first: bool, depth: DepthState) -> bool {
-        projection == Projection::Perspective && first && depth != DepthState::On
+    /// `backdrop`: nothing but a backdrop has been drawn in this frame ([`super::decide::Backdrop`]).
+    pub fn needs_modelview(
+        &self,
+        projection: Projection,
+        first: bool,
+        depth: DepthState,
+        backdrop: bool,
+    ) -> bool {
+        projection == Projection::Perspective
+            && (self.explains || backdrop || first && depth != DepthState::On)
     }
 
     /// The class of a draw.
@@ -241,6 +257,9 @@ impl Classifier {
                 classed(Class::Sky, Why::FarRange)
             }
             Projection::Perspective if is_sky(facts) => classed(Class::Sky, Why::TurnsAboutEye),
+            Projection::Perspective if facts.backdrop && facts.is_around_eye() => {
+                classed(Class::Sky, Why::Backdrop)
+            }
             Projection::Perspective => classed(Class::Scene, Why::Perspective),
         }
     }
@@ -249,7 +268,7 @@ impl Classifier {
 /// A sky rotates with the camera but stays centred on it. It writes no depth, so it is drawn before anything that does. Under the identity
 /// nothing is a sky: programs that transform vertices themselves draw everything with it.
 fn is_sky(facts: &Traits) -> bool {
-    facts.first && facts.centred && facts.turns && facts.depth_state != DepthState::On
+    facts.first && facts.is_around_eye() && facts.depth_state != DepthState::On
 }
 
 fn matches(rule: &Rule, facts: &Traits) -> bool {
@@ -292,9 +311,15 @@ impl Traits {
             texture: state.classification.texture,
             program: 0,
             shader: 0,
-            turns: turns(&state.classification.modelview),
+            turns: turns(&state.classification.modelview, p),
             first: false,
+            backdrop: false,
         }
+    }
+
+    /// Whether it is drawn around the eye, so that it has no place in the scene.
+    pub fn is_around_eye(&self) -> bool {
+        self.centred && self.turns
     }
 
     /// The number of the framebuffer that is drawn to, 0 for the window; none where no picture is drawn.
@@ -304,6 +329,15 @@ impl Traits {
             Target::Pass(name) | Target::Framebuffer(name) => Some(name),
             Target::Nothing => None,
         }
+    }
+
+    /// Whether a person may see a sky in a draw of the scene: it is drawn around the eye, or without depths before the rest.
+    fn may_be_sky(&self) -> bool {
+        let around = self.projection == Projection::Perspective && self.is_around_eye();
+        around
+            || self.first
+                && self.depth_state != DepthState::On
+                && self.projection == Projection::Perspective
     }
 
     /// The line of a profile that would give this draw another class; none where no picture is drawn.
@@ -336,6 +370,7 @@ impl Traits {
             keys.push(format!("depth-range = \"{}\"", self.range.word()));
         }
         let other = match (classed.class, self.projection) {
+            (Class::Scene, _) if self.may_be_sky() => Class::Sky,
             (Class::Scene, _) => Class::Flat,
             (Class::OffScreen, _) => Class::Scene,
             (Class::Sky, _) => Class::Scene,
@@ -351,11 +386,19 @@ impl Traits {
     }
 }
 
-/// Whether a matrix (column-major) rotates or scales about the origin and is not the identity.
-fn turns(m: &[f32; 16]) -> bool {
-    [m[12], m[13], m[14], m[3], m[7], m[11]] == [0.0; 6]
-        && m[15] != 0.0
-        && *m != glam::Mat4::IDENTITY.to_cols_array()
+/// Part of the distance to the near plane by which a sky may be off the eye. A program that moves its sky to the eye by two matrices leaves what
+/// they round: 1e-4 in a world of thousands, before a near plane at 0.1. Things are at least a near plane's distance away.
+const ROUNDED: f64 = 1.0 / 64.0;
+
+/// Whether a modelview matrix (column-major) rotates or scales about the eye and is not the identity; `p` is the projection matrix.
+fn turns(m: &[f32; 16], p: &[f32; 16]) -> bool {
+    if [m[3], m[7], m[11]] != [0.0; 3] || m[15] == 0.0 || *m == glam::Mat4::IDENTITY.to_cols_array()
+    {
+        return false;
+    }
+    let off = glam::DVec3::new(m[12].into(), m[13].into(), m[14].into()) / f64::from(m[15]);
+    let [near, _] = parallax::planes(p);
+    off == glam::DVec3::ZERO || off.length() <= near * ROUNDED
 }
 
 #[cfg(test)]

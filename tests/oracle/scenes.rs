@@ -8,6 +8,8 @@ pub(crate) struct Scene {
     /// Frames that are compared. More than one where the frames draw by different means. Few, because a long history of immediate mode
     /// crosses the end of Mesa's 512 KiB vertex buffer, and a primitive that is split there may differ by 1 LSB.
     pub(crate) frames: u32,
+    /// The frame from which on frames are compared, counted from 0: later than the first where a frame is drawn by what the one before was.
+    pub(crate) from: u32,
     /// The oracle's picture is that of the window, not the one that the demo reads back.
     pub(crate) window: bool,
 }
@@ -30,12 +32,14 @@ pub(crate) fn scene(name: &str) -> Scene {
         demo,
         arguments,
         frames,
+        from: 0,
         window: false,
     };
     let multisampled = |demo| Scene {
         demo,
         arguments: &["--samples", "4"],
         frames: 1,
+        from: 0,
         window: true,
     };
     match name {
@@ -60,6 +64,11 @@ pub(crate) fn scene(name: &str) -> Scene {
         "arrays" => scene("arrays", &[], 1),
         "immediate" => scene("immediate", &[], 1),
         "sky" => scene("sky", &[], 1),
+        "sky_far_off" => scene("sky", &["--far-off"], 1),
+        "sky_cleared" => Scene {
+            from: 1,
+            ..scene("sky", &["--cleared"], 2)
+        },
         "field" => scene("field", &[], 1),
         "shade" => scene("shade", &[], 1),
         "shade_toon" => scene("shade", &["--toon"], 1),
@@ -105,6 +114,7 @@ pub(crate) fn scene(name: &str) -> Scene {
             demo: "gears",
             arguments: &["--samples", "4", "--unread"],
             frames: 1,
+            from: 0,
             window: true,
         },
         "teapot_srgb" => scene("teapot", &["--srgb"], 1),
@@ -113,6 +123,7 @@ pub(crate) fn scene(name: &str) -> Scene {
             demo: "shade",
             arguments: &["--profile", "es2", "--samples", "4"],
             frames: 1,
+            from: 0,
             window: true,
         },
         "teapot_samples" => multisampled("teapot"),

@@ -111,7 +111,8 @@ impl Layer {
             let needs = classifier.needs(kind, projection, first);
             self.state.read_classification(gl, needs);
             let depth = self.state.classification.depth;
-            if classifier.needs_modelview(projection, first, depth) && !clear {
+            let backdrop = self.known.frame.backdrop.may_go_on();
+            if classifier.needs_modelview(projection, first, depth, backdrop) && !clear {
                 self.state.read_classification(gl, Touch::MODELVIEW);
             }
         }
@@ -120,7 +121,10 @@ impl Layer {
             program if classifier.needs_shader() => self.link_and_hash(program),
             _ => (0, 0),
         };
+        let plain = Traits::of(kind, &self.state);
         Traits {
+            // Such a program places its vertices by matrices of its own.
+            turns: plain.turns && !matches!(shaders, Shaders::Variant(_)),
             target,
             program,
             shader,
@@ -128,8 +132,9 @@ impl Layer {
             list: self.frame.list(),
             raster: self.cameras.raster_placed(),
             first,
+            backdrop: self.known.frame.backdrop.is_expected(),
             projection,
-            ..Traits::of(kind, &self.state)
+            ..plain
         }
     }
 

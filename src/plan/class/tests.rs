@@ -26,6 +26,7 @@ fn facts() -> Traits {
         shader: 0,
         turns: false,
         first: true,
+        backdrop: false,
     }
 }
 
@@ -144,6 +145,19 @@ fn the_state_tells_what_a_draw_is() {
     for (facts, want, why) in cases {
         assert_eq!(class(&c, facts), (want, why), "{facts:?}");
     }
+    let backdrop = Traits {
+        depth_state: DepthState::On,
+        first: false,
+        turns: true,
+        backdrop: true,
+        ..facts()
+    };
+    assert_eq!(class(&c, backdrop), (Class::Sky, Why::Backdrop));
+    let moved = Traits {
+        turns: false,
+        ..backdrop
+    };
+    assert_eq!(class(&c, moved), (Class::Scene, Why::Perspective));
     // A draw that differs from a sky in one respect belongs to the scene.
     for near in [
         Traits {
@@ -169,11 +183,51 @@ fn the_state_tells_what_a_draw_is() {
 
 #[test]
 fn turning_is_neither_moving_nor_standing_still() {
+    // Near plane 0.1, far plane 10,000.
+    let mut p = [0.0; 16];
+    [p[0], p[5], p[10], p[11], p[14]] = [1.4, 1.8, -1.00002, -1.0, -0.200002];
+    let turns = |m: Mat4| turns(&m.to_cols_array(), &p);
     let turned = Mat4::from_rotation_y(0.3) * Mat4::from_scale(Vec3::splat(9.0));
-    assert!(turns(&turned.to_cols_array()));
-    let moved = turned * Mat4::from_translation(Vec3::X);
-    assert!(!turns(&moved.to_cols_array()));
-    assert!(!turns(&Mat4::IDENTITY.to_cols_array()));
+    assert!(turns(turned));
+    assert!(!turns(turned * Mat4::from_translation(Vec3::X)));
+    assert!(!turns(Mat4::IDENTITY));
+    // A camera far from the origin, and a sky that is moved to it.
+    let eye = Vec3::new(-3431.7, 223.9, 2871.3);
+    let turned_to = glam::DMat4::from_rotation_y(0.3);
+    let view = turned_to * glam::DMat4::from_translation(-eye.as_dvec3());
+    let sky = view.as_mat4() * Mat4::from_translation(eye);
+    assert_ne!(sky.w_axis.truncate(), Vec3::ZERO);
+    assert!(turns(sky));
+    // A thing at the near plane is seen to move.
+    let hand = Mat4::from_translation(Vec3::new(0.0, 0.0, -0.1)) * turned;
+    assert!(!turns(hand));
+}
+
+/// Each kind of draw of which a person may want another class, and what is proposed.
+#[test]
+fn a_sky_is_proposed_where_one_may_be_seen() {
+    let around = Traits {
+        turns: true,
+        ..facts()
+    };
+    let before = Traits {
+        depth_state: DepthState::Off,
+        ..facts()
+    };
+    let later = Traits {
+        first: false,
+        ..before
+    };
+    for (facts, want) in [
+        (around, "sky"),
+        (before, "sky"),
+        (later, "flat"),
+        (facts(), "flat"),
+    ] {
+        let classed = classifier("").class(&facts);
+        let line = facts.rule(&classed).expect("a rule");
+        assert!(line.contains(&format!("class = \"{want}\"")), "{line}");
+    }
 }
 
 #[test]
@@ -395,15 +449,19 @@ fn the_depth_of_the_display_changes_what_no_rule_places() {
 #[test]
 fn the_modelview_is_read_only_where_a_sky_is_possible() {
     let c = classifier("");
-    for (projection, first, depth, needed) in [
-        (Projection::Perspective, true, DepthState::Off, true),
-        (Projection::Perspective, true, DepthState::TestOnly, true),
-        (Projection::Perspective, true, DepthState::On, false),
-        (Projection::Perspective, false, DepthState::Off, false),
-        (Projection::Orthographic, true, DepthState::Off, false),
-        (Projection::None, true, DepthState::Off, false),
+    let (perspective, orthographic) = (Projection::Perspective, Projection::Orthographic);
+    for (projection, first, depth, backdrop, needed) in [
+        (perspective, true, DepthState::Off, false, true),
+        (perspective, true, DepthState::TestOnly, false, true),
+        (perspective, true, DepthState::On, false, false),
+        (perspective, true, DepthState::On, true, true),
+        (perspective, false, DepthState::On, true, true),
+        (perspective, false, DepthState::Off, false, false),
+        (orthographic, true, DepthState::Off, true, false),
+        (Projection::None, true, DepthState::Off, true, false),
     ] {
-        assert_eq!(c.needs_modelview(projection, first, depth), needed);
+        let needs = c.needs_modelview(projection, first, depth, backdrop);
+        assert_eq!(needs, needed, "{projection:?} {first} {depth:?} {backdrop}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! The knowledge from earlier commands. Each decision reads it and leaves it updated.
 
+use super::backdrop::Backdrop;
 use super::mono::Mono;
 use super::scene::Scene;
 use crate::config::Strategy;
@@ -37,6 +38,19 @@ pub struct Frame {
     pub wrote_depth: bool,
     /// Whether nearer points have larger depths, by the first draw of the scene.
     pub nearer_is_larger: Option<bool>,
+    /// What is drawn around the eye before the depths are cleared for the scene.
+    pub backdrop: Backdrop,
+}
+
+impl Frame {
+    /// The knowledge that the frame after this one begins with.
+    #[must_use]
+    pub fn next(&self) -> Frame {
+        Frame {
+            backdrop: self.backdrop.next(),
+            ..Frame::default()
+        }
+    }
 }
 
 /// Which depths of the frame are to be captured.

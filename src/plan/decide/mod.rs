@@ -4,6 +4,7 @@
 //! Each rule has its file. A rule reads [`Facts`], reads and changes [`Known`], and may ask for a [`Preparation`] where a fact is missing.
 #![forbid(unsafe_code)]
 
+mod backdrop;
 mod depths;
 mod effect;
 mod facts;
@@ -18,6 +19,7 @@ mod synthesis;
 #[cfg(test)]
 mod tests;
 
+pub use backdrop::Backdrop;
 pub use effect::{Detail, Effect, Preparation};
 pub use facts::{
     ClearFacts, Demand, Destination, Facts, GridFacts, Linked, Projections, Rects, Shaders,

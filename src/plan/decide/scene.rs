@@ -1,7 +1,7 @@
 //! The scene: draws in perspective and, where views are synthesised, the draws that share one depth image.
 
 use super::{Facts, Known, Settings, is_perspective, is_whole};
-use crate::config::{Class, DepthRange, DepthState};
+use crate::config::{Class, DepthState};
 use crate::plan::class::Target;
 use crate::plan::{Ramp, Shear};
 
@@ -55,6 +55,11 @@ impl DisparityMapping {
 }
 
 impl Scene {
+    /// Whether a sky has been drawn, and nothing that has a place.
+    pub(super) fn is_sky_alone(&self) -> bool {
+        self.sky && self.mapping.is_none()
+    }
+
     /// Whether a draw with this mapping belongs to the scene. The first mapping becomes that of the scene.
     pub fn takes(&mut self, new: DisparityMapping) -> bool {
         let known = self.mapping.get_or_insert(new);
@@ -92,8 +97,9 @@ pub(super) fn observe(facts: &Facts, known: &mut Known, settings: &Settings) {
     let shown = matches!(facts.traits.target, Target::Window | Target::Pass(_));
     known.lens = facts.projections.lens.or(known.lens);
     known.frame.draws = facts.traits.draw;
+    known.frame.backdrop.observe(facts);
     if shown {
-        let behind = facts.traits.range == DepthRange::Far;
+        let behind = facts.classed.class == Class::Sky;
         if clear {
             known.frame.wrote_depth = false;
         } else if is_perspective(facts) && facts.traits.first && !behind {

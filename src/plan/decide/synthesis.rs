@@ -4,6 +4,7 @@ use super::{DisparityMapping, Effect, Facts, Known, Method, Plan, ReferenceDraw,
 use super::{Settings, Shaders};
 use crate::config::{Class, DepthState, Viewport};
 use crate::gl::{TextureName, consts as c};
+use crate::plan::class::Why;
 use crate::plan::reason::{NotOfScene, Reason};
 use crate::plan::{Kind, Ramp};
 
@@ -56,6 +57,15 @@ fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>
         |buffer: u32| whole & facts.clear.writable & buffer != 0 && facts.clear.unscissored;
     let all = writes(c::DEPTH_BUFFER_BIT);
     let colours = writes(c::COLOR_BUFFER_BIT);
+    // The depths of a sky. Its picture stays, and is behind everything, as that of a sky without depths.
+    if let Some(scene) = known.scene
+        && scene.is_sky_alone()
+        && all
+        && !colours
+        && facts.clear.depth == scene.clear
+    {
+        return;
+    }
     if let Some(scene) = known.scene
         && scene.begun
         && !((all || colours) && scene.shown)
@@ -118,7 +128,9 @@ fn belongs(
         return no(NotOfScene::PictureInPicture);
     }
     match plan.class {
-        Class::Sky if depth == DepthState::On => no(NotOfScene::SkyWithDepths),
+        Class::Sky if depth == DepthState::On && facts.classed.why != Why::Backdrop => {
+            no(NotOfScene::SkyWithDepths)
+        }
         Class::Sky if depth == DepthState::Off && scene.mapping.is_some() => {
             no(NotOfScene::SkyOverScene)
         }

@@ -9,6 +9,7 @@ use crate::plan::class::{Target, Traits, Why};
 use crate::plan::reason::{Missing, Reason, Replayed, Unrepresentable};
 use crate::state::ClassificationState;
 
+mod backdrop;
 mod classes;
 mod depths;
 mod mono;
@@ -49,6 +50,7 @@ pub(super) fn scene() -> Facts {
             shader: 0,
             turns: false,
             first: true,
+            backdrop: false,
         },
         classed: classed(Class::Scene),
         projections: Projections {

@@ -214,6 +214,28 @@ fn skies_stand_behind_the_scene() {
 }
 
 #[test]
+fn the_depths_of_a_backdrop_are_cleared_within_the_scene() {
+    let mut facts = scene();
+    facts.classed = Classed {
+        why: Why::Backdrop,
+        ..classed(Class::Sky)
+    };
+    assert_eq!(parted(&facts, &begun()), None);
+    let sky = next(&facts, &begun()).known;
+    let mut depths = clear(c::DEPTH_BUFFER_BIT);
+    let after = next(&depths, &sky);
+    assert!(!after.effects.contains(&Effect::SynthesiseViews));
+    assert!(after.known.scene.is_some_and(|scene| scene.sky));
+    // Not to another depth, nor after something that has a place.
+    depths.clear.depth = 0.5;
+    let other = next(&depths, &sky);
+    assert!(other.effects.contains(&Effect::SynthesiseViews));
+    let scene = next(&scene(), &sky).known;
+    let later = next(&clear(c::DEPTH_BUFFER_BIT), &scene);
+    assert!(later.effects.contains(&Effect::SynthesiseViews));
+}
+
+#[test]
 fn passes_over_a_surface_have_its_depths() {
     let mut over = scene();
     over.state.depth = DepthState::TestOnly;
@@ -337,7 +359,7 @@ fn frames_know_whether_something_in_perspective_wrote_depth() {
         &|f| f.traits.projection = Projection::Orthographic,
         &known
     ));
-    assert!(!wrote_depth(&|f| f.traits.range = DepthRange::Far, &known));
+    assert!(!wrote_depth(&|f| f.classed.class = Class::Sky, &known));
     assert!(!wrote_depth(&|f| f.traits.first = false, &known));
     assert!(!wrote_depth(
         &|f| f.traits.target = Target::Framebuffer(1),
