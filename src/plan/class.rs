@@ -333,11 +333,8 @@ impl Traits {
 
     /// Whether a person may see a sky in a draw of the scene: it is drawn around the eye, or without depths before the rest.
     fn may_be_sky(&self) -> bool {
-        let around = self.projection == Projection::Perspective && self.is_around_eye();
-        around
-            || self.first
-                && self.depth_state != DepthState::On
-                && self.projection == Projection::Perspective
+        let before = self.first && self.depth_state != DepthState::On;
+        self.projection == Projection::Perspective && (self.is_around_eye() || before)
     }
 
     /// The line of a profile that would give this draw another class; none where no picture is drawn.
@@ -397,8 +394,10 @@ fn turns(m: &[f32; 16], p: &[f32; 16]) -> bool {
         return false;
     }
     let off = glam::DVec3::new(m[12].into(), m[13].into(), m[14].into()) / f64::from(m[15]);
+    let rotates = [m[1], m[2], m[4], m[6], m[8], m[9]] != [0.0; 6];
     let [near, _] = parallax::planes(p);
-    off == glam::DVec3::ZERO || off.length() <= near * ROUNDED
+    // A camera that does not rotate leaves nothing to round: such a translation is meant, as one to the centres of pixels is.
+    off == glam::DVec3::ZERO || rotates && off.length() <= near * ROUNDED
 }
 
 #[cfg(test)]

@@ -121,10 +121,10 @@ impl Layer {
             program if classifier.needs_shader() => self.link_and_hash(program),
             _ => (0, 0),
         };
-        let plain = Traits::of(kind, &self.state);
+        let by_state = Traits::of(kind, &self.state);
         Traits {
             // Such a program places its vertices by matrices of its own.
-            turns: plain.turns && !matches!(shaders, Shaders::Variant(_)),
+            turns: by_state.turns && !matches!(shaders, Shaders::Variant(_)),
             target,
             program,
             shader,
@@ -134,7 +134,7 @@ impl Layer {
             first,
             backdrop: self.known.frame.backdrop.is_expected(),
             projection,
-            ..plain
+            ..by_state
         }
     }
 

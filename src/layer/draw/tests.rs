@@ -7,7 +7,7 @@ use crate::gl::{FramebufferName, ListName, consts as c};
 use crate::layer::tests::bench::Bench;
 use crate::layer::tests::variants::program;
 use crate::plan::class::Target;
-use crate::plan::decide::Linked;
+use crate::plan::decide::{Linked, Shaders};
 use crate::plan::{Facts, Kind};
 use crate::state::Touch;
 
@@ -264,6 +264,24 @@ fn the_modelview_is_read_only_where_a_rule_needs_it() {
     bench.facts(TRIANGLES);
     let asked = bench.fake.asked();
     assert!(asked.iter().any(modelview), "{asked:?}");
+}
+
+/// A modelview that is left over from fixed function says nothing about a program that places its vertices itself.
+#[test]
+fn the_modelview_turns_fixed_function_alone() {
+    let mut bench = bench(&[]);
+    bench.frame();
+    bench.clear();
+    bench.set(Touch::DEPTH, |gl| gl.disable(c::DEPTH_TEST));
+    let turned = glam::Mat4::from_rotation_y(0.3).to_cols_array();
+    bench.set(Touch::MODELVIEW, |gl| gl.load_matrix(&turned));
+    assert!(bench.facts(TRIANGLES).traits.is_around_eye());
+    let (program, gl) = (program(&mut bench), bench.gl);
+    bench.layer.link_variant(&gl, program);
+    bench.layer.touch(Touch::OBJECTS);
+    let facts = bench.facts(TRIANGLES);
+    assert!(matches!(facts.shaders, Shaders::Variant(_)));
+    assert!(!facts.traits.is_around_eye());
 }
 
 #[test]

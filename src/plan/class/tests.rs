@@ -198,6 +198,13 @@ fn turning_is_neither_moving_nor_standing_still() {
     let sky = view.as_mat4() * Mat4::from_translation(eye);
     assert_ne!(sky.w_axis.truncate(), Vec3::ZERO);
     assert!(turns(sky));
+    // Meant as they are: nothing has been rounded.
+    assert!(!turns(Mat4::from_translation(sky.w_axis.truncate())));
+    let scaled = Mat4::from_scale(Vec3::splat(2.0));
+    assert!(turns(scaled));
+    assert!(!turns(
+        Mat4::from_translation(sky.w_axis.truncate()) * scaled
+    ));
     // A thing at the near plane is seen to move.
     let hand = Mat4::from_translation(Vec3::new(0.0, 0.0, -0.1)) * turned;
     assert!(!turns(hand));

@@ -37,7 +37,7 @@ enum Progress {
 impl Backdrop {
     /// Whether what is drawn around the eye now stands behind everything, by the last frame.
     pub fn is_expected(&self) -> bool {
-        self.expected && matches!(self.progress, Progress::Nothing | Progress::Around(_))
+        self.expected && self.may_go_on()
     }
 
     /// Whether nothing but a backdrop has been drawn in perspective, so that the next draw may belong to it.
@@ -62,7 +62,10 @@ impl Backdrop {
             return;
         }
         if let Kind::Clear { depths, whole } = traits.kind {
-            if whole & c::COLOR_BUFFER_BIT != 0 && facts.rects.scissor.is_none() {
+            if !facts.clear.unscissored {
+                return;
+            }
+            if whole & c::COLOR_BUFFER_BIT != 0 {
                 self.progress = Progress::Nothing;
             } else if let (true, Progress::Around(draws)) = (depths, self.progress) {
                 self.progress = Progress::Cleared(draws, 0);

@@ -60,6 +60,7 @@ fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>
     // The depths of a sky. Its picture stays, and is behind everything, as that of a sky without depths.
     if let Some(scene) = known.scene
         && scene.is_sky_alone()
+        && !scene.shown
         && all
         && !colours
         && facts.clear.depth == scene.clear

@@ -226,6 +226,11 @@ fn the_depths_of_a_backdrop_are_cleared_within_the_scene() {
     let after = next(&depths, &sky);
     assert!(!after.effects.contains(&Effect::SynthesiseViews));
     assert!(after.known.scene.is_some_and(|scene| scene.sky));
+    // A picture that was shown is one of an earlier frame.
+    let mut shown = sky;
+    shown.scene.as_mut().expect("a scene").shown = true;
+    let again = next(&depths, &shown).known.scene.expect("a scene");
+    assert!(!again.sky);
     // Not to another depth, nor after something that has a place.
     depths.clear.depth = 0.5;
     let other = next(&depths, &sky);
