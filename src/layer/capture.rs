@@ -18,7 +18,7 @@ impl Layer {
         if let Some(wanted) = &self.session.config.capture
             && (wanted.first..=wanted.last).contains(&frame)
         {
-            self.diagnostics.report.write(self.session.config, frame);
+            self.diagnostics.write(self.session.config, frame);
             if let Err(e) = self.write(gl, neutral, source, wanted, frame) {
                 self.diagnostics
                     .report

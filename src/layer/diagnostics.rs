@@ -1,6 +1,7 @@
 //! Diagnostics of the frames: the report, one frame explained, the proof against replay, pictures on request.
 
 use super::{control, explain, prove};
+use crate::config::Config;
 use crate::gl::Count;
 use crate::plan::Reason;
 use crate::report::{Counts, Report};
@@ -46,7 +47,14 @@ impl Diagnostics {
         self.announced.push(sentence);
     }
 
-    /// At the end of a frame: gives its fallbacks to the report.
+    /// Within frame `frame`: writes the report and the status, with the fallbacks so far. The launcher may end the program before the frame
+    /// is counted.
+    pub(super) fn write(&mut self, config: &Config, frame: u64) {
+        self.report_fallbacks();
+        self.report.write(config, frame);
+    }
+
+    /// Gives the fallbacks of the frame to the report.
     pub(super) fn report_fallbacks(&mut self) {
         for (reason, count) in self.fallbacks.take() {
             self.report.fallbacks(&reason, count);

@@ -320,7 +320,7 @@ impl Layer {
         if let Some(proof) = &mut self.diagnostics.report.proof {
             what(proof);
         }
-        self.diagnostics.report.write(self.session.config, frame);
+        self.diagnostics.write(self.session.config, frame);
     }
 
     fn compare(&mut self, gl: &Gl, neutral: &Neutral, exact: Option<RgbImage>) {

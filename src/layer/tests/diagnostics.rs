@@ -50,6 +50,33 @@ fn a_frame_gives_its_fallbacks_to_the_report() {
     assert_eq!(fallbacks(&bench), json!({Reason::Program.to_string(): 1}));
 }
 
+/// The launcher ends the program as soon as it has the picture.
+#[test]
+fn the_report_of_a_captured_frame_has_its_fallbacks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [report, out] = ["report.json", "frame.png"].map(|name| folder.path().join(name));
+    let [report_text, out] = [&report, &out].map(|path| path.display().to_string());
+    let mut bench = Bench::new(&[
+        ("VIEWS", "2"),
+        ("STRATEGY", "replay"),
+        ("REPORT", &report_text),
+        ("CAPTURE_OUT", &out),
+        ("CAPTURE_FRAMES", "1"),
+    ]);
+    bench.layer.diagnostics.fallback(Reason::Program);
+    bench.layer.show(&bench.gl, true);
+    let text = std::fs::read_to_string(&report).expect("a report");
+    let mut report: Value = serde_json::from_str(&text).expect("JSON");
+    let counts = json!({Reason::Program.to_string(): 1});
+    assert_eq!(report["fallbacks"].take(), counts);
+    bench.layer.count_frame();
+    assert_eq!(
+        told(&bench.layer.diagnostics, "fallbacks"),
+        counts,
+        "counted once"
+    );
+}
+
 #[test]
 fn the_report_has_the_names_that_are_made_and_not_deleted() {
     let mut diagnostics = Diagnostics::new(Report::default());
