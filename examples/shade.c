@@ -1,15 +1,18 @@
 /* Programs with shaders, in buffers: light per pixel, or in steps (--toon), and a flat display by the same program. --glsl 120: attributes and
- * varyings, matrices as uniforms; 330: the camera in a uniform block, the model in a uniform. In OpenGL ES these are GLSL 1.00 and 3.00 es. */
+ * varyings, matrices as uniforms; 330: the camera in a uniform block, the model in a uniform. In OpenGL ES these are GLSL 1.00 and 3.00 es.
+ * --sky: a triangle over the whole screen, whose fragments compute their rays by the inverse of the projection: before the scene, with depths
+ * (120), or after it, at the far end (330). */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static int version = 120, toon, combined;
+static int version = 120, toon, combined, sky;
 const struct demo_option demo_options[] = {
     {"--glsl", "120 or 330 (default 120)", &version, 1},
     {"--toon", "steps of light and dark outlines", &toon, 0},
     {"--combined", "one matrix for projection, camera and model (120)", &combined, 0},
+    {"--sky", "a sky by the rays of fragments", &sky, 0},
     {0}};
 
 static const char *const vertex_120 =
@@ -51,9 +54,10 @@ static const char *const fragment_120 =
     "    float net = mod(floor(at.x) + floor(at.y), 2.0);\n"
     "    gl_FragColor = vec4(colour.rgb * mix(0.17 + 0.8 * light, 0.8 + 0.2 * net, unlit), colour.a);\n"
     "}\n";
+#define CAMERA "layout(std140) uniform Camera { vec4 sun; mat4 projection; mat4 view; mat4 unprojection; } camera;\n"
 static const char *const vertex_330 =
     "#version 330 core\n"
-    "layout(std140) uniform Camera { vec4 sun; mat4 projection; mat4 view; } camera;\n"
+    CAMERA
     "uniform mat4 model;\n"
     "uniform float size;\n"
     "layout(location = 0) in vec3 position;\n"
@@ -68,7 +72,7 @@ static const char *const vertex_330 =
     "}\n";
 static const char *const fragment_330 =
     "#version 330 core\n"
-    "layout(std140) uniform Camera { vec4 sun; mat4 projection; mat4 view; } camera;\n"
+    CAMERA
     "uniform vec4 colour;\n"
     "uniform float steps, unlit;\n"
     "in vec3 eye, n;\n"
@@ -82,13 +86,49 @@ static const char *const fragment_330 =
     "    shown = vec4(colour.rgb * mix(0.17 + 0.8 * light, 0.8 + 0.2 * net, unlit), colour.a);\n"
     "}\n";
 
-enum { SLICES = 48, STACKS = 24, QUAD = 4 };
-static GLuint program, buffer, indices, block;
+/* At the far end of the depth range. */
+static const char *const sky_vertex_120 =
+    "#version 120\n"
+    "attribute vec3 position;\n"
+    "void main() { gl_Position = vec4(position.xy, 1.0, 1.0); }\n";
+static const char *const sky_vertex_330 =
+    "#version 330 core\n"
+    "layout(location = 0) in vec3 position;\n"
+    "void main() { gl_Position = vec4(position.xy, 1.0, 1.0); }\n";
+#define CLOUDS \
+    "    vec3 ray = normalize(far.xyz / far.w);\n" \
+    "    float band = 0.5 + 0.5 * sin(24.0 * ray.x) * sin(24.0 * ray.y);\n"
+static const char *const sky_fragment_120 =
+    "#version 120\n"
+    "uniform vec4 screen;\n"
+    "uniform mat4 projection, unprojection;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 at = (gl_FragCoord.xy - screen.xy) / screen.zw * 2.0 - 1.0;\n"
+    "    vec4 far = unprojection * vec4(at, 1.0, 1.0);\n"
+    CLOUDS
+    "    gl_FragColor = vec4(0.2, 0.3, 0.3 + 0.5 * band, 1.0 + 0.0 * projection[0][0]);\n"
+    "}\n";
+static const char *const sky_fragment_330 =
+    "#version 330 core\n"
+    CAMERA
+    "uniform vec4 screen;\n"
+    "out vec4 shown;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 at = (gl_FragCoord.xy - screen.xy) / screen.zw * 2.0 - 1.0;\n"
+    "    vec4 far = camera.unprojection * vec4(at, 1.0, 1.0);\n"
+    CLOUDS
+    "    shown = vec4(0.2, 0.3, 0.3 + 0.5 * band, 1.0);\n"
+    "}\n";
+
+enum { SLICES = 48, STACKS = 24, QUAD = 4, TRIANGLE = 3 };
+static GLuint program, heaven, buffer, indices, block;
 static GLsizei count;
 
 void demo_setup(void)
 {
-    GLfloat(*v)[6] = malloc(sizeof *v * (SLICES + 1) * (STACKS + 1) + sizeof *v * QUAD);
+    GLfloat(*v)[6] = calloc((SLICES + 1) * (STACKS + 1) + QUAD + TRIANGLE, sizeof *v);
     GLushort *i = malloc(sizeof *i * 6 * SLICES * STACKS), *o = i;
     if (!v || !i)
         demo_fail(1, "out of memory");
@@ -115,6 +155,10 @@ void demo_setup(void)
         p[0] = c == 1 || c == 2 ? 1.0f : -1.0f, p[1] = c >= 2 ? 1.0f : -1.0f, p[2] = 0.0f;
         p[3] = p[4] = 0.0f, p[5] = 1.0f;
     }
+    for (int c = 0; c < TRIANGLE; c++) {
+        GLfloat *p = v[(SLICES + 1) * (STACKS + 1) + QUAD + c];
+        p[0] = c == 1 ? 3.0f : -1.0f, p[1] = c == 2 ? 3.0f : -1.0f;
+    }
     if (version == 330) {
         GLuint arrays;
         glGenVertexArrays(1, &arrays);
@@ -122,7 +166,7 @@ void demo_setup(void)
     }
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof *v * ((SLICES + 1) * (STACKS + 1) + QUAD)), v, GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof *v * ((SLICES + 1) * (STACKS + 1) + QUAD + TRIANGLE)), v, GL_STATIC_DRAW);
     glGenBuffers(1, &indices);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)sizeof *i * count, i, GL_STATIC_DRAW);
@@ -130,9 +174,13 @@ void demo_setup(void)
     free(i);
     program = demo_program(version == 330 ? vertex_330 : combined ? vertex_combined : vertex_120,
                            version == 330 ? fragment_330 : fragment_120);
+    if (sky)
+        heaven = demo_program(version == 330 ? sky_vertex_330 : sky_vertex_120, version == 330 ? sky_fragment_330 : sky_fragment_120);
     if (version == 330) {
         glGenBuffers(1, &block);
         glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Camera"), 3);
+        if (sky)
+            glUniformBlockBinding(heaven, glGetUniformBlockIndex(heaven, "Camera"), 3);
         glBindBufferBase(GL_UNIFORM_BUFFER, 3, block);
     }
     glEnableVertexAttribArray(0);
@@ -149,9 +197,10 @@ static void load(const demo_matrix projection, const demo_matrix view, const dem
 {
     demo_matrix mv, all;
     if (version == 330) {
-        GLfloat camera[36] = {3.0f, 6.0f, 2.0f, 1.0f};
+        GLfloat camera[52] = {3.0f, 6.0f, 2.0f, 1.0f};
         memcpy(camera + 4, projection, sizeof(demo_matrix));
         memcpy(camera + 20, view, sizeof(demo_matrix));
+        demo_inverse(camera + 36, projection);
         glBindBuffer(GL_UNIFORM_BUFFER, block);
         glBufferData(GL_UNIFORM_BUFFER, sizeof camera, camera, GL_STREAM_DRAW);
         glUniformMatrix4fv(at("model"), 1, 0, model);
@@ -161,6 +210,22 @@ static void load(const demo_matrix projection, const demo_matrix view, const dem
     demo_times(all, projection, mv);
     glUniformMatrix4fv(at("modelview"), 1, 0, mv);
     glUniformMatrix4fv(at(combined ? "everything" : "projection"), 1, 0, combined ? all : projection);
+}
+
+static void draw_sky(const demo_matrix projection)
+{
+    demo_matrix back;
+    glUseProgram(heaven);
+    glUniform4f(glGetUniformLocation(heaven, "screen"), (GLfloat)demo_x, (GLfloat)demo_y, (GLfloat)demo_width, (GLfloat)demo_height);
+    if (version == 120) {
+        demo_inverse(back, projection);
+        glUniformMatrix4fv(glGetUniformLocation(heaven, "projection"), 1, 0, projection);
+        glUniformMatrix4fv(glGetUniformLocation(heaven, "unprojection"), 1, 0, back);
+    }
+    glDepthFunc(GL_LEQUAL);
+    glDrawArrays(GL_TRIANGLES, (SLICES + 1) * (STACKS + 1) + QUAD, TRIANGLE);
+    glDepthFunc(GL_LESS);
+    glUseProgram(program);
 }
 
 void demo_frame(int frame)
@@ -173,6 +238,8 @@ void demo_frame(int frame)
     glUseProgram(program);
     demo_frustum(projection, 40.0, (double)demo_width / demo_height, 1.0, 50.0);
     demo_view(projection);
+    if (sky && version == 120)
+        draw_sky(projection);
     glUniform1f(at("steps"), toon ? 3.0f : 0.0f);
     glUniform1f(at("unlit"), 0.0f);
     glUniform1f(at("size"), 1.0f);
@@ -183,6 +250,8 @@ void demo_frame(int frame)
         glUniform4f(at("colour"), (GLfloat)(0.55 + 0.4 * sin(1.1 * k)), (GLfloat)(0.55 + 0.4 * sin(1.1 * k + 2.0)), 0.7f, 1.0f);
         glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_SHORT, (void *)0);
     }
+    if (sky && version == 330)
+        draw_sky(projection);
     /* The display: no depth, no perspective. */
     glDisable(GL_DEPTH_TEST);
     glUniform1f(at("unlit"), 1.0f);

@@ -30,11 +30,13 @@ const KINDS: [Scene; 7] = [
     &["blur"],
 ];
 
-const SCENES: [Scene; 19] = [
+const SCENES: [Scene; 21] = [
     &["arrays"],
     &["arrays", "--many", "1000"],
     &["shade", "--glsl", "330"],
     &["shade", "--toon"],
+    &["shade", "--sky"],
+    &["shade", "--sky", "--glsl", "330"],
     &["immediate"],
     &["room"],
     &["mirror"],

@@ -19,7 +19,7 @@ use support::{Screen, bare, layered, own_screen};
 const APART: [&str; 2] = ["front", "swaps"];
 
 /// Seeds that are known to differ, and the reason.
-const KNOWN: [(u64, &str); 17] = [
+const KNOWN: [(u64, &str); 18] = [
     (63_298, DRAW_BUFFER),
     (65_024, FOLLOWS),
     (104_533, COLOUR),
@@ -29,6 +29,7 @@ const KNOWN: [(u64, &str); 17] = [
     (109_738, DRAW_BUFFER),
     (109_793, COLOUR),
     (109_958, DRAW_BUFFER),
+    (111_753, ZOOM),
     (111_843, DRAW_BUFFER),
     (112_359, CURRENT),
     (112_430, DRAW_BUFFER),
@@ -45,6 +46,7 @@ const FOLLOWS: &str =
 const CURRENT: &str = "Mesa alone keeps a current value that glPopAttrib should restore, if a list has set it that calls glPushAttrib";
 const WITHIN: &str = "a list with a whole primitive is called within another, which is an error: Mesa draws neither and makes the other calls of \
     the list, the layer makes those for each view (docs/limits.md)";
+const ZOOM: &str = "in 32 bits: Mesa alone rounds the edges of zoomed pixels otherwise at another place in the framebuffer (docs/limits.md)";
 const DRAW_BUFFER: &str = "Mesa alone keeps the draw buffer of framebuffer 0 with the drawable, if another framebuffer is bound while \
     the drawable is exchanged; the layer keeps it with the context";
 

@@ -219,7 +219,7 @@ const WAYS: [&[&str]; 4] = [
 ];
 
 /// Scenes with draws that depths cannot describe, the kind of draw that ends synthesis, and the least PSNR of the worst view, in dB.
-const HARD: [(&[&str], &str, f64); 12] = [
+const HARD: [(&[&str], &str, f64); 14] = [
     (&["gears"], "", 31.0),
     (&["gears", "--samples", "4"], "", 35.0),
     (&["teapot"], "", 35.0),
@@ -236,6 +236,12 @@ const HARD: [(&[&str], &str, f64); 12] = [
         37.0,
     ),
     (&["shade"], "what has no depths", 37.0),
+    (&["shade", "--sky"], "what has no depths", 35.0),
+    (
+        &["shade", "--sky", "--glsl", "330"],
+        "what shaders compute for places on the screen",
+        35.0,
+    ),
 ];
 
 #[test]

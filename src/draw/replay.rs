@@ -203,7 +203,8 @@ impl<'a> Sending<'a> {
             if !self.hazard.is_draw_alone() {
                 enable_scissor(self.gl, self.state, &self.tiles);
             }
-            set_rectangles(self.gl, self.state, &self.tiles, view, x);
+            let noted = !self.hazard.is_draw_alone();
+            set_rectangles(self.gl, self.state, &self.tiles, view, x, noted);
         } else if self.beside() {
             self.state.rectangles.put(self.gl);
         }
@@ -342,7 +343,7 @@ pub fn others(
 /// Sets the program's viewport and scissor in the tile of a view, which begins at `offset` pixels; the scissor is cut to the tile.
 pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) {
     enable_scissor(gl, state, tiles);
-    set_rectangles(gl, state, tiles, view, offset);
+    set_rectangles(gl, state, tiles, view, offset, true);
 }
 
 /// Turns the scissor test on, which keeps draws in their tiles. With several rectangles, [`set_rectangles`] does.
@@ -353,8 +354,15 @@ fn enable_scissor(gl: &Gl, state: &State, tiles: &Tiles) {
     }
 }
 
-/// [`set_tile_viewport`] while the scissor test is on.
-fn set_rectangles(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) {
+/// [`set_tile_viewport`] while the scissor test is on. `noted`: something may ask for the rectangles before the program's are set again.
+fn set_rectangles(
+    gl: &Gl,
+    state: &State,
+    tiles: &Tiles,
+    view: ViewIndex,
+    offset: i32,
+    noted: bool,
+) {
     if state.rectangles.are_several() && tiles.grid.is_full() {
         for (index, own) in (0..).zip(&state.rectangles.indexed) {
             let [x, y, w, h] = own.viewport;
@@ -368,14 +376,20 @@ fn set_rectangles(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex, offset
         }
         return;
     }
-    if tiles.grid.is_full() {
-        let [x, y, w, h] = state.rectangles.viewport;
-        gl.viewport(x + offset, y, w, h);
-    } else {
+    let scissor = cut(state, tiles, view, offset);
+    if !tiles.grid.is_full() {
         gl.viewport_f(tiles.grid.viewport(view, offset, state.rectangles.viewport));
+    } else {
+        let [x, y, w, h] = state.rectangles.viewport;
+        match noted {
+            true => gl.viewport(x + offset, y, w, h),
+            false => gl.viewport_of_view([x + offset, y, w, h]),
+        }
     }
-    let [x, y, w, h] = cut(state, tiles, view, offset);
-    gl.scissor(x, y, w, h);
+    match (noted, scissor) {
+        (true, [x, y, w, h]) => gl.scissor(x, y, w, h),
+        (false, scissor) => gl.scissor_of_view(scissor),
+    }
 }
 
 /// The scissor rectangle of a tile, in pixels of the atlas: the whole tile, or the program's scissor in it.
@@ -545,11 +559,14 @@ impl<'a> Projection<'a> {
             None if self.is_slanted() => *p,
             None => return,
         };
-        self.put(&if self.is_slanted() {
-            self.grid.slant(self.state.rectangles.viewport, &p)
-        } else {
-            p
-        });
+        let p = match self.is_slanted() {
+            true => self.grid.slant(self.state.rectangles.viewport, &p),
+            false => p,
+        };
+        match self.selected {
+            true => self.gl.load_matrix_of_view(&p),
+            false => self.put(&p),
+        }
     }
 
     /// Loads the program's own projection again.

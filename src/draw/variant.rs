@@ -399,12 +399,13 @@ impl Variant {
         let shift = |&place: &f64| {
             let sep = |shear: &Shear| shear.separation(place);
             let scene = shear.map_or((0.0, 0.0), |s| (sep(&s), sep(&s) * s.conv));
-            let flat = match flat {
-                Flat::Still => 0.0,
-                Flat::By(shear) => sep(&shear),
-                Flat::Scene => scene.0 - scene.1,
+            // The last number: corners of the screen stay.
+            let (flat, corners) = match flat {
+                Flat::Still => (0.0, 0.0),
+                Flat::By(shear) => (sep(&shear), 0.0),
+                Flat::Scene => (scene.0 - scene.1, 1.0),
             };
-            [scene.0 as f32, scene.1 as f32, flat as f32, 0.0]
+            [scene.0 as f32, scene.1 as f32, flat as f32, corners]
         };
         let shifts: Vec<_> = places.iter().map(shift).collect();
         gl.uniform_4fv(self.shift, &shifts);

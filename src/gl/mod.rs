@@ -20,6 +20,7 @@ mod list_names;
 mod object_names;
 mod own_objects;
 mod own_textures;
+mod per_view;
 mod pixel_store;
 mod pixels;
 mod positions;

@@ -2,7 +2,7 @@
 
 use super::consts as c;
 use super::real::Ptr;
-use super::{BufferName, Gl, ProgramName, ShaderName, shadow};
+use super::{BoundRange, BufferName, Gl, ProgramName, ShaderName, shadow};
 use std::ffi::{CStr, CString};
 
 /// An active uniform or attribute.
@@ -37,6 +37,16 @@ pub struct BlockPlace {
     pub offset: usize,
     /// Its rows lie behind each other, rather than its columns.
     pub row_major: bool,
+}
+
+impl BlockPlace {
+    /// A column-major matrix as it lies in the block, or the other way round.
+    pub fn laid_out(&self, m: [f32; 16]) -> [f32; 16] {
+        match self.row_major {
+            true => std::array::from_fn(|i| m[i % 4 * 4 + i / 4]),
+            false => m,
+        }
+    }
 }
 
 impl Gl {
@@ -238,11 +248,15 @@ impl Gl {
         })
     }
 
-    /// The buffer that is bound to a binding point of uniform blocks, and the byte at which the blocks begin.
-    pub fn uniform_binding(&self, binding: u32) -> (BufferName, usize) {
-        let [buffer] = self.get_integers_indexed::<1>(c::UNIFORM_BUFFER_BINDING, binding);
-        let [start] = self.get_integers_indexed::<1>(c::UNIFORM_BUFFER_START, binding);
-        (BufferName(buffer.max(0) as u32), start.max(0) as usize)
+    /// What is bound to a binding point of uniform blocks.
+    pub fn uniform_binding(&self, binding: u32) -> BoundRange {
+        let ask = |name| self.get_integers_indexed::<1>(name, binding)[0].max(0);
+        let size = ask(c::UNIFORM_BUFFER_SIZE) as usize;
+        BoundRange {
+            buffer: BufferName(ask(c::UNIFORM_BUFFER_BINDING) as u32),
+            start: ask(c::UNIFORM_BUFFER_START) as usize,
+            size: (size > 0).then_some(size),
+        }
     }
 
     /// 16 numbers of single precision in a buffer, from a byte on. Waits for the driver, and may raise an error.

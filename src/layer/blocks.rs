@@ -1,10 +1,14 @@
 //! Uniform blocks of the program's shaders: the buffers that are bound to them, and the matrices that are in those.
 
+use super::own_variants::Unprojections;
+use super::side_effects::{ViewBlock, ViewMatrix};
 use super::{Layer, Member};
 use crate::gl::{
     BindingPoint, BlockPlace, BoundRange, BufferName, Gl, Mapping, ProgramName, consts as c,
 };
+use crate::plan::{Shear, camera};
 use crate::state::{Found, State, UniformBuffers, binding_change, block_changes, link_change};
+use crate::view::ViewIndex;
 use rustc_hash::FxHashMap;
 use std::sync::MutexGuard;
 
@@ -22,9 +26,8 @@ pub enum BufferRef {
 pub(super) struct Blocks {
     /// By target, but for GL_ELEMENT_ARRAY_BUFFER.
     bound: FxHashMap<u32, BufferName>,
-    /// Binding points of uniform blocks: the buffer, and the byte at which blocks begin. The driver is asked once for those that were bound
-    /// unseen.
-    points: FxHashMap<u32, (BufferName, usize)>,
+    /// What is bound at binding points of uniform blocks. The driver is asked once for those that were bound unseen.
+    points: FxHashMap<u32, BoundRange>,
     /// The binding points of a program's blocks, and the state of links and bindings when the driver was asked for them.
     programs: FxHashMap<ProgramName, ([u64; 2], Vec<u32>)>,
     /// The report says that cameras are read back.
@@ -52,22 +55,35 @@ impl Blocks {
         self.bound.insert(target, buffer);
     }
 
-    /// The buffer and byte where a uniform of a block lies.
+    /// The binding point of a uniform's block, and what is bound there.
     fn place(
         &mut self,
         gl: &Gl,
         program: ProgramName,
         place: BlockPlace,
-    ) -> Option<(BufferName, usize)> {
+    ) -> Option<(u32, BoundRange)> {
         let now = [link_change(), binding_change()];
         let known = self.programs.entry(program).or_default();
         if known.0 != now {
             *known = (now, gl.block_bindings(program));
         }
         let point = *known.1.get(place.block as usize)?;
+        let range = self.range(gl, point);
+        (!range.buffer.is_zero()).then_some((point, range))
+    }
+
+    /// What is bound at a binding point.
+    fn range(&mut self, gl: &Gl, point: u32) -> BoundRange {
         let asked = || gl.uniform_binding(point);
-        let &mut (buffer, start) = self.points.entry(point).or_insert_with(asked);
-        (!buffer.is_zero()).then_some((buffer, start + place.offset))
+        *self.points.entry(point).or_insert_with(asked)
+    }
+
+    /// All binding points that are known, with what is bound there.
+    pub(super) fn bindings(&self) -> impl Iterator<Item = (BindingPoint, &BoundRange)> {
+        self.points.iter().map(|(&index, range)| {
+            let target = c::UNIFORM_BUFFER;
+            (BindingPoint { target, index }, range)
+        })
     }
 }
 
@@ -76,13 +92,14 @@ impl BlockReader<'_> {
     pub(super) fn are_live(&mut self, program: ProgramName, places: &[BlockPlace]) -> bool {
         places.iter().any(|&place| {
             let found = self.blocks.place(self.gl, program, place);
-            found.is_some_and(|(buffer, _)| self.group.uniform_buffers().is_live(buffer))
+            found.is_some_and(|(_, range)| self.group.uniform_buffers().is_live(range.buffer))
         })
     }
 
     /// The current value of a matrix, column-major. None where it cannot be told now.
     pub(super) fn matrix(&mut self, program: ProgramName, place: BlockPlace) -> Option<[f32; 16]> {
-        let (buffer, at) = self.blocks.place(self.gl, program, place)?;
+        let (_, range) = self.blocks.place(self.gl, program, place)?;
+        let (buffer, at) = (range.buffer, range.start + place.offset);
         let found = {
             let mut buffers = self.group.uniform_buffers();
             buffers.follow(buffer);
@@ -93,10 +110,7 @@ impl BlockReader<'_> {
             Found::Mapped => return None,
             Found::Unknown => self.ask(buffer, at)?,
         };
-        Some(match place.row_major {
-            true => std::array::from_fn(|i| numbers[i % 4 * 4 + i / 4]),
-            false => numbers,
-        })
+        Some(place.laid_out(numbers))
     }
 
     fn ask(&mut self, buffer: BufferName, at: usize) -> Option<[f32; 16]> {
@@ -114,6 +128,45 @@ impl BlockReader<'_> {
 }
 
 impl Layer {
+    /// The uniform blocks of the program in use that each view has of its own, for the matrices that unproject.
+    pub(super) fn view_blocks(
+        &mut self,
+        gl: &Gl,
+        shear: Option<Shear>,
+        unprojections: &Unprojections,
+    ) -> Vec<ViewBlock> {
+        let (program, rig) = (self.state.in_use.program, self.known.rig);
+        let views = self.session.config.views;
+        let Some(shear) = shear else {
+            return Vec::new();
+        };
+        let mut found: Vec<ViewBlock> = Vec::new();
+        for &(place, matrix) in &unprojections.in_blocks {
+            let Some((index, range)) = self.blocks.place(gl, program, place) else {
+                continue;
+            };
+            let of_view = |view| match rig.position(ViewIndex(view)) {
+                0.0 => None,
+                at => Some(place.laid_out(camera::unprojection(&matrix, &shear, at))),
+            };
+            let matrix = ViewMatrix {
+                offset: place.offset,
+                views: (0..views).map(of_view).collect(),
+            };
+            let target = c::UNIFORM_BUFFER;
+            let point = BindingPoint { target, index };
+            match found.iter_mut().find(|block| block.point == point) {
+                Some(block) => block.matrices.push(matrix),
+                None => found.push(ViewBlock {
+                    point,
+                    range,
+                    matrices: vec![matrix],
+                }),
+            }
+        }
+        found
+    }
+
     /// The contents of uniform buffers that are followed.
     pub(super) fn buffers(&self) -> MutexGuard<'_, UniformBuffers> {
         self.session.group.uniform_buffers()
@@ -148,7 +201,7 @@ impl Layer {
         match target {
             c::UNIFORM_BUFFER => {
                 self.buffers().follow(buffer);
-                self.blocks.points.insert(index, (buffer, range.start));
+                self.blocks.points.insert(index, range);
                 block_changes();
             }
             c::SHADER_STORAGE_BUFFER | c::ATOMIC_COUNTER_BUFFER | c::TRANSFORM_FEEDBACK_BUFFER => {
@@ -212,7 +265,7 @@ impl Layer {
         self.blocks.bound.retain(|_, bound| !names.contains(bound));
         self.blocks
             .points
-            .retain(|_, (bound, _)| !names.contains(bound));
+            .retain(|_, bound| !names.contains(&bound.buffer));
         self.write_bindings.deleted(names);
         block_changes();
     }

@@ -41,7 +41,7 @@ impl Layer {
         for image in images.iter().filter(writes) {
             self.split_image(gl, image.texture);
         }
-        let mut redirection = self.redirect(gl, &images);
+        let mut redirection = self.redirect(gl, &images, Vec::new());
         let tiles = Tiles {
             shown: self.wanted_views(),
             ..self.targets.atlas.tiles

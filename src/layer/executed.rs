@@ -73,7 +73,7 @@ impl Layer {
         }
         // The own view is drawn.
         let mut redirection = match own.everywhere {
-            true => self.redirect(gl, &own.units),
+            true => self.redirect(gl, &own.units, Vec::new()),
             false => Redirection::default(),
         };
         let surface: &mut dyn Surface = match &mut own.target {

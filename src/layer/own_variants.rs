@@ -2,7 +2,7 @@
 
 use super::blocks::BlockReader;
 use crate::draw::{Drawn, NoVariant, Variant};
-use crate::gl::{Gl, Held, ProgramName};
+use crate::gl::{BlockPlace, Gl, Held, ProgramName};
 use crate::plan::camera;
 use crate::plan::decide::Linked as Linking;
 use crate::state::{Matrices, Samplers, SideEffects, block_change, link_change, uniform_change};
@@ -49,6 +49,21 @@ struct Camera {
     projection: [f32; 16],
 }
 
+/// The matrices by which a program computes positions from places on the screen, those of its vertices or of its fragments. Values are
+/// column-major.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Unprojections {
+    /// Plain uniforms, by their locations.
+    pub(super) uniforms: Vec<(i32, [f32; 16])>,
+    pub(super) in_blocks: Vec<(BlockPlace, [f32; 16])>,
+}
+
+impl Unprojections {
+    pub(super) fn is_empty(&self) -> bool {
+        self.uniforms.is_empty() && self.in_blocks.is_empty()
+    }
+}
+
 /// State of the search for a program's camera.
 #[derive(Debug)]
 struct CameraSearch {
@@ -77,9 +92,9 @@ pub(super) struct ProgramRecord {
     effects: SideEffects,
     /// [`uniform_change`] when the samplers were last read, and their texture units with the targets.
     units: (u64, Vec<(u32, u32)>),
-    /// Its matrices that unproject depths, with their locations. Before them: [`uniform_change`] and the aspect ratio that they were found
-    /// for.
-    unprojections: (u64, f64, Vec<(i32, [f32; 16])>),
+    /// Before its matrices that unproject: [`uniform_change`] and [`block_change`] as in [`CameraSearch`], and the aspect ratio that they were
+    /// found for.
+    unprojections: ([u64; 2], f64, Arc<Unprojections>),
     camera: CameraSearch,
     /// By [`VariantUse`]: [`uniform_change`] when uniforms were last copied to the variant, and what that returned.
     followed: [(u64, u64); 4],
@@ -103,7 +118,7 @@ impl ProgramRecord {
             samplers,
             effects,
             units: (0, Vec::new()),
-            unprojections: (0, 0.0, Vec::new()),
+            unprojections: ([0; 2], 0.0, Arc::default()),
             camera: CameraSearch {
                 found: None,
                 lost: true,
@@ -277,31 +292,49 @@ impl OwnVariants {
         Some([camera.matrix, camera.projection])
     }
 
-    /// The matrices by which a program computes positions from depths, with their uniform locations. `aspect` is width over height of the
-    /// picture.
+    /// The matrices by which a program computes positions from places on the screen. `aspect` is width over height of the picture.
     pub(super) fn unprojections(
         &mut self,
         gl: &Gl,
         program: ProgramName,
         aspect: f64,
-    ) -> Vec<(i32, [f32; 16])> {
-        let change = uniform_change();
+        blocks: &mut BlockReader,
+    ) -> Arc<Unprojections> {
         let Some(known) = self.known.get_mut(&program) else {
-            return Vec::new();
+            return Arc::default();
         };
-        if (known.unprojections.0, known.unprojections.1) != (change, aspect) {
-            let mut all = known.matrices.uniforms(gl, program);
-            all.retain(|(_, m)| camera::unprojects(m, aspect));
-            let locations = |list: &[(i32, [f32; 16])]| -> Vec<i32> {
-                list.iter().map(|(location, _)| *location).collect()
-            };
-            if locations(&all) != locations(&known.unprojections.2) {
-                // Variants have values of the layer's own in matrices that are no longer of these.
-                known.followed = [(0, 0); 4];
-            }
-            known.unprojections = (change, aspect, all);
+        let places = known.matrices.read_in_blocks();
+        let change = match places {
+            [] => [uniform_change(), 0],
+            _ => [uniform_change(), block_change()],
+        };
+        let (seen, before, found) = &mut known.unprojections;
+        let same = (*seen, *before) == (change, aspect);
+        if same && (places.is_empty() || !blocks.are_live(program, places)) {
+            return found.clone();
         }
-        known.unprojections.2.clone()
+        let mut uniforms = known.matrices.uniforms(gl, program);
+        uniforms.retain(|(_, m)| camera::unprojects(m, aspect));
+        let values = places
+            .iter()
+            .filter_map(|&place| Some((place, blocks.matrix(program, place)?)));
+        let in_blocks = values.filter(|(_, m)| camera::unprojects(m, aspect));
+        let new = Unprojections {
+            in_blocks: in_blocks.collect(),
+            uniforms,
+        };
+        let locations = |all: &Unprojections| -> Vec<i32> {
+            all.uniforms.iter().map(|(location, _)| *location).collect()
+        };
+        if locations(&new) != locations(found) {
+            // Variants have values of the layer's own in matrices that are no longer of these.
+            known.followed = [(0, 0); 4];
+        }
+        (*seen, *before) = (change, aspect);
+        if new != **found {
+            *found = Arc::new(new);
+        }
+        found.clone()
     }
 
     /// The texture units that a program samples, counted from 0, with the targets.

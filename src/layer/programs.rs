@@ -2,7 +2,7 @@
 
 use super::Layer;
 use super::blocks::BlockReader;
-use super::own_variants::ProgramRecord;
+use super::own_variants::{ProgramRecord, Unprojections};
 use crate::config::Strategy;
 use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
@@ -134,14 +134,22 @@ impl Layer {
         camera.unwrap_or([self.state.matrices.projection; 2])
     }
 
-    /// The matrices by which a program computes positions from depths, with their uniform locations.
-    pub(super) fn unprojections_of(
-        &mut self,
-        gl: &Gl,
-        program: ProgramName,
-    ) -> Vec<(i32, [f32; 16])> {
+    /// The matrices by which a program computes positions from places on the screen.
+    pub(super) fn unprojections_of(&mut self, gl: &Gl, program: ProgramName) -> Arc<Unprojections> {
         let aspect = self.aspect();
-        self.variants.own.unprojections(gl, program, aspect)
+        let mut blocks = BlockReader {
+            gl,
+            blocks: &mut self.blocks,
+            group: &self.session.group,
+            state: &mut self.state,
+            reads_back: false,
+        };
+        let own = &mut self.variants.own;
+        let found = own.unprojections(gl, program, aspect, &mut blocks);
+        if blocks.reads_back {
+            self.tell_of_cameras_read_back();
+        }
+        found
     }
 
     /// The texture units that a program samples, counted from 0, with the targets.
@@ -197,9 +205,9 @@ impl Layer {
             Some(linked) => drawn(gl, program, &linked.sources, VariantKind::Alone),
             None => Err(NoVariant::NoSource),
         };
-        let matrices = Matrices::of(gl, program);
-        let samplers = Samplers::of(gl, program);
         let sources = linked.as_ref().map(|linked| &*linked.sources);
+        let matrices = Matrices::of(gl, program, sources.unwrap_or_default());
+        let samplers = Samplers::of(gl, program);
         let effects = SideEffects::of(gl, program, sources);
         self.drain_own_errors(gl);
         match &how {

@@ -29,6 +29,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 
 const FRONT: &str = "the program draws to the front buffer or reads from it";
 const COPIES: &str = "the program draws with a texture copied from the frame";
+const BLOCKS: &str = "shaders compute positions from places on the screen by a matrix in a uniform block, which each view has of its own";
 const WRITES: &str = "the program's shaders write to memory";
 const ACCUM: &str = "the program uses the accumulation buffer";
 const ONCE: &str = "a profile keeps draws in the program's own view only";
@@ -223,6 +224,9 @@ impl Layer {
         }
         if images.differ() {
             return self.diagnostics.proving.refuse(COPIES);
+        }
+        if !images.unprojections.in_blocks.is_empty() {
+            return self.diagnostics.proving.refuse(BLOCKS);
         }
         if self.writes_memory() {
             return self.diagnostics.proving.refuse(WRITES);

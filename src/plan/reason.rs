@@ -109,6 +109,9 @@ pub enum NotOfScene {
     /// A sky that is drawn after something of the scene.
     #[error("a sky over the scene")]
     SkyOverScene,
+    /// Shaders that compute positions from places on the screen, after something of the scene.
+    #[error("what shaders compute for places on the screen")]
+    Rays,
     /// A flat draw after something of the scene, such as a HUD.
     #[error("what is flat")]
     Flat,

@@ -4,6 +4,9 @@
 //! x' = x + s·w − s·conv     in the scene: equal to the view's own projection if w in eye space is 1
 //! x' = x + flat             if w in clip space is 1: no perspective, so no depth to shift by
 //! ```
+//! Where such a vertex belongs to the scene, it stays if it is a corner of the screen or beyond: of a sky or another picture that covers the
+//! screen, which would have a gap at its edge.
+//!
 //! y, z and w do not change. No function is called, because the program may have defined one under the name of a built-in.
 
 use super::edit::Edits;
@@ -25,7 +28,12 @@ pub(super) fn shift(edits: &mut Edits, names: &Names, version: Version, view: &s
     );
     edits.append(format!("    {highp}vec4 {by} = {shift}[{view}];"));
     edits.append("    if (gl_Position.w > 0.999999 && gl_Position.w < 1.000001)");
-    edits.append(format!("        gl_Position.x += {by}.z;"));
+    edits.append("    {");
+    edits.append(format!(
+        "        if ({by}.w == 0.0 || gl_Position.x * gl_Position.x < 0.999999 || gl_Position.y * gl_Position.y < 0.999999)"
+    ));
+    edits.append(format!("            gl_Position.x += {by}.z;"));
+    edits.append("    }");
     edits.append("    else");
     edits.append(format!(
         "        gl_Position.x += {by}.x * gl_Position.w - {by}.y;"

@@ -17,6 +17,17 @@ pub struct ShaderSource {
     pub source: Vec<u8>,
 }
 
+impl ShaderSource {
+    /// Whether the source has the name of this member of a block more than once, so that it does not just declare it.
+    fn reads(&self, member: &str) -> bool {
+        let name = member.rsplit('.').next().unwrap_or(member);
+        let name = name.split('[').next().unwrap_or(name).as_bytes();
+        let is_of_name = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+        let words = self.source.split(|byte| !is_of_name(byte));
+        words.filter(|word| *word == name).nth(1).is_some()
+    }
+}
+
 /// The sources from which a program was linked.
 #[derive(Clone, Debug)]
 pub struct Linked {
@@ -116,11 +127,13 @@ pub struct Matrices {
     uniforms: Vec<i32>,
     /// Those in blocks.
     in_blocks: Vec<BlockPlace>,
+    /// Those of them that some shader reads, as far as its source tells: many programs share one block.
+    read: Vec<BlockPlace>,
 }
 
 impl Matrices {
-    /// The matrices of a program that is linked; only the first of an array.
-    pub fn of(gl: &Gl, program: ProgramName) -> Matrices {
+    /// The matrices of a program that is linked from these sources; only the first of an array.
+    pub fn of(gl: &Gl, program: ProgramName, sources: &[ShaderSource]) -> Matrices {
         let mut found = Matrices::default();
         for (index, active) in (0..).zip(gl.active_uniforms(program)) {
             if active.kind != c::FLOAT_MAT4 {
@@ -131,7 +144,16 @@ impl Matrices {
                     gl.keep_uniform(program, location, active.kind, active.size.max(1) as u32);
                     found.uniforms.push(location);
                 }
-                _ => found.in_blocks.extend(gl.place_in_block(program, index)),
+                _ => {
+                    let place = gl.place_in_block(program, index);
+                    found.in_blocks.extend(place);
+                    if sources
+                        .iter()
+                        .any(|shader| shader.reads(&active.name.to_string_lossy()))
+                    {
+                        found.read.extend(place);
+                    }
+                }
             }
         }
         found
@@ -147,6 +169,11 @@ impl Matrices {
     /// The places of those that are in blocks.
     pub fn in_blocks(&self) -> &[BlockPlace] {
         &self.in_blocks
+    }
+
+    /// The places of those in blocks that shaders read.
+    pub fn read_in_blocks(&self) -> &[BlockPlace] {
+        &self.read
     }
 
     /// The current value of one of them, numbered as in [`Matrices::values`]. `in_block` gives those in blocks, where it can.
@@ -269,4 +296,26 @@ fn stage(kind: u32) -> Option<Stage> {
         c::COMPUTE_SHADER => Stage::Compute,
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_member_is_read_where_it_is_named_beside_its_declaration() {
+        let shader = |source: &str| ShaderSource {
+            kind: c::FRAGMENT_SHADER,
+            stage: Stage::Fragment,
+            source: source.into(),
+        };
+        let block = "uniform Camera { mat4 back; mat4 all[2]; } camera;";
+        let declared = shader(block);
+        assert!(!declared.reads("Camera.back") && !declared.reads("Camera.all[0]"));
+        let used = shader(&format!(
+            "{block} void main() {{ p = camera.back * q; feedback(); }}"
+        ));
+        assert!(used.reads("Camera.back") && used.reads("back"));
+        assert!(!used.reads("Camera.all[0]"));
+    }
 }

@@ -74,6 +74,12 @@ pub(crate) fn scene(name: &str) -> Scene {
         "shade_toon" => scene("shade", &["--toon"], 1),
         "shade_combined" => scene("shade", &["--combined"], 1),
         "shade_block" => scene("shade", &["--glsl", "330"], 1),
+        // The camera of the scene is known after the first frame.
+        "shade_sky" => Scene {
+            from: 1,
+            ..scene("shade", &["--sky"], 2)
+        },
+        "shade_sky_block" => scene("shade", &["--sky", "--glsl", "330"], 1),
         "passes" => scene("passes", &["--depth-blit"], 2),
         "passes_depth" => scene("passes", &["--from-depth"], 2),
         "passes_samples" => scene("passes", &["--samples-inside", "4", "--mipmap"], 1),
@@ -85,6 +91,14 @@ pub(crate) fn scene(name: &str) -> Scene {
         "shade_es2" => scene("shade", &["--profile", "es2"], 1),
         "shade_es2_combined" => scene("shade", &["--profile", "es2", "--combined", "--toon"], 1),
         "shade_es3" => scene("shade", &["--profile", "es3", "--glsl", "330"], 1),
+        "shade_es2_sky" => Scene {
+            from: 1,
+            ..scene("shade", &["--profile", "es2", "--sky"], 2)
+        },
+        "shade_es3_sky" => {
+            let arguments = &["--profile", "es3", "--sky", "--glsl", "330"];
+            scene("shade", arguments, 1)
+        }
         "shade_es2_srgb" => scene("shade", &["--profile", "es2", "--srgb"], 1),
         "passes_es3" => scene("passes", &["--profile", "es3", "--depth-blit"], 2),
         "passes_es3_depth" => scene("passes", &["--profile", "es3", "--from-depth"], 2),

@@ -11,7 +11,7 @@ use crate::draw::{
 };
 use crate::gl::{Gl, Object, consts as c};
 use crate::offscreen::Target;
-use crate::plan::{Method, Plan, Shear, camera};
+use crate::plan::{Method, Plan, camera};
 use crate::state::Touch;
 use crate::view::ViewIndex;
 
@@ -189,7 +189,7 @@ impl Layer {
             send(Send::AsItIs);
         };
         self.prove(gl, shear, draw.hazard, draw.images, &mut call);
-        let sent = self.send_views(gl, target, shear, draw.hazard, draw.images, &mut call);
+        let sent = self.send_views(gl, target, plan, draw.hazard, draw.images, &mut call);
         if entered.is_some() {
             gl.use_program(program);
         }
@@ -208,15 +208,19 @@ impl Layer {
         &mut self,
         gl: &Gl,
         target: Option<&mut Target>,
-        shear: Option<Shear>,
+        plan: &Plan,
         hazard: ReplayHazard,
         images: &Images,
         call: &mut dyn FnMut(ViewIndex),
     ) -> bool {
         let mut redirection = match hazard {
             ReplayHazard::Clear => Redirection::default(),
-            _ => self.redirect(gl, &images.units),
+            _ => {
+                let blocks = self.view_blocks(gl, plan.shear, &images.unprojections);
+                self.redirect(gl, &images.units, blocks)
+            }
         };
+        let shear = plan.shear.filter(|_| !plan.variant);
         let Layer {
             targets,
             state,
@@ -376,7 +380,7 @@ impl Layer {
 /// [`crate::plan::Rig::position`]).
 fn set_view(gl: &Gl, variant: &Variant, images: &Images, plan: &Plan, place: f64, stride: u32) {
     variant.set_views(gl, (plan.shear, plan.flat), &[place], stride);
-    for (location, m) in images.unprojections.iter() {
+    for (location, m) in &images.unprojections.uniforms {
         let moved = plan
             .shear
             .map(|shear| camera::unprojection(m, &shear, place));

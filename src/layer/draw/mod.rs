@@ -17,6 +17,7 @@ pub(super) use execute::Execution;
 pub use primitives::Primitives;
 
 use super::Layer;
+use super::own_variants::Unprojections;
 use crate::atlas::ViewSet;
 use crate::config::Class;
 use crate::draw::{Drawing, ReplayHazard};
@@ -58,8 +59,7 @@ impl Request {
 pub(super) struct Images {
     /// The textures that the draw samples and that differ between the views.
     pub(super) bound: Arc<[Bound]>,
-    /// The matrices by which the program computes positions from depths, with their uniform locations.
-    pub(super) unprojections: Arc<[(i32, [f32; 16])]>,
+    pub(super) unprojections: Arc<Unprojections>,
     /// What the draw may load from and store to by image units.
     pub(super) units: Arc<[ImageUnit]>,
     /// Some of those differ between the views.

@@ -62,6 +62,7 @@ impl Layer {
             synthesis: SynthesisFacts::default(),
             counted: self.queries.active(),
             reads_views,
+            unprojects: !images.unprojections.is_empty(),
         };
         if let Kind::Clear { whole, .. } = kind {
             facts.clear = self.observe_clear(gl, whole, &settings);
@@ -288,11 +289,8 @@ impl Layer {
         }
         let units = self.image_units(gl);
         let bound = self.sampled(gl);
-        // The depths of a view have to be unprojected by its own camera.
-        let unprojections = match bound.is_empty() {
-            true => Arc::default(),
-            false => self.unprojections_of(gl, self.state.in_use.program).into(),
-        };
+        // Places on the screen, with the depths of a view or those of a sky, have to be unprojected by the view's own camera.
+        let unprojections = self.unprojections_of(gl, self.state.in_use.program);
         let offscreen = &self.targets.offscreen;
         let differs = |unit: &ImageUnit| offscreen.has(Object::Texture(unit.texture));
         Images {

@@ -7,7 +7,7 @@ mod bindings;
 mod redirection;
 
 pub(super) use bindings::WriteBindings;
-pub(super) use redirection::Redirection;
+pub(super) use redirection::{Redirection, ViewMatrix};
 
 use super::{Layer, keep_bindings};
 use crate::gl::{
@@ -20,6 +20,15 @@ use std::sync::Arc;
 
 /// Image units that a program pipeline may use: OpenGL has at least so many.
 const PIPELINE_UNITS: u32 = 8;
+
+/// A uniform block that each view has of its own.
+#[derive(Clone, Debug)]
+pub(super) struct ViewBlock {
+    pub(super) point: BindingPoint,
+    /// The program's buffer there.
+    pub(super) range: BoundRange,
+    pub(super) matrices: Vec<ViewMatrix>,
+}
 
 impl Layer {
     /// Where the shaders that are in use write to; none where that is nowhere.
@@ -100,10 +109,15 @@ impl Layer {
         self.write_bindings.refused.insert(name);
     }
 
-    /// Where the draw of each view writes to.
-    pub(in crate::layer) fn redirect(&mut self, gl: &Gl, units: &[ImageUnit]) -> Redirection {
+    /// Where the draw of each view writes to, and the uniform blocks that each has of its own.
+    pub(in crate::layer) fn redirect(
+        &mut self,
+        gl: &Gl,
+        units: &[ImageUnit],
+        blocks: Vec<ViewBlock>,
+    ) -> Redirection {
         let effects = self.side_effects();
-        if effects.is_none() && units.is_empty() {
+        if effects.is_none() && units.is_empty() && blocks.is_empty() {
             return Redirection::default();
         }
         let effects = effects.cloned().unwrap_or_default();
@@ -127,7 +141,12 @@ impl Layer {
             .into_iter()
             .map(|p| (p, self.write_bindings.range(gl, p)));
         let ranges = ranges.filter(|(_, range)| !range.buffer.is_zero());
-        let ranges: Vec<(BindingPoint, BoundRange)> = ranges.collect();
+        let mut ranges: Vec<(BindingPoint, BoundRange)> = ranges.collect();
+        ranges.extend(blocks.iter().map(|block| (block.point, block.range)));
+        let matrices = |point| {
+            let block = blocks.iter().find(|block| block.point == point);
+            block.map_or_else(Vec::new, |block| block.matrices.clone())
+        };
         let mut redirection = Redirection {
             images,
             ..Redirection::default()
@@ -144,6 +163,7 @@ impl Layer {
                 range,
                 bytes,
                 scratch,
+                matrices: matrices(point),
             });
         }
         // The targets of copies have had other buffers, to ask for sizes and to make stores.
@@ -162,9 +182,13 @@ impl Layer {
         for (&point, range) in &self.write_bindings.points {
             range.iter().for_each(|range| gl.bind_range(point, range));
         }
+        for (point, range) in self.blocks.bindings() {
+            gl.bind_range(point, range);
+        }
         for target in [
             c::COPY_READ_BUFFER,
             c::COPY_WRITE_BUFFER,
+            c::UNIFORM_BUFFER,
             c::SHADER_STORAGE_BUFFER,
             c::ATOMIC_COUNTER_BUFFER,
         ] {
@@ -201,6 +225,10 @@ impl Layer {
 
     /// The bytes of a range, up to the end of its buffer.
     fn bytes_of(&mut self, gl: &Gl, range: &BoundRange) -> usize {
+        if let Some(size) = self.buffers().size(range.buffer) {
+            let left = size.saturating_sub(range.start);
+            return range.size.map_or(left, |size| size.min(left));
+        }
         let now = store_change();
         let known = self.write_bindings.sizes.get(&range.buffer);
         let whole = match known {

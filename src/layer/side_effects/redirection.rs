@@ -3,7 +3,7 @@
 use crate::gl::{BindingPoint, BoundRange, BufferName, Gl, ImageUnit, TextureName, consts as c};
 use crate::view::ViewIndex;
 
-/// A buffer that a draw of another view writes to in the place of the program's.
+/// A buffer that a draw of another view writes to in the place of the program's, or reads a uniform block from.
 #[derive(Debug)]
 pub(super) struct Redirected {
     pub(super) point: BindingPoint,
@@ -12,6 +12,31 @@ pub(super) struct Redirected {
     pub(super) bytes: usize,
     /// The layer's; 0 where there is no memory for one.
     pub(super) scratch: BufferName,
+    /// What differs between the views.
+    pub(super) matrices: Vec<ViewMatrix>,
+}
+
+/// A matrix in a uniform block that each view has of its own.
+#[derive(Clone, Debug)]
+pub(in crate::layer) struct ViewMatrix {
+    /// Bytes from the beginning of the block.
+    pub(in crate::layer) offset: usize,
+    /// Of each view, as it lies in the buffer; none where it is the program's.
+    pub(in crate::layer) views: Vec<Option<[f32; 16]>>,
+}
+
+impl Redirected {
+    /// Whether a view has the program's own buffer.
+    fn is_plain_in(&self, view: ViewIndex, own: ViewIndex) -> bool {
+        let plain = |m: &ViewMatrix| m.of(view).is_none();
+        (view == own || self.point.target == c::UNIFORM_BUFFER) && self.matrices.iter().all(plain)
+    }
+}
+
+impl ViewMatrix {
+    fn of(&self, view: ViewIndex) -> Option<&[f32; 16]> {
+        self.views.get(view.0 as usize)?.as_ref()
+    }
 }
 
 /// Where the draw of each view writes to.
@@ -32,9 +57,10 @@ impl Redirection {
         if self.buffers.is_empty() && self.images.is_empty() {
             return;
         }
-        match view == own {
-            true => self.put_buffers(gl),
-            false => self.bind_scratch(gl),
+        if self.buffers.iter().all(|b| b.is_plain_in(view, own)) {
+            self.put_buffers(gl);
+        } else {
+            self.bind_scratch(gl, view, own);
         }
         for (image, views) in &self.images {
             let texture = views.get(view.0 as usize).copied();
@@ -54,21 +80,33 @@ impl Redirection {
         }
     }
 
-    fn bind_scratch(&mut self, gl: &Gl) {
-        if self.buffers.is_empty() {
-            return;
-        }
+    fn bind_scratch(&mut self, gl: &Gl, view: ViewIndex, own: ViewIndex) {
         self.away = true;
-        gl.finish_writes_to_buffers();
+        let written = |buffer: &Redirected| buffer.point.target != c::UNIFORM_BUFFER;
+        if self.buffers.iter().any(written) {
+            gl.finish_writes_to_buffers();
+        }
         for buffer in &self.buffers {
+            if buffer.is_plain_in(view, own) {
+                gl.bind_range(buffer.point, &buffer.range);
+                continue;
+            }
             let range = match buffer.scratch {
-                BufferName::ZERO => BoundRange::whole(BufferName::ZERO),
+                BufferName::ZERO if written(buffer) => BoundRange::whole(BufferName::ZERO),
+                BufferName::ZERO => buffer.range,
                 scratch => BoundRange::part(scratch, 0, buffer.bytes),
             };
             if !buffer.scratch.is_zero() {
                 gl.bind_buffer(c::COPY_READ_BUFFER, buffer.range.buffer);
                 gl.bind_buffer(c::COPY_WRITE_BUFFER, buffer.scratch);
                 gl.copy_buffer(buffer.range.start, 0, buffer.bytes);
+                for matrix in &buffer.matrices {
+                    let fits = matrix.offset + size_of::<[f32; 16]>() <= buffer.bytes;
+                    if let Some(m) = matrix.of(view).filter(|_| fits) {
+                        let bytes: &[u8] = bytemuck::cast_slice(m);
+                        gl.buffer_sub_data(c::COPY_WRITE_BUFFER, matrix.offset, bytes);
+                    }
+                }
             }
             gl.bind_range(buffer.point, &range);
         }
@@ -107,6 +145,7 @@ mod tests {
                 range: BoundRange::part(BufferName(7), 256, 64),
                 bytes: 64,
                 scratch: BufferName(9),
+                matrices: Vec::new(),
             }],
             bound: vec![(c::COPY_READ_BUFFER, BufferName(5))],
             ..Redirection::default()
@@ -142,5 +181,41 @@ mod tests {
         fake.forget();
         redirection.leave(&gl);
         assert_eq!(fake.count("gl*"), 0, "the own view was the last");
+    }
+
+    #[test]
+    fn views_have_matrices_of_their_own_in_copies_of_blocks() {
+        let fake = Fake::new();
+        let gl = fake.gl();
+        let point = BindingPoint {
+            target: c::UNIFORM_BUFFER,
+            index: 2,
+        };
+        let mut redirection = Redirection {
+            buffers: vec![Redirected {
+                point,
+                range: BoundRange::part(BufferName(7), 256, 208),
+                bytes: 208,
+                scratch: BufferName(9),
+                matrices: vec![ViewMatrix {
+                    offset: 144,
+                    views: vec![Some([2.0; 16]), None, Some([3.0; 16])],
+                }],
+            }],
+            ..Redirection::default()
+        };
+        let own = ViewIndex(1);
+        for view in [0, 2] {
+            fake.forget();
+            redirection.enter(&gl, ViewIndex(view), own);
+            assert_eq!(fake.count("glMemoryBarrier"), 0, "shaders only read it");
+            assert_eq!(fake.count("glBufferSubData"), 1);
+            let bound = fake.lines("glBindBufferRange");
+            assert_eq!(bound, ["glBindBufferRange(35345, 2, 9, 0, 208)"]);
+        }
+        fake.forget();
+        redirection.enter(&gl, own, own);
+        let lines = fake.lines("gl*");
+        assert_eq!(lines, ["glBindBufferRange(35345, 2, 7, 256, 208)"]);
     }
 }

@@ -32,6 +32,8 @@ pub struct Facts {
     pub counted: bool,
     /// It reads an image that is split into one per view.
     pub reads_views: bool,
+    /// Its shaders compute positions from places on the screen, by matrices that each view has of its own.
+    pub unprojects: bool,
 }
 
 /// Matrices, column-major.

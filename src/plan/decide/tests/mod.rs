@@ -81,6 +81,7 @@ pub(super) fn scene() -> Facts {
         synthesis: SynthesisFacts::default(),
         counted: false,
         reads_views: false,
+        unprojects: false,
     }
 }
 

@@ -188,6 +188,17 @@ fn what_does_not_belong_has_its_reason() {
     assert_eq!(flat_early(DepthState::Off, 0.5), elsewhere);
 }
 
+/// A sky by the rays of its fragments has the depths of the far end. After the scene it is drawn in each view.
+#[test]
+fn skies_by_rays_stand_behind_the_scene() {
+    let mut facts = scene();
+    facts.unprojects = true;
+    assert_eq!(parted(&facts, &begun()), None);
+    let known = next(&facts, &begun()).known;
+    assert!(known.scene.is_some_and(|scene| scene.sky));
+    assert_eq!(parted(&facts, &drawn()), Some(NotOfScene::Rays));
+}
+
 #[test]
 fn skies_stand_behind_the_scene() {
     let sky = |known: &Known, depth: DepthState| {

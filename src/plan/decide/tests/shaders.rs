@@ -51,6 +51,9 @@ fn a_program_without_a_camera_takes_the_last_one() {
             .any(|e| matches!(e, Effect::Note(_)))
     };
     assert!(noted(&none));
+    let mut rays = facts;
+    rays.unprojects = true;
+    assert!(!noted(&decided(&rays, &known(), Strategy::Replay)));
     // Menus need no camera.
     let mut menu = facts;
     menu.state.depth = DepthState::Off;
@@ -158,6 +161,7 @@ fn all_views_at_once_where_layers_and_instances_are_free() {
         };
         change(variant);
     };
+    assert!(!at_once(&|f| f.unprojects = true, &known, instanced));
     let divided = |f: &mut Facts| change(f, &|v| v.divides = true);
     assert!(!at_once(&divided, &known, instanced));
     let refused = |f: &mut Facts| change(f, &|v| v.to_layers = Linked::Refused);
