@@ -1,7 +1,7 @@
 //! Uniform blocks of the program's shaders: the buffers that are bound to them, and the matrices that are in those.
 
-use super::own_variants::Unprojections;
 use super::side_effects::{ViewBlock, ViewMatrix};
+use super::unprojections::Unprojections;
 use super::{Layer, Member};
 use crate::gl::{
     BindingPoint, BlockPlace, BoundRange, BufferName, Gl, Mapping, ProgramName, consts as c,

@@ -47,6 +47,7 @@ mod targets;
 #[cfg(test)]
 mod tests;
 mod tracked;
+mod unprojections;
 mod variants;
 
 pub use blocks::BufferRef;

@@ -1,8 +1,9 @@
 //! Variants of the program's own shaders, and the uniforms of its programs that the layer follows.
 
 use super::blocks::BlockReader;
+use super::unprojections::Unprojections;
 use crate::draw::{Drawn, NoVariant, Variant};
-use crate::gl::{BlockPlace, Gl, Held, ProgramName};
+use crate::gl::{Gl, Held, ProgramName};
 use crate::plan::camera;
 use crate::plan::decide::Linked as Linking;
 use crate::state::{Matrices, Samplers, SideEffects, block_change, link_change, uniform_change};
@@ -47,21 +48,6 @@ struct Camera {
     matrix: [f32; 16],
     /// See [`camera::equivalent`].
     projection: [f32; 16],
-}
-
-/// The matrices by which a program computes positions from places on the screen, those of its vertices or of its fragments. Values are
-/// column-major.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Unprojections {
-    /// Plain uniforms, by their locations.
-    pub(super) uniforms: Vec<(i32, [f32; 16])>,
-    pub(super) in_blocks: Vec<(BlockPlace, [f32; 16])>,
-}
-
-impl Unprojections {
-    pub(super) fn is_empty(&self) -> bool {
-        self.uniforms.is_empty() && self.in_blocks.is_empty()
-    }
 }
 
 /// State of the search for a program's camera.

@@ -2,7 +2,8 @@
 
 use super::Layer;
 use super::blocks::BlockReader;
-use super::own_variants::{ProgramRecord, Unprojections};
+use super::own_variants::ProgramRecord;
+use super::unprojections::Unprojections;
 use crate::config::Strategy;
 use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
@@ -94,6 +95,7 @@ impl Layer {
             to_layer,
             to_layers,
             divides,
+            unprojects: false,
         })
     }
 

@@ -17,7 +17,7 @@ pub(super) use execute::Execution;
 pub use primitives::Primitives;
 
 use super::Layer;
-use super::own_variants::Unprojections;
+use super::unprojections::Unprojections;
 use crate::atlas::ViewSet;
 use crate::config::Class;
 use crate::draw::{Drawing, ReplayHazard};

@@ -49,6 +49,10 @@ impl Layer {
             false => self.observe_images(gl),
         };
         let reads_views = images.differ();
+        let mut shaders = shaders;
+        if let Shaders::Variant(variant) = &mut shaders {
+            variant.unprojects = !images.unprojections.is_empty();
+        }
         let mut facts = Facts {
             traits,
             classed,
@@ -62,7 +66,6 @@ impl Layer {
             synthesis: SynthesisFacts::default(),
             counted: self.queries.active(),
             reads_views,
-            unprojects: !images.unprojections.is_empty(),
         };
         if let Kind::Clear { whole, .. } = kind {
             facts.clear = self.observe_clear(gl, whole, &settings);

@@ -32,8 +32,6 @@ pub struct Facts {
     pub counted: bool,
     /// It reads an image that is split into one per view.
     pub reads_views: bool,
-    /// Its shaders compute positions from places on the screen, by matrices that each view has of its own.
-    pub unprojects: bool,
 }
 
 /// Matrices, column-major.
@@ -55,6 +53,11 @@ impl Facts {
     /// Whether a draw at the raster position moves with the view.
     pub fn raster_moves(&self) -> bool {
         self.projections.raster_moves
+    }
+
+    /// Whether its shaders compute positions from places on the screen, by matrices that each view has of its own.
+    pub fn unprojects(&self) -> bool {
+        matches!(self.shaders, Shaders::Variant(variant) if variant.unprojects)
     }
 }
 
@@ -106,6 +109,8 @@ pub struct VariantFacts {
     pub to_layers: Linked,
     /// A vertex attribute advances per instance (glVertexAttribDivisor).
     pub divides: bool,
+    /// See [`Facts::unprojects`].
+    pub unprojects: bool,
 }
 
 /// Whether a variant, or a split framebuffer, is there.

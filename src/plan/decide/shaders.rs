@@ -27,7 +27,7 @@ pub(super) fn plan(
     };
     let Some(camera) = variant.camera.or(known.camera) else {
         // Menus and other flat draws need none. A sky by the rays of its fragments takes that of the scene, after the first frame.
-        if facts.state.depth != DepthState::Off && !facts.unprojects {
+        if facts.state.depth != DepthState::Off && !facts.unprojects() {
             effects.push(Effect::Note(NO_CAMERA));
         }
         return plan;
@@ -83,7 +83,7 @@ pub(super) fn all_at_once(
         && plan.method == Method::Replay
         && matches!(facts.traits.kind, Kind::Arrays(_) | Kind::Elements(_))
         && !facts.reads_views
-        && !facts.unprojects
+        && !facts.unprojects()
         && !facts.counted
         && !known.replays_all;
     if !wanted || !facts.destination.layered || variant.divides {

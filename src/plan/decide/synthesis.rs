@@ -145,11 +145,11 @@ fn belongs(
         }
         Class::Flat | Class::OffScreen => Ok(None),
         // A sky by the rays of its fragments. It may write depths: those of the far end, since the scene is drawn over it.
-        Class::Scene if facts.unprojects && scene.mapping.is_none() => {
+        Class::Scene if facts.unprojects() && scene.mapping.is_none() => {
             scene.sky = true;
             Ok(None)
         }
-        Class::Scene if facts.unprojects => no(NotOfScene::Rays),
+        Class::Scene if facts.unprojects() => no(NotOfScene::Rays),
         Class::Scene => of_scene(facts, plan, scene, effects).map(Some),
     }
 }

@@ -222,6 +222,7 @@ fn state_is_read_only_where_something_depends_on_it() {
         to_layer: Linked::Untried,
         to_layers: Linked::Untried,
         divides: false,
+        unprojects: false,
     });
     let scene = classed(Class::Scene);
     assert_eq!(

@@ -81,7 +81,6 @@ pub(super) fn scene() -> Facts {
         synthesis: SynthesisFacts::default(),
         counted: false,
         reads_views: false,
-        unprojects: false,
     }
 }
 

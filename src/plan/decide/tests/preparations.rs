@@ -14,6 +14,7 @@ fn variant(program: u32) -> VariantFacts {
         to_layer: Linked::Untried,
         to_layers: Linked::Untried,
         divides: false,
+        unprojects: false,
     }
 }
 

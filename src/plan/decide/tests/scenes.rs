@@ -192,7 +192,15 @@ fn what_does_not_belong_has_its_reason() {
 #[test]
 fn skies_by_rays_stand_behind_the_scene() {
     let mut facts = scene();
-    facts.unprojects = true;
+    facts.shaders = Shaders::Variant(VariantFacts {
+        program: ProgramName(3),
+        camera: Some(perspective()),
+        lost: false,
+        to_layer: Linked::Untried,
+        to_layers: Linked::Untried,
+        divides: false,
+        unprojects: true,
+    });
     assert_eq!(parted(&facts, &begun()), None);
     let known = next(&facts, &begun()).known;
     assert!(known.scene.is_some_and(|scene| scene.sky));

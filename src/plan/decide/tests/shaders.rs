@@ -10,6 +10,7 @@ fn with_variant(change: impl FnOnce(&mut VariantFacts)) -> Facts {
         to_layer: Linked::Untried,
         to_layers: Linked::Untried,
         divides: false,
+        unprojects: false,
     };
     change(&mut variant);
     let mut facts = scene();
@@ -51,8 +52,9 @@ fn a_program_without_a_camera_takes_the_last_one() {
             .any(|e| matches!(e, Effect::Note(_)))
     };
     assert!(noted(&none));
-    let mut rays = facts;
-    rays.unprojects = true;
+    let rays = with_variant(|variant| {
+        (variant.camera, variant.lost, variant.unprojects) = (None, true, true);
+    });
     assert!(!noted(&decided(&rays, &known(), Strategy::Replay)));
     // Menus need no camera.
     let mut menu = facts;
@@ -161,7 +163,8 @@ fn all_views_at_once_where_layers_and_instances_are_free() {
         };
         change(variant);
     };
-    assert!(!at_once(&|f| f.unprojects = true, &known, instanced));
+    let unprojects = |f: &mut Facts| change(f, &|v| v.unprojects = true);
+    assert!(!at_once(&unprojects, &known, instanced));
     let divided = |f: &mut Facts| change(f, &|v| v.divides = true);
     assert!(!at_once(&divided, &known, instanced));
     let refused = |f: &mut Facts| change(f, &|v| v.to_layers = Linked::Refused);
