@@ -2,7 +2,7 @@
 
 use super::Layer;
 use super::blocks::BlockReader;
-use super::own_variants::ProgramRecord;
+use super::own_variants::{OwnVariants, ProgramRecord};
 use super::unprojections::Unprojections;
 use crate::config::Strategy;
 use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
@@ -114,6 +114,17 @@ impl Layer {
     /// without a variant.
     #[allow(clippy::option_option, reason = "a variant, and a camera")]
     pub(super) fn camera_of(&mut self, gl: &Gl, program: ProgramName) -> Option<Option<[f32; 16]>> {
+        self.read_own(gl, |own, aspect, blocks| {
+            own.camera(gl, program, aspect, blocks)
+        })
+    }
+
+    /// Reads the uniforms of programs. `read` also gets the aspect of the picture, width over height.
+    fn read_own<R>(
+        &mut self,
+        gl: &Gl,
+        read: impl FnOnce(&mut OwnVariants, f64, &mut BlockReader) -> R,
+    ) -> R {
         let aspect = self.aspect();
         let mut blocks = BlockReader {
             gl,
@@ -122,11 +133,11 @@ impl Layer {
             state: &mut self.state,
             reads_back: false,
         };
-        let camera = self.variants.own.camera(gl, program, aspect, &mut blocks);
+        let found = read(&mut self.variants.own, aspect, &mut blocks);
         if blocks.reads_back {
             self.tell_of_cameras_read_back();
         }
-        camera
+        found
     }
 
     /// The matrix that projects the scene that is being drawn, as the program has it and as a pure projection (see [`camera::equivalent`]);
@@ -138,20 +149,9 @@ impl Layer {
 
     /// The matrices by which a program computes positions from places on the screen.
     pub(super) fn unprojections_of(&mut self, gl: &Gl, program: ProgramName) -> Arc<Unprojections> {
-        let aspect = self.aspect();
-        let mut blocks = BlockReader {
-            gl,
-            blocks: &mut self.blocks,
-            group: &self.session.group,
-            state: &mut self.state,
-            reads_back: false,
-        };
-        let own = &mut self.variants.own;
-        let found = own.unprojections(gl, program, aspect, &mut blocks);
-        if blocks.reads_back {
-            self.tell_of_cameras_read_back();
-        }
-        found
+        self.read_own(gl, |own, aspect, blocks| {
+            own.unprojections(gl, program, aspect, blocks)
+        })
     }
 
     /// The texture units that a program samples, counted from 0, with the targets.

@@ -83,9 +83,8 @@ pub fn fits(camera: &[f32; 16], aspect: f64) -> bool {
 
 /// Whether a matrix is the inverse of a camera with this aspect. Programs compute positions from depths with such a matrix.
 pub fn unprojects(m: &[f32; 16], aspect: f64) -> bool {
-    // Row 3 of such an inverse is (0, 0, 1/d, c/d) with the c and d of [`equivalent`], but for rounding. Most matrices have another.
-    let most = m[11].abs().max(m[15].abs()) * 1e-4;
-    if m[11] == 0.0 || m[3].abs() > most || m[7].abs() > most {
+    // The inverse of an affine matrix is affine, so it has no perspective. Most matrices are.
+    if [m[3], m[7], m[11]] == [0.0; 3] {
         return false;
     }
     let fits = |m: &[f32; 16]| equivalent(m).is_some_and(|camera| fits(&camera, aspect));

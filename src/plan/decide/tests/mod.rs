@@ -84,6 +84,23 @@ pub(super) fn scene() -> Facts {
     }
 }
 
+/// The same, with shaders of the program's own.
+pub(super) fn with_variant(change: impl FnOnce(&mut VariantFacts)) -> Facts {
+    let mut variant = VariantFacts {
+        program: ProgramName(3),
+        camera: Some(perspective()),
+        lost: false,
+        to_layer: Linked::Untried,
+        to_layers: Linked::Untried,
+        divides: false,
+        unprojects: false,
+    };
+    change(&mut variant);
+    let mut facts = scene();
+    facts.shaders = Shaders::Variant(variant);
+    facts
+}
+
 pub(super) fn classed(class: Class) -> Classed {
     Classed {
         class,

@@ -191,16 +191,7 @@ fn what_does_not_belong_has_its_reason() {
 /// A sky by the rays of its fragments has the depths of the far end. After the scene it is drawn in each view.
 #[test]
 fn skies_by_rays_stand_behind_the_scene() {
-    let mut facts = scene();
-    facts.shaders = Shaders::Variant(VariantFacts {
-        program: ProgramName(3),
-        camera: Some(perspective()),
-        lost: false,
-        to_layer: Linked::Untried,
-        to_layers: Linked::Untried,
-        divides: false,
-        unprojects: true,
-    });
+    let facts = with_variant(|variant| variant.unprojects = true);
     assert_eq!(parted(&facts, &begun()), None);
     let known = next(&facts, &begun()).known;
     assert!(known.scene.is_some_and(|scene| scene.sky));

@@ -2,22 +2,6 @@
 
 use super::*;
 
-fn with_variant(change: impl FnOnce(&mut VariantFacts)) -> Facts {
-    let mut variant = VariantFacts {
-        program: ProgramName(3),
-        camera: Some(perspective()),
-        lost: false,
-        to_layer: Linked::Untried,
-        to_layers: Linked::Untried,
-        divides: false,
-        unprojects: false,
-    };
-    change(&mut variant);
-    let mut facts = scene();
-    facts.shaders = Shaders::Variant(variant);
-    facts
-}
-
 #[test]
 fn a_scene_goes_by_the_camera_among_the_matrices() {
     let mut facts = with_variant(|_| ());
