@@ -18,7 +18,10 @@ fn bad_options_are_one_line_and_status_2() {
         (&["--views", "-1"], "--views is '-1'"),
         (&["--display", "no-such.toml"], "--display: "),
         (&["--display", "missing-mask.png"], "--display: "),
-        (&["--eye-spacing", "0.1"], "--focal-depth is missing"),
+        (
+            &["--eye-spacing", "0.1", "--auto-depth=0"],
+            "--focal-depth is missing",
+        ),
         (&["--eye-spacing", "0.1", "--focal-depth", "-1"], "above 0"),
         (&["--eye-spacing", "0.1", "--focal-depth", "nan"], "finite"),
         (
@@ -37,6 +40,7 @@ fn bad_options_are_one_line_and_status_2() {
             &["--output", "chequer"],
             "this version knows panel, quilt, sbs, ",
         ),
+        (&["--auto-depth=yes"], "0"),
         (&["--strategy", "magic"], "replay"),
         (
             &["--view-scale", "0"],

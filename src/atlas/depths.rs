@@ -8,15 +8,19 @@ use crate::state::{Neutral, Window};
 const PICTURES: usize = 3;
 
 /// The longer side of a copy, in samples. Of a frame of 1920 x 1080, one pixel in 15 of a row is sampled.
-const SAMPLES: u32 = 128;
+pub const SAMPLES: u32 = 128;
+
+/// Bytes from picture to picture in the buffer.
+const SLOT: usize = (SAMPLES * SAMPLES) as usize * size_of::<f32>();
 
 /// The framebuffer and the buffer object of the copies.
 #[derive(Debug)]
 pub(super) struct Depths {
-    small: Single,
+    /// Of the window's depths; none where it has none.
+    small: Option<Single>,
     buffer: BufferName,
-    /// Pictures in the buffer.
-    taken: usize,
+    /// Widths and heights of the pictures in the buffer, in samples.
+    taken: Vec<[i32; 2]>,
     /// Signalled once the last of them is in the buffer.
     fence: Option<Fence>,
     /// The driver has refused the framebuffer or the buffer object.
@@ -24,8 +28,12 @@ pub(super) struct Depths {
 }
 
 impl Depths {
-    pub(super) fn framebuffer(&self) -> FramebufferName {
-        self.small.framebuffer()
+    pub(super) fn framebuffer(&self) -> Option<FramebufferName> {
+        self.small.as_ref().map(Single::framebuffer)
+    }
+
+    fn has_room(&self) -> bool {
+        self.taken.len() < PICTURES && !self.refused
     }
 }
 
@@ -36,15 +44,17 @@ impl Atlas {
         let longer = window.width.max(window.height).max(1);
         let side = |pixels: u32| (pixels * SAMPLES.min(longer) / longer).max(1) as i32;
         let size = [side(window.width), side(window.height)];
-        let small = Single::new(gl, names, window, size, self.flipped, &mut self.textures);
+        let (flipped, textures) = (self.flipped, &mut self.textures);
+        let small =
+            (window.bits[4] > 0).then(|| Single::new(gl, names, window, size, flipped, textures));
         let buffer = gl.gen_buffer();
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, buffer);
-        gl.buffer_data_empty(c::PIXEL_PACK_BUFFER, PICTURES * bytes(size));
+        gl.buffer_data_empty(c::PIXEL_PACK_BUFFER, PICTURES * SLOT);
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);
         self.depths = Some(Depths {
             small,
             buffer,
-            taken: 0,
+            taken: Vec::new(),
             fence: None,
             refused: false,
         });
@@ -63,35 +73,48 @@ impl Atlas {
     /// Copies the current depths of the program's own view; false where there is no more room, or depths cannot be read. Changes the
     /// framebuffer bindings.
     pub fn take_depths(&mut self, gl: &Gl, neutral: &Neutral) -> bool {
-        let takes = |d: &Depths| d.taken < PICTURES && !d.refused;
-        if !self.depths.as_ref().is_some_and(takes) || !gl.reads_depths() {
+        if !self.depths.as_ref().is_some_and(Depths::has_room) || !gl.reads_depths() {
             return false;
         }
         self.resolve(gl, &self.tiles.own_alone(), c::DEPTH_BUFFER_BIT);
         let (from, x) = self.readable(self.tiles.own());
         let window = [self.tiles.width, self.tiles.height].map(|n| n as i32);
-        let Some(depths) = &mut self.depths else {
+        self.bound_row = u32::MAX;
+        let small = self.depths.as_ref().and_then(|d| d.small.as_ref());
+        let Some((framebuffer, size)) = small.map(|small| {
+            small.shrink(gl, from, x, window);
+            (small.framebuffer(), small.size())
+        }) else {
             return false;
         };
-        depths.small.shrink(gl, from, x, window);
-        let size = depths.small.size();
-        gl.bind_framebuffer(c::READ_FRAMEBUFFER, depths.small.framebuffer());
+        self.take_depths_of(gl, neutral, framebuffer, size)
+    }
+
+    /// Takes all depths of a framebuffer as they are; `size` is its width and height, each at most [`SAMPLES`]. As [`Atlas::take_depths`].
+    pub fn take_depths_of(
+        &mut self,
+        gl: &Gl,
+        neutral: &Neutral,
+        framebuffer: FramebufferName,
+        size: [i32; 2],
+    ) -> bool {
+        let depths = self.depths.as_mut().filter(|d| d.has_room());
+        let Some(depths) = depths.filter(|_| bytes(size) <= SLOT && gl.reads_depths()) else {
+            return false;
+        };
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, framebuffer);
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
-        gl.read_depth_to_buffer(
-            neutral.pixels(),
-            size[0],
-            size[1],
-            depths.taken * bytes(size),
-        );
+        let at = depths.taken.len() * SLOT;
+        gl.read_depth_to_buffer(neutral.pixels(), size[0], size[1], at);
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);
-        depths.taken += 1;
+        depths.taken.push(size);
         self.bound_row = u32::MAX;
         true
     }
 
     /// Ends the pictures of this frame with a fence.
     pub fn send_depths(&mut self, gl: &Gl) {
-        if let Some(depths) = self.depths.as_mut().filter(|d| d.taken > 0) {
+        if let Some(depths) = self.depths.as_mut().filter(|d| !d.taken.is_empty()) {
             depths.fence = gl.fence();
         }
     }
@@ -108,16 +131,16 @@ impl Atlas {
         let Some(depths) = &mut self.depths else {
             return Vec::new();
         };
-        let size = depths.small.size();
         depths
             .fence
             .take()
             .into_iter()
             .for_each(|f| gl.delete_fence(f));
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
-        let pictures = (0..std::mem::take(&mut depths.taken)).map(|picture| {
+        let taken = std::mem::take(&mut depths.taken);
+        let pictures = taken.into_iter().enumerate().map(|(picture, size)| {
             let mut samples = vec![0.0; bytes(size) / size_of::<f32>()];
-            gl.get_buffer_depths(c::PIXEL_PACK_BUFFER, picture * bytes(size), &mut samples);
+            gl.get_buffer_depths(c::PIXEL_PACK_BUFFER, picture * SLOT, &mut samples);
             samples
         });
         let pictures = pictures.collect();

@@ -19,6 +19,7 @@ mod view_set;
 
 use crate::view::ViewIndex;
 use depths::Depths;
+pub use depths::SAMPLES;
 use front::Front;
 pub use grid::Grid;
 pub use names::Names;
@@ -316,7 +317,7 @@ impl Atlas {
     pub fn framebuffers(&self) -> impl Iterator<Item = FramebufferName> {
         let resolve = self.resolve.iter().flatten().copied();
         let singles = self.singles.iter().map(Single::framebuffer);
-        let depths = self.depths.iter().map(Depths::framebuffer);
+        let depths = self.depths.iter().filter_map(Depths::framebuffer);
         let pyramid = self.pyramid.iter().flat_map(Pyramid::framebuffers);
         let reference = self.reference.iter().flat_map(Reference::framebuffers);
         let views = self.targets().chain(resolve);

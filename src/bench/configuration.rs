@@ -102,6 +102,11 @@ pub const CONFIGURATIONS: &[Configuration] = &[
         "replay, the views in layers of the atlas",
     ),
     row(
+        "replay-auto-depth",
+        &[REPLAY, (OptionId::AutoDepth, "1")],
+        "replay, the cameras follow the depths of each frame; they stand still in all other configurations",
+    ),
+    row(
         "instanced-layers",
         &[INSTANCED, LAYERS],
         "instanced, the views in layers of the atlas",
@@ -175,6 +180,8 @@ impl Variant {
     pub fn settings(&self, views: &str) -> Settings {
         let mut settings = Settings::default();
         settings.set(OptionId::ViewScale, &self.view_scale, Origin::CommandLine);
+        // Pictures are compared, so the cameras stand still.
+        settings.set(OptionId::AutoDepth, "0", Origin::Default);
         if let Some(display) = &self.display {
             settings.set(OptionId::Display, display, Origin::CommandLine);
         }

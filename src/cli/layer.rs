@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::tell;
-use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
+use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
 use manyview::config::{ConfigError, OPTIONS, OptionId, OptionSpec, PathKind, Scope, Settings};
 
 /// One option as it was written.
@@ -49,7 +49,12 @@ fn argument(spec: &OptionSpec, flag: &'static str) -> Arg {
     };
     let argument = argument.visible_aliases(spec.alias);
     if spec.id.is_switch() {
-        return argument.action(ArgAction::SetTrue);
+        // On without a value; 0 takes back what a variable or a file says.
+        return argument
+            .value_name("0|1")
+            .num_args(0..=1)
+            .require_equals(true)
+            .default_missing_value("1");
     }
     // A value that is neither a word nor a path may be a negative number.
     let number = spec.choices.is_empty() && spec.path == PathKind::No;
@@ -66,12 +71,6 @@ impl Given {
                 let id = spec.id;
                 given.push(Written { id, value, former });
             };
-            if spec.id.is_switch() {
-                if matches.get_flag(flag) {
-                    write("1".to_owned(), false);
-                }
-                continue;
-            }
             if let Some(value) = matches.get_one::<String>(flag) {
                 write(value.clone(), false);
             }

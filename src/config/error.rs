@@ -126,7 +126,7 @@ pub enum ConfigError {
     },
     /// One half of a pair.
     #[error(
-        "{field} is {value} but {partner} is missing; give both, or neither to have the cameras chosen"
+        "{field} is {value} but {partner} is missing; give both, or let auto-depth find the other"
     )]
     Partner {
         /// The half that is there.

@@ -72,6 +72,8 @@ impl Live {
         let measured = settings.get(OptionId::AutoDepth).map(|s| s.value == "1");
         if measured != Some(true) {
             self.complete(&mut settings, chosen);
+            // A half alone is refused, and the depths are not followed unless that is asked for.
+            settings.set(OptionId::AutoDepth, "0", Origin::Request);
         }
         Ok(Self {
             output: if output {

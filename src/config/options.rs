@@ -315,8 +315,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::Convergence, "convergence", "MANYVIEW_CONVERGENCE", "C",
         "Clip-space w of zero parallax; with --separation"),
     OptionSpec::new(OptionId::AutoDepth, "auto-depth", "MANYVIEW_AUTO_DEPTH", "",
-        "Place the cameras by the depths of each frame, within the budget of the display; one of the four values above may be given with it")
-        .manual("See [Depth](depth.md)."),
+        "Place the cameras by the depths of each frame, within the budget of the display, and keep one of the four values above if it is given")
+        .default("1 unless two of them are given").manual("0 places them once, by the first projection. See [Depth](depth.md)."),
     OptionSpec::new(OptionId::Strategy, "strategy", "MANYVIEW_STRATEGY", "",
         "How draws are repeated per view")
         .choices(&strategy::WORDS)

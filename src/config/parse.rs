@@ -237,7 +237,7 @@ fn one_view(field: &Field, value: &str, views: u32) -> Result<u32, ConfigError> 
 
 pub(super) fn camera(settings: &Settings) -> Result<Camera, ConfigError> {
     use OptionId::{AutoDepth, Convergence, EyeSpacing, FocalDepth, Separation};
-    let measured = switch(settings, AutoDepth)?;
+    let measured = settings.get(AutoDepth).is_none() || switch(settings, AutoDepth)?;
     let eye = settings
         .field(EyeSpacing)
         .or_else(|| settings.field(FocalDepth));

@@ -25,7 +25,7 @@ fn nothing_set_gives_the_defaults() {
     let config = from_pairs(&[]).unwrap();
     assert_eq!(
         (config.views, config.output, config.camera),
-        (8, Output::Panel, Camera::Auto)
+        (8, Output::Panel, Camera::Measured(None))
     );
     assert_eq!(
         (config.strategy, config.atlas),
@@ -55,8 +55,12 @@ fn every_message_is_one_clear_sentence() {
         &[("MANYVIEW_PROVE", "10"), ("MANYVIEW_VIEWS", "1")],
         &[("MANYVIEW_OUTPUT", "view:8")],
         &[("MANYVIEW_OUTPUT", "view:x")],
-        &[("MANYVIEW_EYE_SPACING", "0.1")],
-        &[("MANYVIEW_FOCAL_DEPTH", "5")],
+        &[
+            ("MANYVIEW_EYE_SPACING", "0.1"),
+            ("MANYVIEW_AUTO_DEPTH", "0"),
+        ],
+        &[("MANYVIEW_FOCAL_DEPTH", "5"), ("MANYVIEW_AUTO_DEPTH", "0")],
+        &[("MANYVIEW_AUTO_DEPTH", "yes")],
         &[
             ("MANYVIEW_EYE_SPACING", "0.1"),
             ("MANYVIEW_FOCAL_DEPTH", "0"),
@@ -73,8 +77,9 @@ fn every_message_is_one_clear_sentence() {
             ("MANYVIEW_EYE_SPACING", "0.1"),
             ("MANYVIEW_FOCAL_DEPTH", "inf"),
         ],
-        &[("MANYVIEW_SEPARATION", "0.1")],
-        &[("MANYVIEW_CONVERGENCE", "2")],
+        &[("MANYVIEW_SEPARATION", "0.1"), ("MANYVIEW_AUTO_DEPTH", "0")],
+        &[("MANYVIEW_CONVERGENCE", "2"), ("MANYVIEW_AUTO_DEPTH", "0")],
+        &[("MANYVIEW_CONVERGENCE", "0")],
         &[
             ("MANYVIEW_SEPARATION", "0.1"),
             ("MANYVIEW_CONVERGENCE", "1e999"),
@@ -150,10 +155,10 @@ fn every_message_is_one_clear_sentence() {
 
 #[test]
 fn messages_name_the_option_as_it_was_written() {
-    let settings = on_command_line(&[(OptionId::EyeSpacing, "0.1")]);
+    let settings = on_command_line(&[(OptionId::EyeSpacing, "0.1"), (OptionId::AutoDepth, "0")]);
     insta::assert_snapshot!(
         Config::from_settings(&settings).unwrap_err(),
-        @"--eye-spacing is 0.1 but --focal-depth is missing; give both, or neither to have the cameras chosen"
+        @"--eye-spacing is 0.1 but --focal-depth is missing; give both, or let auto-depth find the other"
     );
 }
 
@@ -175,7 +180,7 @@ fn toml_messages_name_the_file() {
         "views = [8]",
         "views = true",
         "views = ",
-        "focal-depth = 4.0",
+        "auto-depth = false\nfocal-depth = 4.0",
     ]
     .map(message);
     insta::assert_snapshot!(all.join("\n"));

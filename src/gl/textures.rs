@@ -75,6 +75,18 @@ impl Level {
         })
     }
 
+    /// The stores of renderbuffers that depths of this image may be copied to, which takes equal formats; a format without sizes leaves them
+    /// to the driver.
+    pub fn depth_storages(&self) -> [super::Storage; 2] {
+        let [width, height, _] = self.size;
+        let sized = match (self.internal, self.bits) {
+            (c::DEPTH_COMPONENT, 16) => c::DEPTH_COMPONENT16,
+            (c::DEPTH_COMPONENT, 32) => c::DEPTH_COMPONENT32,
+            _ => self.sized().unwrap_or(self.internal),
+        };
+        [sized, self.internal].map(|format| [format as i32, width, height, self.samples])
+    }
+
     /// The type that stands for the bits of an internal format without sizes, in OpenGL ES; none for one with sizes.
     fn unsized_type(&self) -> Option<u32> {
         Some(match (self.internal, self.bits) {

@@ -1,9 +1,10 @@
 //! Cameras that follow the depth buffer, and the disparities of the frames: which depths are read, and when.
 
 use super::{Layer, keep_bindings};
-use crate::config::{Camera, Config};
+use crate::atlas::SAMPLES;
+use crate::config::{Camera, Config, Kept};
 use crate::display::Budget;
-use crate::gl::{BufferName, Gl, consts as c};
+use crate::gl::{BufferName, FramebufferName, Gl, consts as c};
 use crate::plan::decide::DepthWatch;
 use crate::plan::depths::{DepthMapping, Distances};
 use crate::plan::{DepthMappings, comfort, parallax};
@@ -62,7 +63,8 @@ impl Comfort {
     pub(super) fn change(&mut self, config: &Config, camera: Camera) {
         let measured = match camera {
             Camera::Measured(kept) => {
-                self.cameras = comfort::Comfort::new(kept);
+                let focal = config.profile.focal_depth.map(Kept::FocalDepth);
+                self.cameras = comfort::Comfort::new(kept.or(focal));
                 self.next = None;
                 self.stale = !self.sent.is_empty();
                 true
@@ -82,6 +84,7 @@ impl Layer {
     /// Reads the depths of the previous frame, if they have arrived. With a driver that is a frame behind they have not, and are read at the
     /// end of this frame.
     pub(super) fn begin_frame(&mut self, gl: &Gl) {
+        self.known.rig.set_reach(self.reach());
         if self.cameras.comfort.sent.is_empty() || !self.targets.atlas.depths_are_there(gl) {
             return;
         }
@@ -93,7 +96,7 @@ impl Layer {
 
     fn set_measured_cameras(&mut self) {
         if let Camera::Measured(_) = self.session.live.camera {
-            let budget = self.budget().px / self.half_width();
+            let budget = self.reach().budget;
             if let Some(cameras) = self.cameras.comfort.next {
                 let farthest = self.cameras.comfort.cameras.farthest(cameras, budget);
                 self.known.rig.set_measured(cameras, farthest);
@@ -109,7 +112,9 @@ impl Layer {
     /// Takes a depth picture of the scene, if there is anything to take.
     fn take_depths(&mut self, gl: &Gl, neutral: &Neutral) {
         self.known.depths.pending = false;
-        if self.state.window.bits[4] == 0 || self.cameras.comfort.mappings.is_empty() {
+        let framebuffer = self.known.depths.framebuffer;
+        let there = !framebuffer.is_zero() || self.state.window.bits[4] > 0;
+        if !there || self.cameras.comfort.mappings.is_empty() {
             return;
         }
         // The buffer holds the pictures of one frame.
@@ -127,7 +132,11 @@ impl Layer {
             }
         }
         let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
-        if self.targets.atlas.take_depths(gl, neutral) {
+        let taken = match framebuffer.is_zero() {
+            true => self.targets.atlas.take_depths(gl, neutral),
+            false => self.take_depths_of(gl, neutral, framebuffer),
+        };
+        if taken {
             let mappings = self.cameras.comfort.mappings.clone();
             let way = mappings.most().map(|way| way.projection);
             self.cameras.comfort.taken.push(Taken {
@@ -140,6 +149,20 @@ impl Layer {
                 clear,
             });
         }
+    }
+
+    /// Takes the depths of a framebuffer of the program's.
+    fn take_depths_of(&mut self, gl: &Gl, neutral: &Neutral, framebuffer: FramebufferName) -> bool {
+        let offscreen = &mut self.targets.offscreen;
+        if offscreen.lacks_depths(gl, framebuffer) {
+            self.state.keep_errors(gl);
+            offscreen.make_depths(gl, framebuffer, SAMPLES);
+            gl.drop_errors();
+        }
+        let small = offscreen.shrink_depths(gl, framebuffer);
+        small.is_some_and(|(small, size)| {
+            self.targets.atlas.take_depths_of(gl, neutral, small, size)
+        })
     }
 
     /// At the end of a frame: reads the depths of the previous one, and takes those of this one. Changes the framebuffer bindings.
@@ -211,6 +234,15 @@ impl Layer {
         }
     }
 
+    /// What the display can show, in normalised device coordinates.
+    fn reach(&self) -> comfort::Reach {
+        let budget = self.budget();
+        comfort::Reach {
+            budget: budget.px / self.half_width(),
+            neighbours: budget.neighbours,
+        }
+    }
+
     /// Pixels per unit of normalised device coordinates.
     fn half_width(&self) -> f64 {
         f64::from(self.size().0) / 2.0
@@ -219,17 +251,7 @@ impl Layer {
     /// Finds the cameras for the distances that were seen in a frame; `p` is the projection of its scene.
     fn find_cameras(&mut self, p: &[f32; 16], seen: &comfort::Seen) {
         if let Camera::Measured(_) = self.session.live.camera {
-            let (budget, lens) = (self.budget(), parallax::lens(p));
-            // A projection that turns the picture by a right angle has no A to measure by.
-            let orthoscopic = match (lens.0 * budget.neighbours).abs() {
-                0.0 => f64::INFINITY,
-                separation => separation,
-            };
-            let limits = comfort::Limits {
-                budget: budget.px / self.half_width(),
-                orthoscopic,
-                lens,
-            };
+            let limits = self.reach().limits(parallax::lens(p));
             self.cameras.comfort.next = self.cameras.comfort.cameras.track(seen, &limits);
         }
     }

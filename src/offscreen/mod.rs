@@ -7,6 +7,7 @@
 //! on the view: shadow maps, light maps and other images that are the same in all views stay one image, drawn once.
 #![forbid(unsafe_code)]
 
+mod depths;
 mod fill;
 mod image;
 mod images;

@@ -1,12 +1,13 @@
 //! A framebuffer of the program's, and the framebuffers that it is split into.
 
+use super::depths::SmallDepths;
 use super::image::Image;
 use super::images::Images;
 use crate::atlas::{Surface, Tiles, ViewSet};
 use crate::gl::{Attachment, FramebufferName, Gl, Object, TextureName, consts as c};
 use crate::view::ViewIndex;
 
-/// One framebuffer of the program's.
+/// One framebuffer of the program's. More than 12 fields: what is attached to it, and what is made for that.
 #[derive(Debug)]
 pub struct Target {
     own: FramebufferName,
@@ -26,6 +27,8 @@ pub struct Target {
     /// The framebuffer with all views as layers.
     layered: Option<FramebufferName>,
     in_layers: bool,
+    /// Small copies of its depths; none before the first, and none in it where there can be none.
+    pub(super) depths: Option<Option<SmallDepths>>,
     /// It cannot be split.
     pub(super) refused: bool,
 }
@@ -45,6 +48,7 @@ impl Target {
             tiles,
             layered: None,
             in_layers: false,
+            depths: None,
             refused: false,
         }
     }
@@ -57,7 +61,9 @@ impl Target {
     /// The framebuffers of the views that belong to the layer.
     pub(super) fn others(&self) -> impl Iterator<Item = FramebufferName> {
         let views = self.views.iter().copied().chain(self.layered);
-        views.filter(|&name| name != self.own)
+        let small = self.depths.iter().flatten();
+        let small = small.flat_map(SmallDepths::framebuffers);
+        views.filter(|&name| name != self.own).chain(small)
     }
 
     /// The framebuffer with all views as layers, if there is one. The layer of a view is its slot in [`Surface::tiles`].
@@ -141,6 +147,8 @@ impl Target {
     }
 
     fn drop_views(&mut self, gl: &Gl) {
+        let small = self.depths.take().flatten();
+        small.into_iter().for_each(|depths| depths.delete(gl));
         self.others().for_each(|name| gl.delete_framebuffer(name));
         self.views.clear();
         self.layered = None;

@@ -30,6 +30,31 @@ const INWARDS: f64 = 0.15;
 const OUTWARDS: f64 = 0.02;
 const ALONG: f64 = 0.03;
 
+/// What a display can show between neighbouring views.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Largest disparity, before or behind the panel, in normalised device coordinates.
+    pub budget: f64,
+    /// From one camera to the next where eyes see the views, over the focal depth.
+    pub neighbours: f64,
+}
+
+impl Reach {
+    /// The limits for a projection; `lens` as [`Limits::lens`].
+    #[must_use]
+    pub fn limits(self, lens: (f64, f64)) -> Limits {
+        Limits {
+            budget: self.budget,
+            // A projection that turns the picture by a right angle has no A to measure by.
+            orthoscopic: match (lens.0 * self.neighbours).abs() {
+                0.0 => f64::INFINITY,
+                separation => separation,
+            },
+            lens,
+        }
+    }
+}
+
 /// Limits that the cameras keep to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -58,6 +83,14 @@ impl Seen {
     pub fn by_planes([near, far]: [f64; 2]) -> Self {
         Seen {
             scene: Some([0.0, (1.0 + BEFORE / BEHIND) / (near * far).sqrt()]),
+            ..Seen::default()
+        }
+    }
+
+    /// For a scene of which nothing is known but its near plane, in units of clip-space w: it may lie anywhere from there to infinity.
+    pub fn behind(near: f64) -> Self {
+        Seen {
+            scene: Some([0.0, 1.0 / near]),
             ..Seen::default()
         }
     }

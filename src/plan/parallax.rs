@@ -5,9 +5,9 @@
 //! Δx = A·κ·(1 − z/ξ), written for homogeneous coordinates:
 //! row0(P_i) = row0(P) + sep_i·row3(P) − sep_i·conv·(0,0,0,1), sep_i = A·e_i/ξ, conv = ξ, e_i = (i − (N−1)/2)·κ.
 
-use super::camera;
-use crate::config::Camera;
+use super::{camera, comfort};
 use crate::config::profile::FARTHEST;
+use crate::config::{Camera, Kept};
 use crate::view::ViewIndex;
 
 /// The cameras of all views.
@@ -19,6 +19,8 @@ pub struct Rig {
     /// The focal depth for [`Camera::Auto`], where it is known for the program.
     focal: Option<f64>,
     latched: Option<(f64, f64)>,
+    /// What the display can show, once it is known.
+    reach: Option<comfort::Reach>,
     /// A per unit of row 3, of the last perspective projection that was drawn with.
     a: Option<f64>,
     /// Where a sky stands: 1 infinitely far, or the end of what the display can show.
@@ -52,6 +54,7 @@ impl Rig {
             camera,
             focal,
             latched: None,
+            reach: None,
             a: None,
             farthest: FARTHEST,
             flat: false,
@@ -66,8 +69,12 @@ impl Rig {
         (self.camera, self.flat) = (camera, flat);
     }
 
-    /// Sets separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them; nothing is shifted before.
-    /// `farthest` is where a sky stands, as for [`Rig::at_depth`].
+    /// Tells what the display can show: before the cameras of [`Camera::Measured`] are found, they stand so that nothing leaves it.
+    pub fn set_reach(&mut self, reach: comfort::Reach) {
+        self.reach = Some(reach);
+    }
+
+    /// Sets separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them. `farthest` is where a sky stands, as for [`Rig::at_depth`].
     pub fn set_measured(&mut self, cameras: (f64, f64), farthest: f64) {
         self.latched = Some(cameras);
         self.farthest = farthest;
@@ -87,7 +94,8 @@ impl Rig {
     }
 
     /// Takes note of a perspective projection that the program draws its scene with. With [`Camera::Auto`], the first one fixes the focal
-    /// depth, where none is given: the geometric mean of its near and far distance, the far one at most 1000 near distances away.
+    /// depth, where none is given: the geometric mean of its near and far distance, the far one at most 1000 near distances away. With
+    /// [`Camera::Measured`], the first one places the cameras until depths are measured: all from its near plane on is within the budget.
     pub fn latch(&mut self, p: &[f32; 16]) {
         if flat(p) {
             return;
@@ -95,9 +103,14 @@ impl Rig {
         if let Camera::Eye { .. } = self.camera {
             self.a = Some(lens(p).0);
         }
-        if self.camera != Camera::Auto || self.latched.is_some() {
+        if self.latched.is_some() {
             return;
         }
+        let kept = match self.camera {
+            Camera::Auto => None,
+            Camera::Measured(kept) => Some(kept),
+            _ => return,
+        };
         let (_, scale) = lens(p);
         // A camera may stand in the projection; a projection alone is left as it is, to the bit.
         let pure = [p[3], p[7], p[15]] == [0.0; 3];
@@ -105,11 +118,23 @@ impl Rig {
             Some(equivalent) => (planes(&equivalent), 1.0),
             None => (planes(p), scale),
         };
-        if near.is_finite() && near > 0.0 {
+        if !near.is_finite() || near <= 0.0 {
+            return;
+        }
+        if let Some(kept) = kept {
+            let focal = self.focal.map(Kept::FocalDepth);
+            self.latched = self.within_reach(p, near * unit, kept.or(focal));
+        } else {
             let between = || (near * far).sqrt() * unit;
             let convergence = self.focal.map_or_else(between, |focal| focal * scale);
             self.latched = Some((self.auto_step(), convergence));
         }
+    }
+
+    /// The cameras that keep everything from the near plane on, in units of clip-space w, within the budget.
+    fn within_reach(&self, p: &[f32; 16], near: f64, kept: Option<Kept>) -> Option<(f64, f64)> {
+        let limits = self.reach?.limits(lens(p));
+        comfort::Comfort::new(kept).track(&comfort::Seen::behind(near), &limits)
     }
 
     /// Separation of neighbouring views with [`Camera::Auto`].
@@ -454,6 +479,41 @@ mod tests {
         told.latch(&p);
         let about = told.shear(&p).expect("latched");
         assert_eq!((about.conv, about.spacing), (12.0, shear.spacing));
+    }
+
+    /// Before depths are measured, nothing that a projection can show leaves the budget.
+    #[test]
+    fn the_first_cameras_are_within_the_budget_from_the_near_plane_on() {
+        let p = frustum(-1.0, 1.0, -1.0, 1.0, 2.0, 60.0);
+        let turned = p * Mat4::from_rotation_y(0.7) * Mat4::from_translation(Vec3::ONE);
+        let budget = 0.005;
+        let kept = [
+            None,
+            Some(Kept::Convergence(7.0)),
+            Some(Kept::FocalDepth(7.0)),
+            Some(Kept::Convergence(0.5)),
+        ];
+        for (p, kept) in [p, turned].iter().flat_map(|p| kept.map(|kept| (p, kept))) {
+            let p = p.to_cols_array();
+            let mut rig = Rig::new(5, Camera::Measured(kept), None);
+            rig.latch(&p);
+            assert_eq!(rig.latched(), None, "the display is not known");
+            rig.set_reach(comfort::Reach {
+                budget,
+                neighbours: 0.03,
+            });
+            rig.latch(&p);
+            let (separation, convergence) = rig.latched().expect("cameras");
+            assert!(separation > 0.0);
+            for w in [2.0, 3.0, 60.0, f64::INFINITY] {
+                let disparity = separation * (1.0 - convergence / w);
+                assert!(disparity.abs() <= budget, "{kept:?}: {disparity} at {w}");
+            }
+            // A projection that comes later changes nothing within the frame.
+            let before = rig.latched();
+            rig.latch(&frustum(-1.0, 1.0, -1.0, 1.0, 0.1, 60.0).to_cols_array());
+            assert_eq!(rig.latched(), before);
+        }
     }
 
     #[test]

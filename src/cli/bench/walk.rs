@@ -104,7 +104,10 @@ fn given(arguments: &Arguments, mut settings: Settings) -> Result<Settings, Comm
             settings.set(id, value, Origin::CommandLine);
         }
     }
-    Ok(settings.over(Settings::from_env(variable)?))
+    // Pictures of several runs are compared, so the cameras stand still unless the user places them.
+    let mut still = Settings::default();
+    still.set(OptionId::AutoDepth, "0", Origin::Default);
+    Ok(settings.over(Settings::from_env(variable)?).over(still))
 }
 
 /// `200` or `100..400`.

@@ -19,11 +19,12 @@ pub(in crate::layer) const PERSPECTIVE: [f32; 16] = [
     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.02, -1.0, 0.0, 0.0, -2.02, 0.0,
 ];
 
-/// Options by the names of the variables `MANYVIEW_*`, without that prefix.
+/// Options by the names of the variables `MANYVIEW_*`, without that prefix. The cameras stand still unless one of them is AUTO_DEPTH.
 pub(in crate::layer) fn config(options: &[(&str, &str)]) -> &'static Config {
     let config = Config::from_env(|variable| {
         let wanted = variable.strip_prefix("MANYVIEW_")?;
-        let found = options.iter().find(|(name, _)| *name == wanted);
+        let mut all = options.iter().chain(&[("AUTO_DEPTH", "0")]);
+        let found = all.find(|(name, _)| *name == wanted);
         found.map(|(_, value)| (*value).to_owned())
     });
     Box::leak(Box::new(config.expect("options")))

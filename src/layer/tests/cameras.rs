@@ -62,9 +62,10 @@ fn the_commands_of_the_program_place_it() {
 
 #[test]
 fn depths_are_measured_where_they_place_the_cameras_or_are_reported() {
-    let cases: [(&[(&str, &str)], bool); 4] = [
+    let cases: [(&[(&str, &str)], bool); 5] = [
         (&[("VIEWS", "4")], false),
         (&[("VIEWS", "4"), ("AUTO_DEPTH", "1")], true),
+        (&[("VIEWS", "4"), ("AUTO_DEPTH", "")], true),
         (&[("VIEWS", "1"), ("AUTO_DEPTH", "1")], false),
         (&[("VIEWS", "4"), ("REPORT", "/nowhere/report.json")], true),
     ];

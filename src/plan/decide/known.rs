@@ -4,6 +4,7 @@ use super::backdrop::Backdrop;
 use super::mono::Mono;
 use super::scene::Scene;
 use crate::config::Strategy;
+use crate::gl::FramebufferName;
 use crate::plan::Rig;
 
 /// The knowledge from the commands so far.
@@ -62,6 +63,8 @@ pub struct DepthWatch {
     pub pending: bool,
     /// A flat draw has written depths since the scene.
     pub overwritten: bool,
+    /// The framebuffer that the scene's depths are in: 0 for the window.
+    pub framebuffer: FramebufferName,
     /// The last projection of the frame's scene, column-major.
     pub projection: Option<[f32; 16]>,
 }

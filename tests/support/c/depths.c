@@ -1,10 +1,13 @@
 /* Three walls at distances of 4 + frame/2, 10 and 40 units from the camera, in frames 1 to 10 of a surface without a window system.
  *
- * depths plain|reversed|inverted|overlay|weapon|cleared|nodepth|shader|block|reversed-shader
+ * depths plain|reversed|inverted|overlay|weapon|cleared|nodepth|shader|block|reversed-shader|pass-16|pass-24|pass-24-8|pass-32f|
+ *        pass-unsized|pass-samples
  *
  * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: a flat picture that
  * writes depths over everything at the end; weapon: a surface at 1.5 in a depth range of its own; cleared: the same after a clear of the
- * depths; nodepth: no depth test; shader, block: shaders, with the projection in a uniform or a uniform block. */
+ * depths; nodepth: no depth test; shader, block: shaders, with the projection in a uniform or a uniform block; pass: to a framebuffer of
+ * twice the window's size, with depths in a renderbuffer (16, samples) or a texture (the others), whose picture is then drawn over the
+ * window. */
 #include "shaders.h"
 #include "surface.h"
 
@@ -57,6 +60,89 @@ static void shaders(int block)
     glLoadIdentity();
 }
 
+/* The framebuffer of a pass, and with samples the one that its picture is copied to; 0 where there is none. */
+static GLuint pass, resolved;
+
+/* A framebuffer with these depths: 0 samples and a texture, or a renderbuffer. Its colours are a texture where it has no samples. */
+static GLuint framebuffer(GLenum format, int texture, int samples)
+{
+    GLuint names[2], name;
+    glGenFramebuffers(1, &name);
+    glBindFramebuffer(GL_FRAMEBUFFER, name);
+    glGenTextures(2, names);
+    if (samples) {
+        GLuint colours;
+        glGenRenderbuffers(1, &colours);
+        glBindRenderbuffer(GL_RENDERBUFFER, colours);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, 2 * WIDTH, 2 * HEIGHT);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colours);
+    } else {
+        glBindTexture(GL_TEXTURE_2D, names[0]);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 2 * WIDTH, 2 * HEIGHT, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, names[0], 0);
+    }
+    if (texture) {
+        const int stencil = format == GL_DEPTH24_STENCIL8;
+        glBindTexture(GL_TEXTURE_2D, names[1]);
+        glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, 2 * WIDTH, 2 * HEIGHT, 0, stencil ? GL_DEPTH_STENCIL : GL_DEPTH_COMPONENT,
+                     stencil ? GL_UNSIGNED_INT_24_8 : GL_UNSIGNED_INT, NULL);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, names[1], 0);
+    } else {
+        GLuint depths;
+        glGenRenderbuffers(1, &depths);
+        glBindRenderbuffer(GL_RENDERBUFFER, depths);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, 2 * WIDTH, 2 * HEIGHT);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depths);
+    }
+    glBindTexture(GL_TEXTURE_2D, names[0]);
+    return name;
+}
+
+static void make_pass(const char *how)
+{
+    const int samples = !strcmp(how, "pass-samples") ? 4 : 0;
+    const GLenum format = !strcmp(how, "pass-16") ? GL_DEPTH_COMPONENT16
+        : !strcmp(how, "pass-24-8")               ? GL_DEPTH24_STENCIL8
+        : !strcmp(how, "pass-32f")                ? GL_DEPTH_COMPONENT32F
+        : !strcmp(how, "pass-unsized")            ? GL_DEPTH_COMPONENT
+                                                  : GL_DEPTH_COMPONENT24;
+    if (samples)
+        resolved = framebuffer(GL_DEPTH_COMPONENT16, 1, 0);
+    pass = framebuffer(format, !samples && strcmp(how, "pass-16"), samples);
+    if (samples) {
+        GLint colours;
+        glBindFramebuffer(GL_FRAMEBUFFER, resolved);
+        glGetFramebufferAttachmentParameteriv(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &colours);
+        glBindTexture(GL_TEXTURE_2D, (GLuint)colours);
+    }
+}
+
+/* Draws the picture of the pass over the window. */
+static void show_pass(void)
+{
+    static const GLfloat corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    if (resolved) {
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, pass);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
+        glBlitFramebuffer(0, 0, 2 * WIDTH, 2 * HEIGHT, 0, 0, 2 * WIDTH, 2 * HEIGHT, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, WIDTH, HEIGHT);
+    glLoadIdentity();
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_TEXTURE_2D);
+    glColor3d(1, 1, 1);
+    glBegin(GL_QUADS);
+    for (int i = 0; i < 4; i++) {
+        glTexCoord2f(0.5f + 0.5f * corners[i][0], 0.5f + 0.5f * corners[i][1]);
+        glVertex2fv(corners[i]);
+    }
+    glEnd();
+    glDisable(GL_TEXTURE_2D);
+}
+
 int main(int count, char **arguments)
 {
     const char *how = count > 1 ? arguments[1] : "plain";
@@ -66,7 +152,10 @@ int main(int count, char **arguments)
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
         return 77;
     for (int frame = 1; frame <= FRAMES; frame++) {
-        glViewport(0, 0, WIDTH, HEIGHT);
+        if (!strncmp(how, "pass", 4) && !pass)
+            make_pass(how);
+        glBindFramebuffer(GL_FRAMEBUFFER, pass);
+        glViewport(0, 0, pass ? 2 * WIDTH : WIDTH, pass ? 2 * HEIGHT : HEIGHT);
         glMatrixMode(GL_PROJECTION);
         if (reversed) {
             /* Near plane at 1; z = near, w = distance. */
@@ -103,6 +192,8 @@ int main(int count, char **arguments)
             wall(0, 1.5, 0.2);
         }
         glDepthRange(0, 1);
+        if (pass)
+            show_pass();
         eglSwapBuffers(display, surface);
     }
     return 0;

@@ -98,6 +98,37 @@ fn the_picture_is_taken_before_a_clear_and_once() {
     assert!(!part.effects.contains(&Effect::ForgetDepths));
 }
 
+/// A scene in a framebuffer whose picture ends up in the window.
+#[test]
+fn the_depths_of_a_pass_are_taken_from_its_framebuffer() {
+    let in_framebuffer = |mut facts: Facts, name: u32| {
+        facts.traits.target = Target::Pass(name);
+        facts.destination.framebuffer = FramebufferName(name);
+        facts.destination.split = Linked::Yes;
+        facts
+    };
+    let drawn = next(&in_framebuffer(scene(), 7), &begun());
+    let maps = |e: &Effect| matches!(e, Effect::MapDepths { .. });
+    assert!(drawn.effects.iter().any(maps));
+    assert_eq!(drawn.known.depths.framebuffer, FramebufferName(7));
+    // What happens in the window leaves them as they are.
+    let shown = next(&flat(DepthState::On), &drawn.known);
+    assert!(shown.known.depths.pending && !shown.known.depths.overwritten);
+    let cleared = next(&clear(true), &shown.known);
+    assert!(cleared.known.depths.pending);
+    // A clear of the framebuffer does not.
+    let own = next(&in_framebuffer(clear(true), 7), &cleared.known);
+    assert_eq!(own.effects[..2], [Effect::TakeDepths, Effect::ForgetDepths]);
+    // Neither does a scene elsewhere: the pictures are taken one after the other.
+    let other = next(&scene(), &cleared.known);
+    assert_eq!(
+        other.effects[..2],
+        [Effect::TakeDepths, Effect::ForgetDepths]
+    );
+    assert!(other.known.depths.pending);
+    assert_eq!(other.known.depths.framebuffer, FramebufferName::ZERO);
+}
+
 #[test]
 fn what_is_flat_spoils_the_depths_where_it_writes_them() {
     let drawn = next(&scene(), &begun()).known;

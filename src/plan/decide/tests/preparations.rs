@@ -121,8 +121,13 @@ fn the_depths_of_the_frame_before_are_measured_first() {
     let mut begun = known();
     begun.depths.begun = true;
     decide(&scene(), &begun, &settings).expect("once a frame");
-    // Nothing is measured where the draw does not go to the window.
+    // Nothing is measured where the picture does not end up in the window.
+    assert_eq!(
+        prepared(&in_a_pass(), &known(), &settings),
+        Preparation::MeasureDepths
+    );
     let mut facts = in_a_pass();
+    facts.traits.target = Target::Framebuffer(1);
     facts.classed = classed(Class::OffScreen);
     decide(&facts, &known(), &settings).expect("depths elsewhere are not the window's");
 }
