@@ -7,7 +7,7 @@ use crate::display::Budget;
 use crate::gl::{BufferName, FramebufferName, Gl, consts as c};
 use crate::plan::decide::DepthWatch;
 use crate::plan::depths::{DepthMapping, Distances};
-use crate::plan::{DepthMappings, comfort, parallax};
+use crate::plan::{DepthMappings, Shear, comfort, parallax};
 use crate::report::Disparity;
 use crate::state::Neutral;
 
@@ -19,6 +19,8 @@ pub(super) struct Comfort {
     cameras: comfort::Comfort,
     /// Separation and convergence that were found, in force from the next frame on.
     next: Option<(f64, f64)>,
+    /// The same of what is drawn before everything else, where they differ.
+    foreground: Option<(f64, f64)>,
     pub(super) mappings: DepthMappings,
     /// Depth pictures of this frame; `sent` has those of the previous one that were not read yet.
     taken: Vec<Taken>,
@@ -35,6 +37,8 @@ struct Taken {
     clear: f32,
     /// Separation and convergence that the frame is drawn with.
     cameras: Option<(f64, f64)>,
+    /// The same of what is drawn before everything else.
+    foreground: Option<(f64, f64)>,
     /// Disparity of a sky, in pixels of the window.
     sky: f64,
 }
@@ -45,6 +49,7 @@ impl Comfort {
             on: false,
             cameras: comfort::Comfort::new(None),
             next: None,
+            foreground: None,
             mappings: DepthMappings::default(),
             taken: Vec::new(),
             sent: Vec::new(),
@@ -65,7 +70,7 @@ impl Comfort {
             Camera::Measured(kept) => {
                 let focal = config.profile.focal_depth.map(Kept::FocalDepth);
                 self.cameras = comfort::Comfort::new(kept.or(focal));
-                self.next = None;
+                (self.next, self.foreground) = (None, None);
                 self.stale = !self.sent.is_empty();
                 true
             }
@@ -99,7 +104,8 @@ impl Layer {
             let budget = self.reach().budget;
             if let Some(cameras) = self.cameras.comfort.next {
                 let farthest = self.cameras.comfort.cameras.farthest(cameras, budget);
-                self.known.rig.set_measured(cameras, farthest);
+                let foreground = self.cameras.comfort.foreground;
+                self.known.rig.set_measured(cameras, farthest, foreground);
             }
         }
     }
@@ -141,7 +147,8 @@ impl Layer {
             let way = mappings.most().map(|way| way.projection);
             self.cameras.comfort.taken.push(Taken {
                 frame: self.diagnostics.report.frames() + 1,
-                cameras: way.and_then(|p| self.cameras(&p)),
+                cameras: way.and_then(|p| numbers(self.known.rig.shear(&p))),
+                foreground: way.and_then(|p| numbers(self.known.rig.foreground(&p))),
                 sky: way
                     .and_then(|p| self.known.rig.sky(&p))
                     .map_or(0.0, |shear| shear.separation(1.0) * self.half_width()),
@@ -220,11 +227,6 @@ impl Layer {
         }
     }
 
-    /// Separation and convergence that a projection is drawn with.
-    fn cameras(&self, p: &[f32; 16]) -> Option<(f64, f64)> {
-        self.known.rig.shear(p).map(|s| (s.separation(1.0), s.conv))
-    }
-
     /// The disparity that the display can show between neighbouring views.
     fn budget(&self) -> Budget {
         let (width, views) = (self.size().0, self.session.config.views);
@@ -273,7 +275,14 @@ impl Layer {
             others: ratios.fold(None, |r, v| Some(range(r, v))),
             sky: all.sky,
         };
+        let hand = all.foreground().map(|[far, _, nearest]| [far, nearest]);
+        if let Some(hand) = hand {
+            self.cameras.comfort.cameras.see_foreground(hand);
+        }
         self.find_cameras(p, &seen);
+        let budget = self.reach().budget;
+        let comfort = &mut self.cameras.comfort;
+        comfort.foreground = hand.and_then(|hand| comfort.cameras.foreground(near, hand, budget));
         if self.session.config.report.is_none() {
             return;
         }
@@ -283,7 +292,12 @@ impl Layer {
         let ends = [near, far].map(|inverse| at(convergence * inverse));
         let own = seen.others.into_iter().flatten().map(at);
         let sky = all.sky.then_some(taken.sky);
+        let before = hand.zip(taken.foreground);
+        let before = before.map(|(hand, (separation, convergence))| {
+            hand.map(|inverse| separation * (1.0 - convergence * inverse) * px)
+        });
         let all = ends.into_iter().chain(own).chain(sky);
+        let all = all.chain(before.into_iter().flatten());
         self.diagnostics.report.disparity(Disparity {
             frame: taken.frame,
             cameras: (separation, convergence),
@@ -296,4 +310,9 @@ impl Layer {
             px,
         });
     }
+}
+
+/// Separation and convergence of a shift.
+fn numbers(shear: Option<Shear>) -> Option<(f64, f64)> {
+    shear.map(|shear| (shear.separation(1.0), shear.conv))
 }

@@ -304,15 +304,15 @@ impl Layer {
 
     fn disparities(&self, scene: &Scene, mapping: &DisparityMapping) -> Disparities {
         let far = mapping.far();
-        let [scale, offset] = mapping.line();
+        let [scale, offset] = mapping.line(mapping);
         let tiles = &self.targets.atlas.tiles;
         let own = self.known.rig.position(tiles.own());
         let baselines =
             [self.known.rig.position(ViewIndex(0)) - own, 1.0].map(|place| place * far.signum());
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
-        let before = scene.before.map(|(mapping, to)| {
-            let [scale, offset] = mapping.line();
-            let side = if mapping.ramp.nearer_is_larger() {
+        let before = scene.before.map(|(before, to)| {
+            let [scale, offset] = before.line(mapping);
+            let side = if before.ramp.nearer_is_larger() {
                 1.0
             } else {
                 -1.0

@@ -44,6 +44,8 @@ pub struct Traits {
     pub first: bool,
     /// The last frame began with draws around the eye whose depths were cleared for the scene, and this one may have begun so.
     pub backdrop: bool,
+    /// By the frames before, it comes before everything else ([`super::decide::Foreground`]).
+    pub foreground: bool,
 }
 
 /// Where a draw goes.
@@ -82,6 +84,8 @@ pub enum Why {
     Backdrop,
     /// It lies at the far end of the depth range: behind everything.
     FarRange,
+    /// In perspective, in the near part of the depth range or after a clear of the depths for it: before everything.
+    Foreground,
     /// In perspective, and nothing speaks against it.
     Perspective,
     /// Its own shaders place it: in perspective where w varies.
@@ -105,6 +109,9 @@ impl core::fmt::Display for Why {
                 f.write_str("turns about the eye, and depths are cleared for the scene after it")
             }
             Why::FarRange => f.write_str("at the far end of the depth range, behind everything"),
+            Why::Foreground => f.write_str(
+                "before everything, by a part of the depth range or a clear of the depths for it: in the hand",
+            ),
             Why::Perspective => f.write_str("perspective projection"),
             Why::Shaders => f.write_str("shaders of its own: in perspective where w varies"),
         }
@@ -122,6 +129,13 @@ pub struct Classed {
     pub focal: Option<f64>,
     /// Why.
     pub why: Why,
+}
+
+impl Classed {
+    /// Whether it is drawn before everything else, such as the weapon in a player's hand.
+    pub fn is_foreground(&self) -> bool {
+        self.why == Why::Foreground
+    }
 }
 
 /// Classifies the draws of one program.
@@ -260,6 +274,7 @@ impl Classifier {
             Projection::Perspective if facts.backdrop && facts.is_around_eye() => {
                 classed(Class::Sky, Why::Backdrop)
             }
+            Projection::Perspective if facts.foreground => classed(Class::Scene, Why::Foreground),
             Projection::Perspective => classed(Class::Scene, Why::Perspective),
         }
     }
@@ -314,6 +329,7 @@ impl Traits {
             turns: turns(&state.classification.modelview, p),
             first: false,
             backdrop: false,
+            foreground: false,
         }
     }
 

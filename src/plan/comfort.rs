@@ -18,6 +18,8 @@ const BEFORE: f64 = 0.25;
 /// Parts of the budget that the last measured depths never exceed.
 const LIMIT_BEHIND: f64 = 0.9;
 const LIMIT_BEFORE: f64 = 0.5;
+/// Part of the budget that the nearest point of a foreground gets, before the panel.
+const FOREGROUND: f64 = 0.5;
 /// The largest separation, in budgets: the disparity of an infinitely far point. A scene of little depth gets more than one budget until
 /// something appears behind it.
 const MOST: f64 = 4.0;
@@ -113,6 +115,8 @@ pub struct Comfort {
     /// Separation and convergence in force.
     cameras: Option<(f64, f64)>,
     moving: bool,
+    /// 1/w of the farthest and the nearest point of the foreground that its cameras stand for.
+    foreground: Option<[f64; 2]>,
 }
 
 impl Comfort {
@@ -122,6 +126,7 @@ impl Comfort {
             kept,
             cameras: None,
             moving: false,
+            foreground: None,
         }
     }
 
@@ -177,6 +182,50 @@ impl Comfort {
             Some(Kept::Separation(_) | Kept::EyeSpacing(_)) => 1.0,
             _ => (LIMIT_BEHIND * budget / separation).min(1.0),
         }
+    }
+
+    /// A foreground is seen. The first time the cameras jump to those of the scene alone: so far it counted as the nearest part of that.
+    pub fn see_foreground(&mut self, hand: [f64; 2]) {
+        if self.foreground.is_none() {
+            (self.cameras, self.moving) = (None, false);
+            self.foreground = Some(hand);
+        }
+    }
+
+    /// The cameras of what is drawn before everything else, such as the weapon in a player's hand: it stands between the nearest point of the
+    /// scene and its part of the budget. None where the cameras of the scene keep it within that, or the user has fixed the separation.
+    /// `near` is 1/w of the nearest point of the scene, `hand` 1/w of the farthest and the nearest point of the other.
+    ///
+    /// Depths keep their order and get no more disparity than by the cameras of the scene. A hand is as near as the near plane, so cameras that
+    /// had both within the budget would leave nothing of it to the scene.
+    pub fn foreground(&mut self, near: f64, hand: [f64; 2], budget: f64) -> Option<(f64, f64)> {
+        let (separation, convergence) = self.cameras?;
+        if let Some(Kept::Separation(_) | Kept::EyeSpacing(_)) = self.kept {
+            return None;
+        }
+        let like = |(new, old): (f64, f64)| (new / old).ln().abs() < SLACK;
+        let pairs = |held: [f64; 2]| hand.into_iter().zip(held);
+        let [far, nearest] = *match self.foreground {
+            Some(ref held) if pairs(*held).all(like) => held,
+            _ => self.foreground.insert(hand),
+        };
+        let by_scene = |inverse: f64| separation * (1.0 - convergence * inverse);
+        let end = -FOREGROUND * budget;
+        if by_scene(nearest) >= end {
+            return None;
+        }
+        // Where its farthest point goes.
+        let begin = by_scene(near).clamp(end, 0.0);
+        // The disparity is own − slope/w. It is `end` at the nearest point.
+        let slope = (begin - end) / (nearest - far).max(f64::EPSILON);
+        let slope = slope.min(separation * convergence);
+        let own = end + slope * nearest;
+        // A separation of 0 has no convergence.
+        let own = match own.abs() < 1e-6 * budget {
+            true => 1e-6 * budget,
+            false => own,
+        };
+        Some((own, slope / own))
     }
 
     /// The separation, where the user has fixed it or the spacing of the cameras.
@@ -328,6 +377,36 @@ mod tests {
         }
         let goal = goal.expect("cameras");
         assert!((before.0 / goal.0).ln().abs() < SLACK && (before.1 / goal.1).ln().abs() < 0.02);
+    }
+
+    /// A weapon at a tenth of the scene's distance leaves the scene its budget, and stands before it.
+    #[test]
+    fn a_foreground_stands_between_the_scene_and_its_part_of_the_budget() {
+        for hand in [[1.0, 5.0], [0.01, 5.0], [0.5, 0.6], [4.9, 5.0]] {
+            let mut comfort = Comfort::new(None);
+            let scene = comfort.track(&scene(4.0, 100.0), &LIMITS).expect("cameras");
+            let own = comfort.foreground(0.25, hand, LIMITS.budget);
+            let near = disparity(scene, 4.0);
+            if disparity(scene, 1.0 / hand[1]) >= -FOREGROUND * LIMITS.budget {
+                assert_eq!(own, None);
+                continue;
+            }
+            let [far, nearest] =
+                hand.map(|inverse| disparity(own.expect("cameras"), 1.0 / inverse));
+            assert!((nearest + FOREGROUND * LIMITS.budget).abs() < 1e-12);
+            assert!(
+                nearest < far && far <= near + 1e-12,
+                "{hand:?}: {far} {near}"
+            );
+            let by_scene = hand.map(|inverse| disparity(scene, 1.0 / inverse));
+            assert!(far - nearest <= by_scene[0] - by_scene[1] + 1e-12);
+            // What trembles moves nothing.
+            let trembling = hand.map(|inverse| 1.05 * inverse);
+            assert_eq!(comfort.foreground(0.25, trembling, LIMITS.budget), own);
+        }
+        let mut comfort = Comfort::new(Some(Kept::Separation(0.1)));
+        comfort.track(&scene(4.0, 100.0), &LIMITS);
+        assert_eq!(comfort.foreground(0.25, [1.0, 5.0], LIMITS.budget), None);
     }
 
     #[test]

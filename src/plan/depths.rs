@@ -99,6 +99,8 @@ pub struct DepthMapping {
     pub projection: [f32; 16],
     /// The distance of zero parallax that a profile gives to its draws, in eye-space units.
     pub focal: Option<f64>,
+    /// Its draws come before everything else, such as the weapon in a player's hand.
+    pub foreground: bool,
     draws: u32,
 }
 
@@ -119,12 +121,21 @@ pub struct DepthMappings {
 
 impl DepthMappings {
     /// Counts a draw of the scene, unless its viewport is a picture in the picture.
-    pub fn drawn(&mut self, ramp: Ramp, p: &[f32; 16], focal: Option<f64>, viewport: Viewport) {
+    /// `focal` and `foreground` as in [`DepthMapping`].
+    pub fn drawn(
+        &mut self,
+        ramp: Ramp,
+        p: &[f32; 16],
+        (focal, foreground): (Option<f64>, bool),
+        viewport: Viewport,
+    ) {
         if viewport == Viewport::Inset {
             return;
         }
         // A camera that is multiplied into the projection leaves rounding errors.
-        let same = |w: &&mut DepthMapping| w.ramp.is_like(&ramp) && w.focal == focal;
+        let same = |w: &&mut DepthMapping| {
+            w.ramp.is_like(&ramp) && w.focal == focal && w.foreground == foreground
+        };
         if let Some(mapping) = self.mappings.iter_mut().rev().find(same) {
             mapping.draws = mapping.draws.saturating_add(1);
         } else if self.mappings.len() < MOST {
@@ -132,6 +143,7 @@ impl DepthMappings {
                 ramp,
                 projection: *p,
                 focal,
+                foreground,
                 draws: 1,
             });
         }
@@ -151,7 +163,7 @@ impl DepthMappings {
     pub fn most(&self) -> Option<&DepthMapping> {
         self.mappings
             .iter()
-            .filter(|w| w.focal.is_none())
+            .filter(|w| w.focal.is_none() && !w.foreground)
             .max_by_key(|w| w.draws)
     }
 
@@ -177,12 +189,14 @@ impl DepthMappings {
             } else if let Some(mapping) = self.mapping(depth.into()) {
                 let inverse = mapping.ramp.inverse(depth.into());
                 match mapping.focal {
+                    None if mapping.foreground => found.foreground.push(inverse),
                     None => found.scene.push(inverse),
                     Some(focal) => found.others.push((inverse, focal)),
                 }
             }
         }
         found.scene.sort_unstable_by(f64::total_cmp);
+        found.foreground.sort_unstable_by(f64::total_cmp);
         found
     }
 }
@@ -192,6 +206,8 @@ impl DepthMappings {
 pub struct Distances {
     /// 1/w of the scene, from far to near.
     pub scene: Vec<f64>,
+    /// 1/w of what is drawn before everything else, from far to near.
+    pub foreground: Vec<f64>,
     /// 1/w of samples with a zero parallax of their own, and the distance of that, in eye-space units.
     pub others: Vec<(f64, f64)>,
     /// A sky is visible.
@@ -203,6 +219,8 @@ impl Distances {
     pub fn join(&mut self, other: Distances) {
         self.scene.extend(other.scene);
         self.scene.sort_unstable_by(f64::total_cmp);
+        self.foreground.extend(other.foreground);
+        self.foreground.sort_unstable_by(f64::total_cmp);
         self.others.extend(other.others);
         self.sky |= other.sky;
     }
@@ -210,14 +228,24 @@ impl Distances {
     /// 1/w of the farthest, the median and the nearest sample of the scene. One sample in 200 is ignored at either end, so that a passing
     /// spark moves no cameras.
     pub fn scene(&self) -> Option<[f64; 3]> {
-        let (count, outliers) = (self.scene.len(), self.scene.len() / OUTLIERS);
-        let at = |index: usize| self.scene.get(index).copied();
-        Some([
-            at(outliers)?,
-            at(count / 2)?,
-            at(count.checked_sub(outliers + 1)?)?,
-        ])
+        range(&self.scene)
     }
+
+    /// The same of what is drawn before everything else.
+    pub fn foreground(&self) -> Option<[f64; 3]> {
+        range(&self.foreground)
+    }
+}
+
+/// Of sorted samples, the least, the median and the largest without outliers.
+fn range(samples: &[f64]) -> Option<[f64; 3]> {
+    let (count, outliers) = (samples.len(), samples.len() / OUTLIERS);
+    let at = |index: usize| samples.get(index).copied();
+    Some([
+        at(outliers)?,
+        at(count / 2)?,
+        at(count.checked_sub(outliers + 1)?)?,
+    ])
 }
 
 #[cfg(test)]
@@ -336,10 +364,10 @@ mod tests {
         let narrow = Ramp::of(&p, [0.0, 0.3], false).expect("a ramp");
         let mut mappings = DepthMappings::default();
         for _ in 0..5 {
-            mappings.drawn(whole, &p, None, Viewport::Main);
+            mappings.drawn(whole, &p, (None, false), Viewport::Main);
         }
-        mappings.drawn(narrow, &p, Some(2.0), Viewport::Main);
-        mappings.drawn(narrow, &p, None, Viewport::Inset);
+        mappings.drawn(narrow, &p, (Some(2.0), false), Viewport::Main);
+        mappings.drawn(narrow, &p, (None, false), Viewport::Inset);
         let at = |z: f32, range| depth(scene, Vec4::new(0.0, 0.0, z, 1.0), range, false).0;
         let depths = [
             at(-50.0, [0.0, 1.0]),

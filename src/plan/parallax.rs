@@ -19,6 +19,8 @@ pub struct Rig {
     /// The focal depth for [`Camera::Auto`], where it is known for the program.
     focal: Option<f64>,
     latched: Option<(f64, f64)>,
+    /// Separation and convergence of what is drawn before everything else, where they differ from those of the scene.
+    foreground: Option<(f64, f64)>,
     /// What the display can show, once it is known.
     reach: Option<comfort::Reach>,
     /// A per unit of row 3, of the last perspective projection that was drawn with.
@@ -54,6 +56,7 @@ impl Rig {
             camera,
             focal,
             latched: None,
+            foreground: None,
             reach: None,
             a: None,
             farthest: FARTHEST,
@@ -65,6 +68,7 @@ impl Rig {
     pub fn change(&mut self, camera: Camera, flat: bool) {
         if camera != self.camera {
             self.farthest = FARTHEST;
+            self.foreground = None;
         }
         (self.camera, self.flat) = (camera, flat);
     }
@@ -74,10 +78,17 @@ impl Rig {
         self.reach = Some(reach);
     }
 
-    /// Sets separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them. `farthest` is where a sky stands, as for [`Rig::at_depth`].
-    pub fn set_measured(&mut self, cameras: (f64, f64), farthest: f64) {
+    /// Sets separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them. `farthest` is where a sky stands, as for
+    /// [`Rig::at_depth`]; `foreground` has the cameras of what is drawn before everything else, where they differ.
+    pub fn set_measured(
+        &mut self,
+        cameras: (f64, f64),
+        farthest: f64,
+        foreground: Option<(f64, f64)>,
+    ) {
         self.latched = Some(cameras);
         self.farthest = farthest;
+        self.foreground = foreground;
     }
 
     /// The shift of a sky.
@@ -201,6 +212,17 @@ impl Rig {
                 })
             }
         }
+    }
+
+    /// The shift of what is drawn before everything else, such as the weapon in a player's hand.
+    pub fn foreground(&self, p: &[f32; 16]) -> Option<Shear> {
+        let shear = self.shear(p)?;
+        Some(match (self.camera, self.foreground) {
+            (Camera::Measured(_), Some((separation, convergence))) => {
+                Shear::in_clip_space(separation, convergence)
+            }
+            _ => shear,
+        })
     }
 
     /// The shift for a draw that has zero parallax at a depth of its own and the common separation at infinity. It looks ξ/`focal`
@@ -543,7 +565,7 @@ mod tests {
         let mut rig = Rig::new(2, Camera::Measured(None), None);
         assert_eq!(rig.latched(), None);
         assert_eq!(rig.at_depth(&p, 1.0), None, "nothing is known yet");
-        rig.set_measured((0.02, 5.0), 0.5);
+        rig.set_measured((0.02, 5.0), 0.5, None);
         assert_eq!(rig.latched(), Some((0.02, 5.0)));
         let shear = rig.shear(&p).expect("a scene");
         assert!(shear.separation(1.0) > 0.0);

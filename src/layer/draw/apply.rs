@@ -36,10 +36,11 @@ impl Layer {
                     ramp,
                     projection,
                     focal,
+                    foreground,
                     viewport,
                 } => {
                     let mappings = &mut self.cameras.comfort.mappings;
-                    mappings.drawn(ramp, &projection, focal, viewport);
+                    mappings.drawn(ramp, &projection, (focal, foreground), viewport);
                 }
                 Effect::MapSky => self.cameras.comfort.mappings.sky = true,
                 Effect::ForgetDepths => self.cameras.comfort.mappings.clear(),

@@ -137,6 +137,12 @@ impl Layer {
             raster: self.cameras.raster_placed(),
             first,
             backdrop: self.known.frame.backdrop.is_expected(),
+            foreground: shown
+                && self
+                    .known
+                    .frame
+                    .foreground
+                    .has(self.state.classification.range),
             projection,
             ..by_state
         }

@@ -27,6 +27,7 @@ fn facts() -> Traits {
         turns: false,
         first: true,
         backdrop: false,
+        foreground: false,
     }
 }
 

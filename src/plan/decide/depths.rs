@@ -87,6 +87,7 @@ fn map(facts: &Facts, depths: &mut DepthWatch, effects: &mut Vec<Effect>) {
         ramp,
         projection: facts.projections.scene,
         focal: facts.classed.focal,
+        foreground: facts.classed.is_foreground(),
         viewport,
     });
 }

@@ -51,6 +51,8 @@ pub enum Effect {
         projection: [f32; 16],
         /// The distance of zero parallax that a rule gives to the draw, in eye-space units.
         focal: Option<f64>,
+        /// It is drawn before everything else.
+        foreground: bool,
         /// How much of the window the viewport covers.
         viewport: Viewport,
     },

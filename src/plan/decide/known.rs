@@ -1,6 +1,7 @@
 //! The knowledge from earlier commands. Each decision reads it and leaves it updated.
 
 use super::backdrop::Backdrop;
+use super::foreground::Foreground;
 use super::mono::Mono;
 use super::scene::Scene;
 use crate::config::Strategy;
@@ -41,6 +42,8 @@ pub struct Frame {
     pub nearer_is_larger: Option<bool>,
     /// What is drawn around the eye before the depths are cleared for the scene.
     pub backdrop: Backdrop,
+    /// What is drawn before everything else.
+    pub foreground: Foreground,
 }
 
 impl Frame {
@@ -49,6 +52,7 @@ impl Frame {
     pub fn next(&self) -> Frame {
         Frame {
             backdrop: self.backdrop.next(),
+            foreground: self.foreground.next(),
             ..Frame::default()
         }
     }

@@ -8,6 +8,7 @@ mod backdrop;
 mod depths;
 mod effect;
 mod facts;
+mod foreground;
 mod grid;
 mod known;
 mod mono;
@@ -25,6 +26,7 @@ pub use facts::{
     ClearFacts, Demand, Destination, Facts, GridFacts, Linked, Projections, Rects, Shaders,
     SynthesisFacts, VariantFacts,
 };
+pub use foreground::Foreground;
 pub use grid::retreat;
 pub use known::{DepthWatch, Frame, Known, Settings};
 pub use mono::{ALL_BUFFERS, Mono};

@@ -3,8 +3,9 @@
 use super::{Facts, Known, Rects, Settings};
 use crate::config::{Class, Repetition, Viewport};
 use crate::gl::TextureName;
+use crate::plan::class::Classed;
 use crate::plan::reason::{Missing, Reason, Replayed};
-use crate::plan::{Kind, Shear};
+use crate::plan::{Kind, Rig, Shear};
 
 /// How the views are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -86,10 +87,7 @@ pub(super) fn of_fixed_function(facts: &Facts, known: &Known, settings: &Setting
     let p = &facts.projections.fixed;
     let shear = match class {
         _ if super::is_whole(kind) => None,
-        Class::Scene => match classed.focal {
-            None => rig.shear(p),
-            Some(focal) => rig.shear_about(p, focal),
-        },
+        Class::Scene => of_scene(classed, rig, p),
         Class::Sky => rig.sky(p),
         Class::Flat => {
             let magnified = magnified(facts.traits.viewport, &facts.rects);
@@ -106,6 +104,15 @@ pub(super) fn of_fixed_function(facts: &Facts, known: &Known, settings: &Setting
         shear,
         reason,
         ..plan
+    }
+}
+
+/// The shift of a draw of the scene under a projection.
+pub(super) fn of_scene(classed: &Classed, rig: &Rig, p: &[f32; 16]) -> Option<Shear> {
+    match classed.focal {
+        Some(focal) => rig.shear_about(p, focal),
+        None if classed.is_foreground() => rig.foreground(p),
+        None => rig.shear(p),
     }
 }
 

@@ -47,10 +47,12 @@ impl DisparityMapping {
         self.shear.separation(1.0) * f64::from(self.viewport[2]) / 2.0
     }
 
-    /// Disparity over window depth, in pixels for one place: slope and offset.
-    pub fn line(&self) -> [f64; 2] {
-        let size = self.far().abs() * self.shear.conv;
-        self.ramp.line().map(|v| size * v)
+    /// Disparity towards the viewer, from where an infinitely far point of the scene is shown, over window depth, in pixels for one place:
+    /// slope and offset. `scene` is the mapping of the scene that this is a part of.
+    pub fn line(&self, scene: &DisparityMapping) -> [f64; 2] {
+        let (far, of_scene) = (self.far(), scene.far());
+        let [slope, offset] = self.ramp.line().map(|v| far * self.shear.conv * v);
+        [slope, offset + of_scene - far].map(|v| v * of_scene.signum())
     }
 }
 
@@ -70,9 +72,7 @@ impl Scene {
         if let Some((before, _)) = self.before {
             return before.is_like(&new);
         }
-        if first.viewport != new.viewport
-            || first.shear.separation(1.0) != new.shear.separation(1.0)
-        {
+        if first.viewport != new.viewport {
             return false;
         }
         // The weapon's draw may come before or after the rest.
@@ -98,6 +98,7 @@ pub(super) fn observe(facts: &Facts, known: &mut Known, settings: &Settings) {
     known.lens = facts.projections.lens.or(known.lens);
     known.frame.draws = facts.traits.draw;
     known.frame.backdrop.observe(facts);
+    known.frame.foreground.observe(facts);
     if shown {
         let behind = facts.classed.class == Class::Sky;
         if clear {

@@ -40,10 +40,7 @@ pub(super) fn plan(
         Class::Flat if ruled => (Class::Flat, plan.shear, hud),
         Class::Sky => (Class::Sky, known.rig.sky(&camera), Flat::Still),
         class => {
-            let shear = match facts.classed.focal {
-                None => known.rig.shear(&camera),
-                Some(focal) => known.rig.shear_about(&camera, focal),
-            };
+            let shear = super::plan::of_scene(&facts.classed, &known.rig, &camera);
             let flat = match class {
                 Class::Flat => hud,
                 _ if fills_depths(facts, variant) => Flat::Scene,

@@ -35,7 +35,9 @@ pub(super) fn watch(
             scene.begun = true;
             known.scene = Some(scene);
             let rays = mapping.zip(facts.synthesis.reference);
-            plan.reference = rays.and_then(|(mapping, map)| reference(facts, &mapping, map));
+            let of = scene.mapping.as_ref();
+            plan.reference = rays
+                .and_then(|(mapping, map)| reference(facts, &mapping, of.unwrap_or(&mapping), map));
         }
         Err(what) => {
             effects.push(Effect::Fallback(Reason::SynthesisedBefore(what)));
@@ -189,7 +191,13 @@ fn of_scene(
 }
 
 /// How a draw is repeated in the reference image: fixed-function surfaces, and any draw with the program's own shaders.
-fn reference(facts: &Facts, mapping: &DisparityMapping, map: TextureName) -> Option<ReferenceDraw> {
+/// `scene` is the mapping of the whole scene.
+fn reference(
+    facts: &Facts,
+    mapping: &DisparityMapping,
+    scene: &DisparityMapping,
+    map: TextureName,
+) -> Option<ReferenceDraw> {
     let kind = facts.traits.kind;
     let mode = match kind {
         Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => Some(mode),
@@ -214,7 +222,7 @@ fn reference(facts: &Facts, mapping: &DisparityMapping, map: TextureName) -> Opt
         true => (near, far - near),
         false => ((near + far) / 2.0, (far - near) / 2.0),
     };
-    let [scale, offset] = mapping.line().map(|v| v as f32);
+    let [scale, offset] = mapping.line(scene).map(|v| v as f32);
     Some(ReferenceDraw {
         mode,
         map,

@@ -12,6 +12,7 @@ use crate::state::ClassificationState;
 mod backdrop;
 mod classes;
 mod depths;
+mod foreground;
 mod mono;
 mod preparations;
 mod scenes;
@@ -51,6 +52,7 @@ pub(super) fn scene() -> Facts {
             turns: false,
             first: true,
             backdrop: false,
+            foreground: false,
         },
         classed: classed(Class::Scene),
         projections: Projections {

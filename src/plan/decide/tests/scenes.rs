@@ -134,7 +134,7 @@ fn draws_of_the_scene_belong_to_it() {
     let far = mapping.shear.separation(1.0) * 320.0;
     assert_eq!(mapping.far(), far);
     // At the plane of zero parallax, the disparity is that of infinity.
-    let [slope, offset] = mapping.line();
+    let [slope, offset] = mapping.line(&mapping);
     let [a, b] = mapping.ramp.line();
     let size = far.abs() * mapping.shear.conv;
     assert_eq!([slope, offset], [size * a, size * b]);
@@ -290,7 +290,8 @@ fn the_reference_image_gets_surfaces() {
         (Some(c::TRIANGLES), TextureName(9))
     );
     let mapping = self::drawn().scene.and_then(|scene| scene.mapping);
-    let [scale, offset] = mapping.expect("a mapping").line().map(|v| v as f32);
+    let mapping = mapping.expect("a mapping");
+    let [scale, offset] = mapping.line(&mapping).map(|v| v as f32);
     assert_eq!(drawn.disparities, [scale * 0.5, scale * 0.5 + offset]);
     // Over z in NDC disparities are the same, whatever the depth range.
     let close = |other: ReferenceDraw| {
