@@ -40,7 +40,7 @@ fn bad_options_are_one_line_and_status_2() {
             &["--output", "chequer"],
             "this version knows panel, quilt, sbs, ",
         ),
-        (&["--auto-depth=yes"], "0"),
+        (&["--auto-depth=yes"], "give 1 for on or 0 for off"),
         (&["--strategy", "magic"], "replay"),
         (
             &["--view-scale", "0"],

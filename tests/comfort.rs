@@ -84,6 +84,8 @@ fn distances_are_those_that_are_drawn() {
         "pass-32f",
         "pass-unsized",
         "pass-samples",
+        "part",
+        "pass-part",
     ];
     for how in cases {
         let frames = frames(&walls(how, &AUTO));
@@ -128,6 +130,42 @@ fn a_weapon_stands_between_the_scene_and_its_part_of_the_budget() {
                 && close(frame.convergence, plain.convergence),
             "{how}: {frame:?} {plain:?}"
         );
+    }
+}
+
+/// Synthesised views have the weapon where drawn ones have it, though its disparities are not those of the scene.
+#[test]
+fn a_weapon_is_where_it_is_drawn_in_synthesised_views() {
+    let program = compiled("depths", Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("report.json");
+    let panel = folder.path().join("panel.toml");
+    // Shifts of several pixels.
+    std::fs::write(&panel, "kind = \"huebner\"\nbudget-px = 8\n").expect("written");
+    let view = |strategy: &str| {
+        let out = folder.path().join("view.png");
+        let all = [
+            ("VIEWS", "3"),
+            ("AUTO_DEPTH", ""),
+            ("DISPLAY", panel.to_str().expect("UTF-8")),
+            ("STRATEGY", strategy),
+            ("REPORT", path.to_str().expect("UTF-8")),
+            ("CAPTURE_OUT", out.to_str().expect("UTF-8")),
+            ("CAPTURE_FRAMES", "8"),
+            ("CAPTURE_WHAT", "view:0"),
+        ];
+        succeed(layered(&program, &all).arg("weapon"));
+        support::extent(&support::rgb(&out), 1, 0, [255, 255, 0])
+    };
+    let drawn = view("replay");
+    let synthesised = view("depth-image");
+    // Otherwise all views were drawn.
+    let report = report(&path);
+    assert!(report["frames_synthesised"].is_object(), "{report}");
+    // By the cameras of the scene it would be elsewhere.
+    assert!(drawn[0] > 28.0 + 3.0, "{drawn:?}");
+    for (drawn, synthesised) in drawn.into_iter().zip(synthesised) {
+        assert!((drawn - synthesised).abs() <= 0.5, "{drawn} {synthesised}");
     }
 }
 

@@ -8,7 +8,7 @@ use crate::state::{Neutral, Window};
 const PICTURES: usize = 3;
 
 /// The longer side of a copy, in samples. Of a frame of 1920 x 1080, one pixel in 15 of a row is sampled.
-pub const SAMPLES: u32 = 128;
+const SAMPLES: u32 = 128;
 
 /// Bytes from picture to picture in the buffer.
 const SLOT: usize = (SAMPLES * SAMPLES) as usize * size_of::<f32>();
@@ -41,9 +41,7 @@ impl Atlas {
     /// Makes the objects for [`Atlas::take_depths`]. The caller saves and restores bindings as for [`Atlas::new`], and the pack
     /// buffer.
     pub fn make_depths(&mut self, gl: &Gl, names: &mut Names, window: &Window) {
-        let longer = window.width.max(window.height).max(1);
-        let side = |pixels: u32| (pixels * SAMPLES.min(longer) / longer).max(1) as i32;
-        let size = [side(window.width), side(window.height)];
+        let size = small_size([window.width, window.height]);
         let (flipped, textures) = (self.flipped, &mut self.textures);
         let small =
             (window.bits[4] > 0).then(|| Single::new(gl, names, window, size, flipped, textures));
@@ -70,19 +68,29 @@ impl Atlas {
         self.depths.is_some()
     }
 
-    /// Copies the current depths of the program's own view; false where there is no more room, or depths cannot be read. Changes the
-    /// framebuffer bindings.
-    pub fn take_depths(&mut self, gl: &Gl, neutral: &Neutral) -> bool {
+    /// Copies the current depths of the program's own view in a part of the window: left, bottom, right, top in its pixels. False where there
+    /// is no more room, or depths cannot be read. Changes the framebuffer bindings.
+    pub fn take_depths(&mut self, gl: &Gl, neutral: &Neutral, area: [i32; 4]) -> bool {
         if !self.depths.as_ref().is_some_and(Depths::has_room) || !gl.reads_depths() {
             return false;
         }
         self.resolve(gl, &self.tiles.own_alone(), c::DEPTH_BUFFER_BIT);
         let (from, x) = self.readable(self.tiles.own());
-        let window = [self.tiles.width, self.tiles.height].map(|n| n as i32);
+        let [width, height] = [self.tiles.width, self.tiles.height].map(|n| n as i32);
+        let [left, bottom, right, top] = inside(area, self.tiles.window.map(|n| n as i32));
+        // The tile may have fewer pixels than the window, and in a slanted grid they are not those of its columns.
+        let of = |at: i32, pixels: i32, window: u32| at * pixels / window.max(1) as i32;
+        let [columns, rows] = self.tiles.window;
+        let across = match self.tiles.grid.shear == 0.0 {
+            true => [of(left, width, columns), of(right, width, columns)],
+            false => [0, width],
+        };
+        let up = [of(bottom, height, rows), of(top, height, rows)];
+        let area = inside([across[0], up[0], across[1], up[1]], [width, height]);
         self.bound_row = u32::MAX;
         let small = self.depths.as_ref().and_then(|d| d.small.as_ref());
         let Some((framebuffer, size)) = small.map(|small| {
-            small.shrink(gl, from, x, window);
+            small.shrink(gl, from, x, area);
             (small.framebuffer(), small.size())
         }) else {
             return false;
@@ -90,7 +98,7 @@ impl Atlas {
         self.take_depths_of(gl, neutral, framebuffer, size)
     }
 
-    /// Takes all depths of a framebuffer as they are; `size` is its width and height, each at most [`SAMPLES`]. As [`Atlas::take_depths`].
+    /// Takes all depths of a framebuffer as they are; `size` is its width and height, as [`small_size`] gives it. As [`Atlas::take_depths`].
     pub fn take_depths_of(
         &mut self,
         gl: &Gl,
@@ -152,6 +160,26 @@ impl Atlas {
     pub fn give_buffer(&mut self) -> (Option<BufferName>, Option<Fence>) {
         let fence = self.depths.as_mut().and_then(|d| d.fence.take());
         (self.depths.as_ref().map(|d| d.buffer), fence)
+    }
+}
+
+/// Width and height in samples of the copy of depths of this size in pixels.
+pub fn small_size([width, height]: [u32; 2]) -> [i32; 2] {
+    let longer = width.max(height).max(1);
+    [width, height].map(|pixels| (pixels * SAMPLES.min(longer) / longer).max(1) as i32)
+}
+
+/// The part of a rectangle (left, bottom, right, top) that lies within a picture of this size; all of that where no pixel does.
+pub fn inside([left, bottom, right, top]: [i32; 4], [width, height]: [i32; 2]) -> [i32; 4] {
+    let part = [
+        left.max(0),
+        bottom.max(0),
+        right.min(width),
+        top.min(height),
+    ];
+    match part[0] < part[2] && part[1] < part[3] {
+        true => part,
+        false => [0, 0, width, height],
     }
 }
 

@@ -19,7 +19,7 @@ mod view_set;
 
 use crate::view::ViewIndex;
 use depths::Depths;
-pub use depths::SAMPLES;
+pub use depths::{inside, small_size};
 use front::Front;
 pub use grid::Grid;
 pub use names::Names;

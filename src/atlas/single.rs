@@ -96,14 +96,15 @@ impl Single {
         gl.blit_framebuffer(x, 0, x + w, h, to_x, 0, to_x + w, h, all, c::NEAREST);
     }
 
-    /// Copies the depths of such a tile, `window` pixels wide and high, scaled to its own size by the nearest pixel. Binds as
+    /// Copies the depths of such a tile between these corners (left, bottom, right, top), scaled to its own size by the nearest pixel. Binds as
     /// [`Single::take`].
-    pub(super) fn shrink(&self, gl: &Gl, from: FramebufferName, x: i32, window: [i32; 2]) {
-        let ([w, h], [width, height]) = (self.size, window);
+    pub(super) fn shrink(&self, gl: &Gl, from: FramebufferName, x: i32, area: [i32; 4]) {
+        let ([w, h], [left, bottom, right, top]) = (self.size, area);
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.framebuffer());
         let depth = c::DEPTH_BUFFER_BIT;
-        gl.blit_framebuffer(x, 0, x + width, height, 0, 0, w, h, depth, c::NEAREST);
+        let (left, right) = (x + left, x + right);
+        gl.blit_framebuffer(left, bottom, right, top, 0, 0, w, h, depth, c::NEAREST);
     }
 
     /// Width and height in pixels.

@@ -288,7 +288,7 @@ fn depths_are_read_when_they_are_there() {
     atlas.make_depths(&gl, &mut Names::default(), &window(&gl, 0));
     let neutral = Neutral::enter(&gl, true, false);
     let taken = (0..4)
-        .map(|_| atlas.take_depths(&gl, &neutral))
+        .map(|_| atlas.take_depths(&gl, &neutral, [0; 4]))
         .collect::<Vec<_>>();
     neutral.leave(&gl);
     assert_eq!(taken, [true, true, true, false]);

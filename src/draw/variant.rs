@@ -275,9 +275,11 @@ fn same_storage_blocks(gl: &Gl, program: ProgramName, variant: ProgramName) -> V
     all.collect()
 }
 
-/// The outputs that a program's fragment shader declares, with their locations.
+/// The outputs that a program's fragment shader declares, with their locations. NVIDIA's driver tells of built-in ones too, which no program
+/// may bind.
 fn outputs(gl: &Gl, program: ProgramName) -> Vec<(CString, u32)> {
     let names = gl.program_outputs(program).into_iter();
+    let names = names.filter(|name| !name.as_bytes().starts_with(b"gl_"));
     let place = |name: CString| {
         let at = u32::try_from(gl.output_location(program, &name)).ok()?;
         Some((name, at))

@@ -1,7 +1,6 @@
 //! Cameras that follow the depth buffer, and the disparities of the frames: which depths are read, and when.
 
 use super::{Layer, keep_bindings};
-use crate::atlas::SAMPLES;
 use crate::config::{Camera, Config, Kept};
 use crate::display::Budget;
 use crate::gl::{BufferName, FramebufferName, Gl, consts as c};
@@ -139,7 +138,10 @@ impl Layer {
         }
         let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
         let taken = match framebuffer.is_zero() {
-            true => self.targets.atlas.take_depths(gl, neutral),
+            true => {
+                let area = self.known.depths.area;
+                self.targets.atlas.take_depths(gl, neutral, area)
+            }
             false => self.take_depths_of(gl, neutral, framebuffer),
         };
         if taken {
@@ -163,10 +165,10 @@ impl Layer {
         let offscreen = &mut self.targets.offscreen;
         if offscreen.lacks_depths(gl, framebuffer) {
             self.state.keep_errors(gl);
-            offscreen.make_depths(gl, framebuffer, SAMPLES);
+            offscreen.make_depths(gl, framebuffer);
             gl.drop_errors();
         }
-        let small = offscreen.shrink_depths(gl, framebuffer);
+        let small = offscreen.shrink_depths(gl, framebuffer, self.known.depths.area);
         small.is_some_and(|(small, size)| {
             self.targets.atlas.take_depths_of(gl, neutral, small, size)
         })
@@ -187,7 +189,7 @@ impl Layer {
         self.targets.atlas.send_depths(gl);
         let measured = matches!(self.session.live.camera, Camera::Measured(_));
         if measured && self.cameras.comfort.next.is_none() {
-            // No cameras were found yet: it is better to wait once for the depths than to show another flat frame.
+            // No cameras were found yet: it is better to wait once for the depths than to show another shallow frame.
             self.read_depths(gl);
         }
         if measured
@@ -275,14 +277,15 @@ impl Layer {
             others: ratios.fold(None, |r, v| Some(range(r, v))),
             sky: all.sky,
         };
-        let hand = all.foreground().map(|[far, _, nearest]| [far, nearest]);
-        if let Some(hand) = hand {
-            self.cameras.comfort.cameras.see_foreground(hand);
+        let foreground = all.foreground().map(|[far, _, nearest]| [far, nearest]);
+        if let Some(foreground) = foreground {
+            self.cameras.comfort.cameras.see_foreground(foreground);
         }
         self.find_cameras(p, &seen);
         let budget = self.reach().budget;
         let comfort = &mut self.cameras.comfort;
-        comfort.foreground = hand.and_then(|hand| comfort.cameras.foreground(near, hand, budget));
+        comfort.foreground =
+            foreground.and_then(|range| comfort.cameras.foreground(near, range, budget));
         if self.session.config.report.is_none() {
             return;
         }
@@ -292,9 +295,9 @@ impl Layer {
         let ends = [near, far].map(|inverse| at(convergence * inverse));
         let own = seen.others.into_iter().flatten().map(at);
         let sky = all.sky.then_some(taken.sky);
-        let before = hand.zip(taken.foreground);
-        let before = before.map(|(hand, (separation, convergence))| {
-            hand.map(|inverse| separation * (1.0 - convergence * inverse) * px)
+        let before = foreground.zip(taken.foreground);
+        let before = before.map(|(range, (separation, convergence))| {
+            range.map(|inverse| separation * (1.0 - convergence * inverse) * px)
         });
         let all = ends.into_iter().chain(own).chain(sky);
         let all = all.chain(before.into_iter().flatten());

@@ -239,7 +239,7 @@ impl Explained {
             "depth"
         );
         for (facts, classed) in &self.draws {
-            let seen = matches!(facts.target, Target::Window | Target::Pass(_));
+            let seen = facts.target.is_shown();
             let known = |text: String| if seen { text } else { "-".to_owned() };
             let shader = match facts.shader {
                 0 => "-".to_owned(),

@@ -2,6 +2,7 @@
 
 use super::image::with_texture;
 use super::{Offscreen, locked};
+use crate::atlas::{inside, small_size};
 use crate::gl::{
     Attachment, FramebufferName, Gl, Level, Object, RenderbufferName, Storage, consts as c,
 };
@@ -30,9 +31,8 @@ impl Offscreen {
         self.targets.contains_key(&framebuffer) && self.target(gl, framebuffer).depths.is_none()
     }
 
-    /// Makes what [`Offscreen::shrink_depths`] copies the depths of a framebuffer to: its longer side has at most `samples` pixels. Changes
-    /// the framebuffer bindings; the scissor test must be off, and the caller preserves errors.
-    pub fn make_depths(&mut self, gl: &Gl, framebuffer: FramebufferName, samples: u32) {
+    /// Makes what [`Offscreen::shrink_depths`] copies the depths of a framebuffer to. Changes the framebuffer bindings; the scissor test must be off, and the caller preserves errors.
+    pub fn make_depths(&mut self, gl: &Gl, framebuffer: FramebufferName) {
         let from = self.view(gl, framebuffer, self.tiles.own());
         let depth = |a: &&Attachment| a.point == c::DEPTH_ATTACHMENT;
         let attachments = &self.target(gl, framebuffer).attachments;
@@ -40,8 +40,8 @@ impl Offscreen {
         let level = attachment.and_then(|attachment| self.level(gl, &attachment));
         let storages = level.map(|level| level.depth_storages());
         let made = storages.into_iter().flatten().find_map(|storage| {
-            let made = SmallDepths::new(gl, storage, samples);
-            made.take(gl, from);
+            let made = SmallDepths::new(gl, storage);
+            made.take(gl, from, [0; 4]);
             if made.is_complete(gl) && gl.get_error() == c::NO_ERROR {
                 return Some(made);
             }
@@ -52,19 +52,20 @@ impl Offscreen {
         self.target(gl, framebuffer).depths = Some(made);
     }
 
-    /// Copies the depths that the own view of a framebuffer has now, by the nearest pixel, to a framebuffer, and returns that with its width
-    /// and height. None where there are no depths, or none whose format the driver tells. Changes the framebuffer bindings; the scissor test
+    /// Copies the depths that the own view of a framebuffer has now in a part of it (left, bottom, right, top in pixels), by the nearest pixel,
+    /// to a framebuffer, and returns that with its width and height. None where there are no depths, or none whose format the driver tells. Changes the framebuffer bindings; the scissor test
     /// must be off.
     pub fn shrink_depths(
         &mut self,
         gl: &Gl,
         framebuffer: FramebufferName,
+        area: [i32; 4],
     ) -> Option<(FramebufferName, [i32; 2])> {
         let own = self.tiles.own();
         let there = self.targets.contains_key(&framebuffer);
         let from = there.then(|| self.view(gl, framebuffer, own))?;
         let depths = self.targets.get(&framebuffer)?.depths.as_ref()?.as_ref()?;
-        depths.take(gl, from);
+        depths.take(gl, from, area);
         Some((depths.small.framebuffer, depths.small.size))
     }
 
@@ -89,12 +90,13 @@ impl Offscreen {
 }
 
 impl SmallDepths {
-    fn new(gl: &Gl, [format, width, height, of_pixel]: Storage, samples: u32) -> SmallDepths {
-        let longer = width.max(height).max(1);
-        let most = i32::try_from(samples).map_or(longer, |samples| samples.min(longer));
-        let side = |pixels: i32| (pixels * most / longer).max(1);
-        let small = Buffer::new(gl, format, [side(width), side(height)]);
-        let resolved = (of_pixel > 0).then(|| Buffer::new(gl, format, [width, height]));
+    fn new(gl: &Gl, [format, width, height, samples]: Storage) -> SmallDepths {
+        let small = Buffer::new(
+            gl,
+            format,
+            small_size([width, height].map(i32::unsigned_abs)),
+        );
+        let resolved = (samples > 0).then(|| Buffer::new(gl, format, [width, height]));
         SmallDepths {
             resolved,
             small,
@@ -107,16 +109,17 @@ impl SmallDepths {
         self.buffers().all(|buffer| buffer.is_complete(gl))
     }
 
-    /// Copies the depths of a framebuffer.
-    fn take(&self, gl: &Gl, from: FramebufferName) {
+    /// Copies the depths of a part of a framebuffer.
+    fn take(&self, gl: &Gl, from: FramebufferName, area: [i32; 4]) {
+        let [width, height] = self.size;
         let from = match &self.resolved {
             Some(resolved) => {
-                resolved.take(gl, from, self.size);
+                resolved.take(gl, from, [0, 0, width, height]);
                 resolved.framebuffer
             }
             None => from,
         };
-        self.small.take(gl, from, self.size);
+        self.small.take(gl, from, inside(area, self.size));
     }
 
     fn buffers(&self) -> impl Iterator<Item = &Buffer> {
@@ -168,12 +171,12 @@ impl Buffer {
         gl.check_framebuffer_status(c::DRAW_FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE
     }
 
-    /// Copies the depths of a framebuffer of this size, scaled by the nearest pixel.
-    fn take(&self, gl: &Gl, from: FramebufferName, [width, height]: [i32; 2]) {
+    /// Copies the depths between these corners, scaled by the nearest pixel.
+    fn take(&self, gl: &Gl, from: FramebufferName, [left, bottom, right, top]: [i32; 4]) {
         let [w, h] = self.size;
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.framebuffer);
         let depth = c::DEPTH_BUFFER_BIT;
-        gl.blit_framebuffer(0, 0, width, height, 0, 0, w, h, depth, c::NEAREST);
+        gl.blit_framebuffer(left, bottom, right, top, 0, 0, w, h, depth, c::NEAREST);
     }
 }

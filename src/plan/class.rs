@@ -61,6 +61,13 @@ pub enum Target {
     Nothing,
 }
 
+impl Target {
+    /// Whether the picture, or a part of it, ends up in the window.
+    pub fn is_shown(self) -> bool {
+        matches!(self, Target::Window | Target::Pass(_))
+    }
+}
+
 /// Why a draw has its class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {

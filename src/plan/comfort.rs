@@ -184,30 +184,30 @@ impl Comfort {
         }
     }
 
-    /// A foreground is seen. The first time the cameras jump to those of the scene alone: so far it counted as the nearest part of that.
-    pub fn see_foreground(&mut self, hand: [f64; 2]) {
+    /// A foreground is seen, with `range` as for [`Comfort::foreground`]. The first time the cameras jump to those of the scene alone: so far it counted as the nearest part of that.
+    pub fn see_foreground(&mut self, range: [f64; 2]) {
         if self.foreground.is_none() {
             (self.cameras, self.moving) = (None, false);
-            self.foreground = Some(hand);
+            self.foreground = Some(range);
         }
     }
 
     /// The cameras of what is drawn before everything else, such as the weapon in a player's hand: it stands between the nearest point of the
     /// scene and its part of the budget. None where the cameras of the scene keep it within that, or the user has fixed the separation.
-    /// `near` is 1/w of the nearest point of the scene, `hand` 1/w of the farthest and the nearest point of the other.
+    /// `near` is 1/w of the nearest point of the scene, `range` 1/w of the farthest and the nearest point of the foreground.
     ///
-    /// Depths keep their order and get no more disparity than by the cameras of the scene. A hand is as near as the near plane, so cameras that
-    /// had both within the budget would leave nothing of it to the scene.
-    pub fn foreground(&mut self, near: f64, hand: [f64; 2], budget: f64) -> Option<(f64, f64)> {
+    /// Depths keep their order and get no more disparity than by the cameras of the scene. A weapon is as near as the near plane, so cameras that
+    /// kept both within the budget would leave nothing of it to the scene.
+    pub fn foreground(&mut self, near: f64, range: [f64; 2], budget: f64) -> Option<(f64, f64)> {
         let (separation, convergence) = self.cameras?;
         if let Some(Kept::Separation(_) | Kept::EyeSpacing(_)) = self.kept {
             return None;
         }
         let like = |(new, old): (f64, f64)| (new / old).ln().abs() < SLACK;
-        let pairs = |held: [f64; 2]| hand.into_iter().zip(held);
+        let pairs = |held: [f64; 2]| range.into_iter().zip(held);
         let [far, nearest] = *match self.foreground {
             Some(ref held) if pairs(*held).all(like) => held,
-            _ => self.foreground.insert(hand),
+            _ => self.foreground.insert(range),
         };
         let by_scene = |inverse: f64| separation * (1.0 - convergence * inverse);
         let end = -FOREGROUND * budget;

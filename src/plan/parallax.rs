@@ -16,7 +16,7 @@ pub struct Rig {
     /// N.
     pub views: u32,
     camera: Camera,
-    /// The focal depth for [`Camera::Auto`], where it is known for the program.
+    /// The focal depth for [`Camera::Auto`] and for the first cameras of [`Camera::Measured`], where it is known for the program.
     focal: Option<f64>,
     latched: Option<(f64, f64)>,
     /// Separation and convergence of what is drawn before everything else, where they differ from those of the scene.
@@ -49,7 +49,7 @@ pub struct Shear {
 const AUTO_TOTAL_SEPARATION: f64 = 0.04;
 
 impl Rig {
-    /// The cameras for N views. `focal` is the focal depth of [`Camera::Auto`], where it is known for the program.
+    /// The cameras for N views. `focal` is the focal depth of cameras that the user does not place, where it is known for the program.
     pub fn new(views: u32, camera: Camera, focal: Option<f64>) -> Self {
         Rig {
             views,

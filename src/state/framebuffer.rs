@@ -43,6 +43,32 @@ pub struct Window {
     pub accumulation: [u32; 4],
 }
 
+const BITS: [u32; 6] = [
+    c::RED_BITS,
+    c::GREEN_BITS,
+    c::BLUE_BITS,
+    c::ALPHA_BITS,
+    c::DEPTH_BITS,
+    c::STENCIL_BITS,
+];
+
+/// The sizes that [`BITS`] names. A core profile has these of its attachments alone (OpenGL 3.2, E.2.2); Mesa's tells both.
+fn attached_bits(gl: &Gl, color: u32) -> [u32; 6] {
+    let size = |(attachment, name)| match gl
+        .attachment_parameter(attachment, c::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE)
+        as u32
+    {
+        // It would be an error to ask for more.
+        c::NONE => 0,
+        _ => gl.attachment_parameter(attachment, name).max(0) as u32,
+    };
+    let channel = |i| size((color, c::FRAMEBUFFER_ATTACHMENT_RED_SIZE + i));
+    let [red, green, blue, alpha] = [0, 1, 2, 3].map(channel);
+    let depth = size((c::DEPTH, c::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE));
+    let stencil = size((c::STENCIL, c::FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE));
+    [red, green, blue, alpha, depth, stencil]
+}
+
 impl Window {
     /// Whether front and back buffer are two images. In a multisampled window they count as one, because the driver chooses which of
     /// them is resolved, and when.
@@ -72,14 +98,6 @@ impl Window {
     /// Queries the driver for the true framebuffer 0, which must be bound for drawing. `width` and `height` are in pixels.
     pub fn ask(gl: &Gl, width: u32, height: u32, compatibility: bool) -> Window {
         let bit = |name| gl.get_integer(name).max(0) as u32;
-        let names = [
-            c::RED_BITS,
-            c::GREEN_BITS,
-            c::BLUE_BITS,
-            c::ALPHA_BITS,
-            c::DEPTH_BITS,
-            c::STENCIL_BITS,
-        ];
         let es = gl.is_es();
         let double_buffered = es || gl.get_integer(c::DOUBLEBUFFER) != 0;
         let color = match (es, double_buffered) {
@@ -120,7 +138,10 @@ impl Window {
                 true => [0, 1, 2, 3].map(|i| bit(c::ACCUM_RED_BITS + i)),
                 false => [0; 4],
             },
-            bits: names.map(bit),
+            bits: match compatibility || es || !modern {
+                true => BITS.map(bit),
+                false => attached_bits(gl, color),
+            },
             samples: bit(c::SAMPLES),
             srgb_capable,
             srgb: srgb_capable && gl.is_srgb_enabled(),
@@ -234,6 +255,31 @@ impl Framebuffers {
             } else {
                 self.buffers.default_draw
             }];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gl::fake::Fake;
+
+    /// A core profile has no other command for the sizes, and Mesa alone answers the others there.
+    #[test]
+    fn a_core_profile_tells_the_bits_of_its_attachments() {
+        for (compatibility, asked) in [(true, 0), (false, 6)] {
+            let fake = Fake::new();
+            let window = Window::ask(&fake.gl(), 64, 48, compatibility);
+            assert_eq!(window.bits, [8, 8, 8, 8, 24, 8]);
+            let integers = fake.lines("glGetIntegerv");
+            let names = BITS.map(|name| format!("({name},"));
+            let of = |lines: &[String]| {
+                let bits = lines
+                    .iter()
+                    .filter(|l| names.iter().any(|n| l.contains(n.as_str())));
+                bits.count()
+            };
+            assert_eq!(of(&integers), 6 - asked, "{integers:?}");
         }
     }
 }

@@ -195,6 +195,9 @@ fn rays_are_distorted_for_one_colour_of_a_vertex_shader() {
         let made = |kind| drawn(&stage.gl, program, &sources, kind);
         assert!(matches!(made(VariantKind::Alone), Ok(Drawn::ByVariant(_))));
         let distorted = made(VariantKind::DistortedRays);
+        // That would be an error.
+        let bound = stage.fake.lines("glBindFragDataLocation*");
+        assert!(!bound.concat().contains("gl_"), "{bound:?}");
         match reason {
             None => assert!(
                 matches!(distorted, Ok(Drawn::ByVariant(_))),

@@ -163,6 +163,12 @@ impl Driver {
             c::FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL => element(2),
             c::FRAMEBUFFER_ATTACHMENT_TEXTURE_LAYER => element(3),
             c::FRAMEBUFFER_ATTACHMENT_LAYERED => element(4),
+            c::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE if framebuffer.is_zero() => 24.0,
+            c::FRAMEBUFFER_ATTACHMENT_RED_SIZE..=c::FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE
+                if framebuffer.is_zero() =>
+            {
+                8.0
+            }
             c::FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE => element(5),
             _ => 0.0,
         }

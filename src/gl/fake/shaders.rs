@@ -172,9 +172,13 @@ impl Shaders {
                     .for_each(|input| add(&mut program.attributes, input));
             }
             if shader.kind == c::FRAGMENT_SHADER {
-                let outputs = declared(&shader.text, &["out"]);
+                let outputs = declared(&shader.text, &["out"]).into_iter();
+                // NVIDIA's driver tells of this one too.
+                let built_in = shader.text.contains("gl_FragColor");
+                let built_in =
+                    built_in.then(|| ("vec4".to_owned(), "gl_FragColor".to_owned(), None));
                 outputs
-                    .into_iter()
+                    .chain(built_in)
                     .for_each(|output| add(&mut program.outputs, output));
             }
         }

@@ -2,7 +2,7 @@
 
 use super::super::Layer;
 use super::{Images, Request};
-use crate::config::{Output, Projection, Strategy};
+use crate::config::{Output, Projection, Strategy, Viewport};
 use crate::gl::{Gl, ImageUnit, Object, ProgramName, consts as c};
 use crate::interleave::Sources;
 use crate::plan::class::{Classed, Target, Traits};
@@ -101,7 +101,7 @@ impl Layer {
 
     /// The traits by which the draw is classified.
     fn traits(&mut self, gl: &Gl, kind: Kind, target: Target, shaders: &Shaders) -> Traits {
-        let shown = matches!(target, Target::Window | Target::Pass(_));
+        let shown = target.is_shown();
         let clear = matches!(kind, Kind::Clear { .. } | Kind::Accum);
         let counts = !clear && self.state.list.is_none();
         let first = !self.known.frame.wrote_depth || clear && shown;
@@ -126,6 +126,7 @@ impl Layer {
             _ => (0, 0),
         };
         let by_state = Traits::of(kind, &self.state);
+        let foreground = &self.known.frame.foreground;
         Traits {
             // Such a program places its vertices by matrices of its own.
             turns: by_state.turns && !matches!(shaders, Shaders::Variant(_)),
@@ -138,11 +139,8 @@ impl Layer {
             first,
             backdrop: self.known.frame.backdrop.is_expected(),
             foreground: shown
-                && self
-                    .known
-                    .frame
-                    .foreground
-                    .has(self.state.classification.range),
+                && by_state.viewport == Viewport::Main
+                && foreground.has(self.state.framebuffers.draw, by_state.range),
             projection,
             ..by_state
         }

@@ -1,14 +1,12 @@
 //! When depths are captured: those of the scene, before a clear or a flat draw overwrites them.
 
-use super::{DepthWatch, Effect, Facts, Known, Preparation, Settings};
+use super::{DepthWatch, Effect, Facts, Known, Preparation, Rects, Settings};
 use crate::config::{Class, DepthState, Viewport};
-use crate::plan::class::Target;
 use crate::plan::{Kind, Ramp};
 
 fn looked_at(facts: &Facts, settings: &Settings) -> bool {
     // Depths of framebuffers that are no part of the window's picture do not count.
-    let shown = matches!(facts.traits.target, Target::Window | Target::Pass(_));
-    settings.measures_depths && shown && facts.destination.picture
+    settings.measures_depths && facts.traits.target.is_shown() && facts.destination.picture
 }
 
 /// Asks for the depths of the last frame to be measured before the first command of a frame.
@@ -81,8 +79,12 @@ fn map(facts: &Facts, depths: &mut DepthWatch, effects: &mut Vec<Effect>) {
         take(depths, effects);
         effects.push(Effect::ForgetDepths);
         (depths.framebuffer, depths.pending, depths.overwritten) = (framebuffer, false, false);
+        depths.area = [0; 4];
     }
-    depths.pending |= viewport == Viewport::Main;
+    if viewport == Viewport::Main {
+        depths.pending = true;
+        depths.area = joined(depths.area, drawn_to(&facts.rects));
+    }
     effects.push(Effect::MapDepths {
         ramp,
         projection: facts.projections.scene,
@@ -90,4 +92,58 @@ fn map(facts: &Facts, depths: &mut DepthWatch, effects: &mut Vec<Effect>) {
         foreground: facts.classed.is_foreground(),
         viewport,
     });
+}
+
+/// The rectangle that draws are limited to: left, bottom, right, top.
+fn drawn_to(rects: &Rects) -> [i32; 4] {
+    let corners =
+        |[x, y, width, height]: [i32; 4]| [x, y, x.saturating_add(width), y.saturating_add(height)];
+    let [left, bottom, right, top] = corners(rects.viewport);
+    match rects.scissor.map(corners) {
+        None => [left, bottom, right, top],
+        Some([l, b, r, t]) => [left.max(l), bottom.max(b), right.min(r), top.min(t)],
+    }
+}
+
+/// The rectangle around two; one without an inside does not count.
+fn joined(one: [i32; 4], other: [i32; 4]) -> [i32; 4] {
+    let empty = |[left, bottom, right, top]: [i32; 4]| left >= right || bottom >= top;
+    match (empty(one), empty(other)) {
+        (true, _) => other,
+        (_, true) => one,
+        _ => [
+            one[0].min(other[0]),
+            one[1].min(other[1]),
+            one[2].max(other[2]),
+            one[3].max(other[3]),
+        ],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rectangle_of_a_scene_is_around_all_of_its_draws() {
+        let rects = |viewport, scissor| Rects {
+            viewport,
+            scissor,
+            window: [100, 50],
+        };
+        let left = drawn_to(&rects([0, 10, 30, 20], None));
+        assert_eq!(left, [0, 10, 30, 30]);
+        let right = drawn_to(&rects([0, 0, 100, 50], Some([40, 20, 200, 20])));
+        assert_eq!(right, [40, 20, 100, 40]);
+        assert_eq!(joined(left, right), [0, 10, 100, 40]);
+        // Nothing was drawn there.
+        let outside = drawn_to(&rects([0, 0, 10, 10], Some([20, 0, 5, 5])));
+        for all in [
+            joined(left, outside),
+            joined([0; 4], left),
+            joined(left, [0; 4]),
+        ] {
+            assert_eq!(all, left);
+        }
+    }
 }

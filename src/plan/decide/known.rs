@@ -69,6 +69,9 @@ pub struct DepthWatch {
     pub overwritten: bool,
     /// The framebuffer that the scene's depths are in: 0 for the window.
     pub framebuffer: FramebufferName,
+    /// The part of it that the scene was drawn to: left, bottom, right, top in pixels. What lies beside it may have any depths, as under a
+    /// status bar that is drawn once.
+    pub area: [i32; 4],
     /// The last projection of the frame's scene, column-major.
     pub projection: Option<[f32; 16]>,
 }

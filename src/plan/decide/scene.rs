@@ -2,7 +2,6 @@
 
 use super::{Facts, Known, Settings, is_perspective, is_whole};
 use crate::config::{Class, DepthState};
-use crate::plan::class::Target;
 use crate::plan::{Ramp, Shear};
 
 /// The scene that has been drawn to some views since their depths were cleared.
@@ -94,7 +93,7 @@ impl Scene {
 /// Updates the knowledge of the frame and its camera from a command.
 pub(super) fn observe(facts: &Facts, known: &mut Known, settings: &Settings) {
     let clear = is_whole(facts.traits.kind);
-    let shown = matches!(facts.traits.target, Target::Window | Target::Pass(_));
+    let shown = facts.traits.target.is_shown();
     known.lens = facts.projections.lens.or(known.lens);
     known.frame.draws = facts.traits.draw;
     known.frame.backdrop.observe(facts);

@@ -1,13 +1,14 @@
 /* Three walls at distances of 4 + frame/2, 10 and 40 units from the camera, in frames 1 to 10 of a surface without a window system.
  *
  * depths plain|reversed|inverted|overlay|weapon|cleared|nodepth|shader|block|reversed-shader|pass-16|pass-24|pass-24-8|pass-32f|
- *        pass-unsized|pass-samples
+ *        pass-unsized|pass-samples|part|pass-part
  *
  * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: a flat picture that
  * writes depths over everything at the end; weapon: a surface at 1.5 in a depth range of its own; cleared: the same after a clear of the
  * depths; nodepth: no depth test; shader, block: shaders, with the projection in a uniform or a uniform block; pass: to a framebuffer of
  * twice the window's size, with depths in a renderbuffer (16, samples) or a texture (the others), whose picture is then drawn over the
- * window. */
+ * window; part: the lowest quarter has the nearest depths and is not drawn to, by the viewport
+ * or the scissor test of a pass, as under a status bar. */
 #include "shaders.h"
 #include "surface.h"
 
@@ -175,7 +176,23 @@ int main(int count, char **arguments)
         if (strcmp(how, "nodepth"))
             glEnable(GL_DEPTH_TEST);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        if (strstr(how, "part")) {
+            GLint whole[4];
+            glGetIntegerv(GL_VIEWPORT, whole);
+            glEnable(GL_SCISSOR_TEST);
+            glScissor(0, 0, whole[2], whole[3] / 4);
+            glClearDepth(0);
+            glClear(GL_DEPTH_BUFFER_BIT);
+            glClearDepth(1);
+            if (pass) {
+                glScissor(0, whole[3] / 4, whole[2], whole[3]);
+            } else {
+                glDisable(GL_SCISSOR_TEST);
+                glViewport(0, whole[3] / 4, whole[2], 3 * whole[3] / 4);
+            }
+        }
         scene(frame);
+        glDisable(GL_SCISSOR_TEST);
         if (!strcmp(how, "overlay")) {
             glLoadIdentity();
             glDepthFunc(GL_ALWAYS);

@@ -40,14 +40,17 @@ fn with_clear(mut foreground: Foreground, scene: u32, weapon: u32) -> Foreground
 
 #[test]
 fn the_near_part_of_the_depth_range_is_known_from_the_second_frame_on() {
-    assert!(!Foreground::default().has(DepthRange::Near));
+    assert!(!Foreground::default().has(FramebufferName::ZERO, DepthRange::Near));
     let known = with_range(Foreground::default(), 10, 2);
-    assert!(known.has(DepthRange::Near) && !known.has(DepthRange::Whole));
+    assert!(
+        known.has(FramebufferName::ZERO, DepthRange::Near)
+            && !known.has(FramebufferName::ZERO, DepthRange::Whole)
+    );
     // An empty hand says nothing.
-    assert!(with_range(known, 10, 0).has(DepthRange::Near));
+    assert!(with_range(known, 10, 0).has(FramebufferName::ZERO, DepthRange::Near));
     // Programs that draw whole frames to one half of the range have no hand, nor have those that draw their scene to it.
     for (scene, weapon) in [(0, 20), (5, 9), (100, 33)] {
-        assert!(!with_range(known, scene, weapon).has(DepthRange::Near));
+        assert!(!with_range(known, scene, weapon).has(FramebufferName::ZERO, DepthRange::Near));
     }
 }
 
@@ -57,9 +60,9 @@ fn what_follows_a_clear_of_the_depths_is_known_from_the_second_frame_on() {
         let mut now = known;
         cleared(&mut now, ALL);
         drawn(&mut now, DepthRange::Whole, 10);
-        let before = now.has(DepthRange::Whole);
+        let before = now.has(FramebufferName::ZERO, DepthRange::Whole);
         cleared(&mut now, c::DEPTH_BUFFER_BIT);
-        (before, now.has(DepthRange::Whole))
+        (before, now.has(FramebufferName::ZERO, DepthRange::Whole))
     };
     assert_eq!(after(Foreground::default()), (false, false));
     let known = with_clear(Foreground::default(), 10, 2);
@@ -75,6 +78,58 @@ fn what_follows_a_clear_of_the_depths_is_known_from_the_second_frame_on() {
     inset.traits.viewport = Viewport::Inset;
     other.observe(&inset);
     assert_eq!(other, known);
+}
+
+/// The picture of a framebuffer, and the window's after it.
+#[test]
+fn other_framebuffers_of_the_frame_do_not_hide_it() {
+    const PASS: FramebufferName = FramebufferName(7);
+    let command = |foreground: &mut Foreground, framebuffer: FramebufferName, kind: Kind| {
+        let mut facts = scene();
+        facts.traits.kind = kind;
+        facts.traits.target = Target::Pass(framebuffer.0);
+        facts.destination.framebuffer = framebuffer;
+        foreground.observe(&facts);
+    };
+    let clear = |whole| Kind::Clear {
+        depths: true,
+        whole,
+    };
+    let draw = scene().traits.kind;
+    let mut known = Foreground::default();
+    command(&mut known, PASS, clear(ALL));
+    (0..10).for_each(|_| command(&mut known, PASS, draw));
+    // The depths of another framebuffer are cleared, and something is drawn there.
+    let mut shadowed = known;
+    command(
+        &mut shadowed,
+        FramebufferName(9),
+        clear(c::DEPTH_BUFFER_BIT),
+    );
+    command(&mut shadowed, PASS, draw);
+    let mut shadowed = shadowed.next();
+    command(&mut shadowed, PASS, clear(ALL));
+    command(&mut shadowed, PASS, draw);
+    command(&mut shadowed, PASS, clear(c::DEPTH_BUFFER_BIT));
+    assert!(!shadowed.has(PASS, DepthRange::Whole));
+    command(&mut known, PASS, clear(c::DEPTH_BUFFER_BIT));
+    command(&mut known, PASS, draw);
+    // The window is cleared for the picture.
+    cleared(&mut known, ALL);
+    let mut known = known.next();
+    command(&mut known, PASS, clear(ALL));
+    command(&mut known, PASS, draw);
+    assert!(!known.has(PASS, DepthRange::Whole));
+    command(&mut known, PASS, clear(c::DEPTH_BUFFER_BIT));
+    assert!(known.has(PASS, DepthRange::Whole));
+    assert!(!known.has(FramebufferName(9), DepthRange::Whole));
+    // A clear of a part, as for a picture in the picture, ends nothing.
+    let mut part = scene();
+    part.traits.kind = clear(ALL);
+    part.rects.scissor = Some([0, 0, 9, 9]);
+    let before = known;
+    known.observe(&part);
+    assert_eq!(known, before);
 }
 
 #[test]
