@@ -1,18 +1,20 @@
 /* Programs with shaders, in buffers: light per pixel, or in steps (--toon), and a flat display by the same program. --glsl 120: attributes and
  * varyings, matrices as uniforms; 330: the camera in a uniform block, the model in a uniform. In OpenGL ES these are GLSL 1.00 and 3.00 es.
  * --sky: a triangle over the whole screen, whose fragments compute their rays by the inverse of the projection: before the scene, with depths
- * (120), or after it, at the far end (330). */
+ * (120), or after it, at the far end (330). --box: a sky on a box around the eye, before the scene and without depths (120), or after it, with z = w
+ * (330). */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static int version = 120, toon, combined, sky;
+static int version = 120, toon, combined, sky, box;
 const struct demo_option demo_options[] = {
     {"--glsl", "120 or 330 (default 120)", &version, 1},
     {"--toon", "steps of light and dark outlines", &toon, 0},
     {"--combined", "one matrix for projection, camera and model (120)", &combined, 0},
     {"--sky", "a sky by the rays of fragments", &sky, 0},
+    {"--box", "a sky on a box around the eye", &box, 0},
     {0}};
 
 static const char *const vertex_120 =
@@ -122,13 +124,64 @@ static const char *const sky_fragment_330 =
     "    shown = vec4(0.2, 0.3, 0.3 + 0.5 * band, 1.0);\n"
     "}\n";
 
-enum { SLICES = 48, STACKS = 24, QUAD = 4, TRIANGLE = 3 };
+static const char *const box_vertex_120 =
+    "#version 120\n"
+    "attribute vec3 position;\n"
+    "uniform mat4 projection, modelview;\n"
+    "varying vec3 way;\n"
+    "void main()\n"
+    "{\n"
+    "    way = position;\n"
+    "    gl_Position = projection * modelview * vec4(position, 1.0);\n"
+    "}\n";
+static const char *const box_vertex_combined =
+    "#version 120\n"
+    "attribute vec3 position;\n"
+    "uniform mat4 everything;\n"
+    "varying vec3 way;\n"
+    "void main()\n"
+    "{\n"
+    "    way = position;\n"
+    "    gl_Position = everything * vec4(position, 1.0);\n"
+    "}\n";
+static const char *const box_vertex_330 =
+    "#version 330 core\n"
+    CAMERA
+    "layout(location = 0) in vec3 position;\n"
+    "out vec3 way;\n"
+    "void main()\n"
+    "{\n"
+    "    way = position;\n"
+    "    gl_Position = (camera.projection * mat4(mat3(camera.view)) * vec4(position, 1.0)).xyww;\n"
+    "}\n";
+#define STARS \
+    "    vec3 ray = normalize(way);\n" \
+    "    float band = 0.5 + 0.5 * sin(24.0 * ray.x) * sin(24.0 * ray.y);\n"
+static const char *const box_fragment_120 =
+    "#version 120\n"
+    "varying vec3 way;\n"
+    "void main()\n"
+    "{\n"
+    STARS
+    "    gl_FragColor = vec4(0.2, 0.3, 0.3 + 0.5 * band, 1.0);\n"
+    "}\n";
+static const char *const box_fragment_330 =
+    "#version 330 core\n"
+    "in vec3 way;\n"
+    "out vec4 shown;\n"
+    "void main()\n"
+    "{\n"
+    STARS
+    "    shown = vec4(0.2, 0.3, 0.3 + 0.5 * band, 1.0);\n"
+    "}\n";
+
+enum { SLICES = 48, STACKS = 24, QUAD = 4, TRIANGLE = 3, BOX = 36 };
 static GLuint program, heaven, buffer, indices, block;
 static GLsizei count;
 
 void demo_setup(void)
 {
-    GLfloat(*v)[6] = calloc((SLICES + 1) * (STACKS + 1) + QUAD + TRIANGLE, sizeof *v);
+    GLfloat(*v)[6] = calloc((SLICES + 1) * (STACKS + 1) + QUAD + TRIANGLE + BOX, sizeof *v);
     GLushort *i = malloc(sizeof *i * 6 * SLICES * STACKS), *o = i;
     if (!v || !i)
         demo_fail(1, "out of memory");
@@ -159,6 +212,14 @@ void demo_setup(void)
         GLfloat *p = v[(SLICES + 1) * (STACKS + 1) + QUAD + c];
         p[0] = c == 1 ? 3.0f : -1.0f, p[1] = c == 2 ? 3.0f : -1.0f;
     }
+    for (int c = 0; c < BOX; c++) {
+        static const int corners[6] = {0, 1, 2, 2, 1, 3};
+        GLfloat *p = v[(SLICES + 1) * (STACKS + 1) + QUAD + TRIANGLE + c];
+        int side = c / 6, corner = corners[c % 6], axis = side / 2;
+        p[axis] = side % 2 ? 1.0f : -1.0f;
+        p[(axis + 1) % 3] = corner & 1 ? 1.0f : -1.0f;
+        p[(axis + 2) % 3] = corner & 2 ? 1.0f : -1.0f;
+    }
     if (version == 330) {
         GLuint arrays;
         glGenVertexArrays(1, &arrays);
@@ -166,7 +227,7 @@ void demo_setup(void)
     }
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof *v * ((SLICES + 1) * (STACKS + 1) + QUAD + TRIANGLE)), v, GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof *v * ((SLICES + 1) * (STACKS + 1) + QUAD + TRIANGLE + BOX)), v, GL_STATIC_DRAW);
     glGenBuffers(1, &indices);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)sizeof *i * count, i, GL_STATIC_DRAW);
@@ -176,10 +237,13 @@ void demo_setup(void)
                            version == 330 ? fragment_330 : fragment_120);
     if (sky)
         heaven = demo_program(version == 330 ? sky_vertex_330 : sky_vertex_120, version == 330 ? sky_fragment_330 : sky_fragment_120);
+    if (box)
+        heaven = demo_program(version == 330 ? box_vertex_330 : combined ? box_vertex_combined : box_vertex_120,
+                              version == 330 ? box_fragment_330 : box_fragment_120);
     if (version == 330) {
         glGenBuffers(1, &block);
         glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Camera"), 3);
-        if (sky)
+        if (heaven)
             glUniformBlockBinding(heaven, glGetUniformBlockIndex(heaven, "Camera"), 3);
         glBindBufferBase(GL_UNIFORM_BUFFER, 3, block);
     }
@@ -228,6 +292,34 @@ static void draw_sky(const demo_matrix projection)
     glUseProgram(program);
 }
 
+static void draw_box(double t)
+{
+    demo_matrix projection, view, all;
+    demo_frustum(projection, 40.0, (double)demo_width / demo_height, 1.0, 50.0);
+    demo_view_sky(projection);
+    demo_turned(view, 0.15 + 0.2 * t, 0.6, 0.8, 0.0, 0.0, 0.0);
+    glUseProgram(heaven);
+    if (version == 330) {
+        GLfloat camera[52] = {0};
+        memcpy(camera + 4, projection, sizeof(demo_matrix));
+        view[12] = 3.0f;
+        memcpy(camera + 20, view, sizeof(demo_matrix));
+        glBufferData(GL_UNIFORM_BUFFER, sizeof camera, camera, GL_STREAM_DRAW);
+    } else if (combined) {
+        demo_times(all, projection, view);
+        glUniformMatrix4fv(glGetUniformLocation(heaven, "everything"), 1, 0, all);
+    } else {
+        glUniformMatrix4fv(glGetUniformLocation(heaven, "projection"), 1, 0, projection);
+        glUniformMatrix4fv(glGetUniformLocation(heaven, "modelview"), 1, 0, view);
+    }
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(version == 330);
+    glDrawArrays(GL_TRIANGLES, (SLICES + 1) * (STACKS + 1) + QUAD + TRIANGLE, BOX);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glUseProgram(program);
+}
+
 void demo_frame(int frame)
 {
     double t = demo_time(frame);
@@ -240,6 +332,8 @@ void demo_frame(int frame)
     demo_view(projection);
     if (sky && version == 120)
         draw_sky(projection);
+    if (box && version == 120)
+        draw_box(t);
     glUniform1f(at("steps"), toon ? 3.0f : 0.0f);
     glUniform1f(at("unlit"), 0.0f);
     glUniform1f(at("size"), 1.0f);
@@ -252,6 +346,8 @@ void demo_frame(int frame)
     }
     if (sky && version == 330)
         draw_sky(projection);
+    if (box && version == 330)
+        draw_box(t);
     /* The display: no depth, no perspective. */
     glDisable(GL_DEPTH_TEST);
     glUniform1f(at("unlit"), 1.0f);

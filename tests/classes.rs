@@ -154,7 +154,7 @@ fn what_is_drawn_to_the_near_depths_can_stand_about_a_depth_of_its_own() {
 }
 
 /// Runs a demo to its end and explains its second frame.
-fn explain(demo_name: &str, options: &[&str], out: &Path) -> String {
+fn explain(demo_name: &str, options: &[&str], arguments: &[&str], out: &Path) -> String {
     library();
     let screen = screen();
     let mut command = manyview();
@@ -164,6 +164,7 @@ fn explain(demo_name: &str, options: &[&str], out: &Path) -> String {
         .args(options)
         .arg("--")
         .arg(support::demo(demo_name))
+        .args(arguments)
         .args(SIZE)
         .args(["--frames", "3"]);
     let output = succeed(screen.give(&mut command));
@@ -188,7 +189,7 @@ fn draws(list: &Path) -> Vec<(String, String)> {
 #[test]
 fn a_frame_is_explained_as_picture_and_list() {
     let folder = tempfile::tempdir().expect("a folder");
-    let said = explain("room", &[], folder.path());
+    let said = explain("room", &[], &[], folder.path());
     let [picture, list] = ["explain.png", "explain.txt"].map(|name| folder.path().join(name));
     assert!(
         said.contains("wrote ") && said.contains("explain.txt"),
@@ -206,11 +207,27 @@ fn a_frame_is_explained_as_picture_and_list() {
     assert!(g > b && b > r, "the floor is scene: {r} {g} {b}");
 }
 
+/// Programs with shaders of their own, too: their display is flat, and their sky one.
+#[test]
+fn what_shaders_draw_is_explained_as_it_is_drawn() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("why.png");
+    let ways: [&[&str]; 3] = [&[], &["--box"], &["--box", "--glsl", "330"]];
+    for (way, sky) in ways.into_iter().zip([None, Some(0), Some(5)]) {
+        explain("shade", &[], way, &out);
+        let mut expected = [&["scene"; 5][..], &["flat"; 4]].concat();
+        sky.into_iter().for_each(|at| expected.insert(at, "sky"));
+        let draws = draws(&out.with_extension("txt"));
+        let classes: Vec<_> = draws.iter().map(|(class, _)| class.as_str()).collect();
+        assert_eq!(classes, expected, "{way:?}");
+    }
+}
+
 #[test]
 fn every_rule_of_an_explanation_changes_the_class_of_its_draw() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("why.png");
-    explain("sky", &[], &out);
+    explain("sky", &[], &[], &out);
     let list: PathBuf = out.with_extension("txt");
     let before = draws(&list);
     assert!(before.iter().any(|(class, _)| class == "sky"), "{before:?}");
@@ -219,7 +236,7 @@ fn every_rule_of_an_explanation_changes_the_class_of_its_draw() {
         let at = at.expect("a draw of each class");
         let rule = &before[at].1;
         let profile = profile(folder.path(), &format!("rule = [\n{rule}\n]\n"));
-        explain("sky", &["--profile", &profile], &out);
+        explain("sky", &["--profile", &profile], &[], &out);
         let after = draws(&list);
         let text = std::fs::read_to_string(&list).expect("a list");
         let line = text.lines().nth(3 + at).expect("the draw's line");

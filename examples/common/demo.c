@@ -100,6 +100,8 @@ static int move_view(GLfloat p[16], int infinitely_far)
 
 void demo_view(GLfloat p[16]) { move_view(p, 0); }
 
+void demo_view_sky(GLfloat p[16]) { move_view(p, 1); }
+
 static void load_view(int infinitely_far)
 {
     GLfloat p[16];

@@ -45,6 +45,8 @@ void demo_scissor_off(void);
 void demo_projection_done(void);
 /* The same for a column-major projection for shaders: with --view it becomes that of the view. */
 void demo_view(GLfloat projection[16]);
+/* The same for a sky, which is infinitely far in every view. */
+void demo_view_sky(GLfloat projection[16]);
 /* Loads a perspective projection and calls demo_projection_done(). fovy in degrees. */
 void demo_perspective(double fovy, double aspect, double z_near, double z_far);
 /* The same for a sky, which is infinitely far in every view. */

@@ -84,6 +84,8 @@ pub struct Variant {
     distortion: [i32; 3],
     /// The program's uniforms: type, location in the program, location in the variant; one entry for each element of an array.
     uniforms: Vec<(u32, i32, i32)>,
+    /// Its vertices lie at the far end of the depths, as those of a sky do.
+    far_end: bool,
     /// By index of a uniform block in the program: its index in the variant.
     blocks: Vec<Option<u32>>,
     /// The same of storage blocks.
@@ -134,7 +136,8 @@ pub fn drawn(
     let name = gl
         .link_at(&shaders, &attributes, &outputs)
         .map_err(NoVariant::Driver)?;
-    let variant = Variant::of(gl, program, name, &shift, rewritten.window.as_ref());
+    let mut variant = Variant::of(gl, program, name, &shift, rewritten.window.as_ref());
+    variant.far_end = rewritten.far_end;
     Ok(Drawn::ByVariant(Arc::new(variant)))
 }
 
@@ -169,6 +172,8 @@ struct Rewritten<'a> {
     /// The layer's names in the stage that shifts vertices, and in the fragment stage, if that reads window coordinates.
     shift: Option<Names>,
     window: Option<Names>,
+    /// The vertices lie at the far end of the depths.
+    far_end: bool,
     /// The fragment stage writes built-in outputs, such as gl_FragColor.
     built_in: bool,
 }
@@ -206,6 +211,7 @@ impl<'a> Rewritten<'a> {
                 all.window = changed.then_some(new.names).or(all.window);
             } else {
                 all.projection |= new.facts.projection;
+                all.far_end = new.facts.far_end;
                 all.shift = changed.then_some(new.names).or(all.shift);
             }
             all.sources.push((shader.kind, new.text));
@@ -315,6 +321,7 @@ impl Variant {
         }
         let blocks = gl.block_bindings(program).len() as u32;
         Variant {
+            far_end: false,
             name,
             shift: ours(shift, Uniform::Shift),
             tile: ours(shift, Uniform::Tile),
@@ -378,6 +385,11 @@ impl Variant {
         if self.views >= 0 {
             gl.uniform_1i(self.views, layers.len() as i32);
         }
+    }
+
+    /// Whether the program's vertices lie at the far end of the depths.
+    pub fn is_at_far_end(&self) -> bool {
+        self.far_end
     }
 
     /// Sets the distortion of rays: the texture unit of the map, the place of its texels, disparities. The variant has to be in use and of the

@@ -55,6 +55,8 @@ struct Camera {
 struct CameraSearch {
     /// The last camera that was found among its matrices.
     found: Option<Camera>,
+    /// It was told that none was found.
+    told: bool,
     /// None of its matrices has a perspective now.
     lost: bool,
     /// [`uniform_change`] and [`block_change`] at the last search; without matrices in blocks the latter is 0.
@@ -107,6 +109,7 @@ impl ProgramRecord {
             unprojections: ([0; 2], 0.0, Arc::default()),
             camera: CameraSearch {
                 found: None,
+                told: false,
                 lost: true,
                 seen: [0; 2],
             },
@@ -272,6 +275,37 @@ impl OwnVariants {
         known.is_none_or(|known| known.camera.lost)
     }
 
+    /// Whether it is the first time that this is asked of a program with a record.
+    pub(super) fn is_first_telling(&mut self, program: ProgramName) -> bool {
+        let known = self.known.get_mut(&program);
+        known.is_some_and(|known| !std::mem::replace(&mut known.camera.told, true))
+    }
+
+    /// Whether a program's vertices lie at the far end of the depths.
+    pub(super) fn is_at_far_end(&self, program: ProgramName) -> bool {
+        let known = self.known.get(&program);
+        known.is_some_and(|known| match &known.how {
+            Ok(Drawn::ByVariant(variant)) => variant.is_at_far_end(),
+            _ => false,
+        })
+    }
+
+    /// Whether all that a program draws now is turned about the eye and not moved (see [`camera::turns_about_eye`]).
+    pub(super) fn turns_about_eye(
+        &self,
+        gl: &Gl,
+        program: ProgramName,
+        blocks: &mut BlockReader,
+    ) -> bool {
+        let Some(known) = self.known.get(&program) else {
+            return false;
+        };
+        let in_block = &mut |place| blocks.matrix(program, place);
+        let values = known.matrices.values(gl, program, in_block);
+        let camera = known.camera.found.filter(|_| !known.camera.lost);
+        camera.is_some_and(|camera| camera::turns_about_eye(&camera.matrix, &values))
+    }
+
     /// The matrix of a program's camera, as the program has it and as a pure projection (see [`camera::equivalent`]); both are column-major.
     pub(super) fn projections(&self, program: ProgramName) -> Option<[[f32; 16]; 2]> {
         let camera = self.known.get(&program)?.camera.found?;
@@ -364,6 +398,7 @@ impl OwnVariants {
                     found: camera,
                     lost,
                     seen,
+                    ..
                 },
             ..
         }) = self.known.get_mut(&program)

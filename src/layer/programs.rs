@@ -8,8 +8,10 @@ use crate::config::Strategy;
 use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
 use crate::plan::decide::{Linked as Linking, Shaders, VariantFacts};
+use crate::rewrite::Stage;
 use crate::state::{
-    Linked, Matrices, Samplers, Shaders as ProgramSources, SideEffects, link_change, sources,
+    Linked, Matrices, Samplers, ShaderSource, Shaders as ProgramSources, SideEffects, link_change,
+    sources,
 };
 use std::sync::Arc;
 
@@ -92,6 +94,7 @@ impl Layer {
             program,
             camera,
             lost: self.variants.own.is_lost(program),
+            far_end: self.variants.own.is_at_far_end(program),
             to_layer,
             to_layers,
             divides,
@@ -116,6 +119,33 @@ impl Layer {
     pub(super) fn camera_of(&mut self, gl: &Gl, program: ProgramName) -> Option<Option<[f32; 16]>> {
         self.read_own(gl, |own, aspect, blocks| {
             own.camera(gl, program, aspect, blocks)
+        })
+    }
+
+    /// Tells once of a program that no camera was found in its matrices.
+    pub(super) fn tell_of_no_camera(&mut self, program: ProgramName) {
+        if !self.variants.own.is_first_telling(program) {
+            return;
+        }
+        let which = match self.linked_from(program) {
+            Some(linked) => {
+                let vertex = linked.sources.iter().find(|s| s.stage == Stage::Vertex);
+                let line = vertex
+                    .and_then(ShaderSource::first_line)
+                    .unwrap_or_default();
+                format!("{:016x} (`{line}`)", linked.hash)
+            }
+            None => program.0.to_string(),
+        };
+        self.diagnostics.report.note(format!(
+            "no camera was found in the matrices of the shaders {which}: what they draw is the same in all views"
+        ));
+    }
+
+    /// Whether all that a program with a variant draws now is turned about the eye and not moved, by its matrices.
+    pub(super) fn turns_about_eye(&mut self, gl: &Gl, program: ProgramName) -> bool {
+        self.read_own(gl, |own, _, blocks| {
+            own.turns_about_eye(gl, program, blocks)
         })
     }
 

@@ -101,6 +101,45 @@ pub fn unprojection(m: &[f32; 16], shear: &Shear, place: f64) -> [f32; 16] {
     rows.transpose().inverse().as_mat4().to_cols_array()
 }
 
+/// Part of the distance to the near plane by which a sky may be off the eye. A program that moves its sky to the eye by two matrices leaves what
+/// they round: 1e-4 in a world of thousands, before a near plane at 0.1. Things are at least a near plane's distance away.
+pub const ROUNDED: f64 = 1.0 / 64.0;
+
+/// Whether what is drawn with these matrices turns about the eye and is not moved: by `camera`, which is one of them, and by each other one
+/// that is affine, as a view or a model matrix is. Without a rotation it may be all that there is, in the space of the eye.
+pub fn turns_about_eye(camera: &[f32; 16], matrices: &[[f32; 16]]) -> bool {
+    let Some(projection) = equivalent(camera) else {
+        return false;
+    };
+    let near = f64::from(projection[14]) / (f64::from(projection[10]) - 1.0);
+    let off = near * ROUNDED;
+    let rotates = |m: &DMat4| {
+        let m = glam::DMat3::from_mat4(*m);
+        [
+            m.x_axis.y, m.x_axis.z, m.y_axis.x, m.y_axis.z, m.z_axis.x, m.z_axis.y,
+        ] != [0.0; 6]
+    };
+    let own = matrix(camera);
+    // The eye is where x, y and w are 0, whatever z is.
+    let rows = own.transpose();
+    let moved = [rows.x_axis, rows.y_axis, rows.w_axis];
+    if moved
+        .iter()
+        .any(|row| row.w.abs() > off * row.truncate().length())
+    {
+        return false;
+    }
+    let others = matrices.iter().filter(|m| *m != camera).map(matrix);
+    let mut turns = !is_projection(camera);
+    for other in others.filter(|m| m.transpose().w_axis == DVec4::W) {
+        if other.w_axis.truncate().length() > off {
+            return false;
+        }
+        turns |= rotates(&other);
+    }
+    turns
+}
+
 fn matrix(m: &[f32; 16]) -> DMat4 {
     glam::Mat4::from_cols_array(m).as_dmat4()
 }
@@ -233,5 +272,30 @@ mod tests {
         assert_eq!(equivalent(&Mat4::IDENTITY.to_cols_array()), None);
         assert_eq!(equivalent(&[0.0; 16]), None);
         assert_eq!(equivalent(&[f32::NAN; 16]), None);
+    }
+
+    #[test]
+    fn what_turns_about_the_eye_is_told_by_all_matrices() {
+        let projection = finite(1.2, 0.5, 100.0);
+        let rotation = Mat4::from_quat(Quat::from_euler(glam::EulerRot::XYZ, 0.3, 0.7, 0.1));
+        let moved = |by: f32| Mat4::from_translation(Vec3::new(0.0, by, 0.0)) * rotation;
+        let turns = |camera: Mat4, others: &[Mat4]| {
+            let others = others.iter().chain([&camera]);
+            let all: Vec<_> = others.map(Mat4::to_cols_array).collect();
+            turns_about_eye(&camera.to_cols_array(), &all)
+        };
+        assert!(turns(projection, &[rotation]));
+        assert!(turns(projection * rotation, &[]));
+        assert!(turns(projection * rotation, &[Mat4::IDENTITY]));
+        // What rounding leaves of two translations that cancel.
+        assert!(turns(projection, &[moved(1e-3)]) && turns(projection * moved(1e-3), &[]));
+        // In the space of the eye, or somewhere else.
+        assert!(!turns(projection, &[]) && !turns(projection, &[Mat4::IDENTITY]));
+        assert!(!turns(projection, &[moved(0.5)]) && !turns(projection * moved(0.5), &[]));
+        assert!(!turns(projection * rotation, &[moved(0.5)]));
+        let behind = Mat4::from_translation(Vec3::new(0.0, 0.0, -3.0)) * rotation;
+        assert!(!turns(projection * behind, &[]) && !turns(projection, &[behind, rotation]));
+        // No perspective.
+        assert!(!turns(rotation, &[rotation]));
     }
 }

@@ -3,7 +3,7 @@
 //! The rules without a profile are few and careful: a scene taken for a sky or a display loses its depth, which is worse than a
 //! sky that keeps a little.
 
-use super::{Kind, parallax};
+use super::{Kind, camera, parallax};
 use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport, Word};
 use crate::gl::{FramebufferName, ListName, TextureName};
 use crate::state::{State, Touch};
@@ -40,6 +40,8 @@ pub struct Traits {
     /// The modelview matrix rotates about the eye and is not the identity; where asked for. It translates by less than float arithmetic leaves
     /// where the program moves its sky to the eye.
     pub turns: bool,
+    /// The shader puts all vertices at the far end of the depths.
+    pub far_end: bool,
     /// Nothing in perspective has written depth since the frame began or was last cleared.
     pub first: bool,
     /// The last frame began with draws around the eye whose depths were cleared for the scene, and this one may have begun so.
@@ -91,12 +93,16 @@ pub enum Why {
     Backdrop,
     /// It lies at the far end of the depth range: behind everything.
     FarRange,
+    /// Its shader puts it at the far end of the depths: behind everything.
+    FarEnd,
     /// In perspective, in the near part of the depth range or after a clear of the depths for it: before everything.
     Foreground,
     /// In perspective, and nothing speaks against it.
     Perspective,
     /// Its own shaders place it: in perspective where w varies.
     Shaders,
+    /// Its own shaders place it, by matrices without a perspective: flat unless w varies.
+    FlatShaders,
 }
 
 impl core::fmt::Display for Why {
@@ -116,11 +122,15 @@ impl core::fmt::Display for Why {
                 f.write_str("turns about the eye, and depths are cleared for the scene after it")
             }
             Why::FarRange => f.write_str("at the far end of the depth range, behind everything"),
+            Why::FarEnd => f.write_str("at the far end of the depths by its shader, behind everything"),
             Why::Foreground => f.write_str(
                 "before everything, by a part of the depth range or a clear of the depths for it: in the hand",
             ),
             Why::Perspective => f.write_str("perspective projection"),
             Why::Shaders => f.write_str("shaders of its own: in perspective where w varies"),
+            Why::FlatShaders => {
+                f.write_str("shaders of its own without a perspective: flat unless w varies")
+            }
         }
     }
 }
@@ -277,6 +287,7 @@ impl Classifier {
             Projection::Perspective if facts.range == DepthRange::Far => {
                 classed(Class::Sky, Why::FarRange)
             }
+            Projection::Perspective if facts.far_end => classed(Class::Sky, Why::FarEnd),
             Projection::Perspective if is_sky(facts) => classed(Class::Sky, Why::TurnsAboutEye),
             Projection::Perspective if facts.backdrop && facts.is_around_eye() => {
                 classed(Class::Sky, Why::Backdrop)
@@ -334,6 +345,7 @@ impl Traits {
             program: 0,
             shader: 0,
             turns: turns(&state.classification.modelview, p),
+            far_end: false,
             first: false,
             backdrop: false,
             foreground: false,
@@ -406,10 +418,6 @@ impl Traits {
     }
 }
 
-/// Part of the distance to the near plane by which a sky may be off the eye. A program that moves its sky to the eye by two matrices leaves what
-/// they round: 1e-4 in a world of thousands, before a near plane at 0.1. Things are at least a near plane's distance away.
-const ROUNDED: f64 = 1.0 / 64.0;
-
 /// Whether a modelview matrix (column-major) rotates or scales about the eye and is not the identity; `p` is the projection matrix.
 fn turns(m: &[f32; 16], p: &[f32; 16]) -> bool {
     if [m[3], m[7], m[11]] != [0.0; 3] || m[15] == 0.0 || *m == glam::Mat4::IDENTITY.to_cols_array()
@@ -420,7 +428,7 @@ fn turns(m: &[f32; 16], p: &[f32; 16]) -> bool {
     let rotates = [m[1], m[2], m[4], m[6], m[8], m[9]] != [0.0; 6];
     let [near, _] = parallax::planes(p);
     // A camera that does not rotate leaves nothing to round: such a translation is meant, as one to the centres of pixels is.
-    off == glam::DVec3::ZERO || rotates && off.length() <= near * ROUNDED
+    off == glam::DVec3::ZERO || rotates && off.length() <= near * camera::ROUNDED
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Features that a source uses, found by its tokens. Names in macros and in all branches of `#if` count as used.
 
+use super::far_end::is_at_far_end;
 use super::memory_writes::MemoryWrites;
 use super::scan::{Kind, Scan};
 use super::version::Version;
@@ -35,6 +36,8 @@ pub struct Facts {
     pub cull_distance: bool,
     /// The source names outputs for transform feedback.
     pub feedback: bool,
+    /// A vertex shader puts all vertices at the far end of the depths, z = w in clip space.
+    pub far_end: bool,
     /// There are subroutines, whose uniforms belong to the program that is bound.
     pub subroutines: bool,
     /// The memory that is written; a second draw would write it again.
@@ -74,6 +77,7 @@ impl Facts {
             clip_distance: false,
             cull_distance: false,
             feedback: false,
+            far_end: is_at_far_end(scan),
             subroutines: false,
             writes: MemoryWrites::of(scan, version),
             matrices: matrices(scan),

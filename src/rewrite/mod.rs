@@ -24,6 +24,7 @@ mod emit;
 mod entry;
 mod error;
 mod facts;
+mod far_end;
 mod fragment;
 mod instance;
 mod memory_writes;

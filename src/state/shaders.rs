@@ -17,7 +17,25 @@ pub struct ShaderSource {
     pub source: Vec<u8>,
 }
 
+/// Characters of a line that is quoted.
+const QUOTED: usize = 60;
+
 impl ShaderSource {
+    /// The first line that has text and is no directive, by which a person knows a shader; none where there is none.
+    pub fn first_line(&self) -> Option<String> {
+        let text = String::from_utf8_lossy(&self.source);
+        let lines = text.lines().map(str::trim);
+        let line = lines
+            .filter(|line| !line.starts_with('#'))
+            .find(|line| line.chars().any(char::is_alphanumeric))?;
+        Some(
+            line.chars()
+                .filter(|c| !c.is_control())
+                .take(QUOTED)
+                .collect(),
+        )
+    }
+
     /// Whether the source has the name of this member of a block more than once, so that it does not just declare it.
     fn reads(&self, member: &str) -> bool {
         let name = member.rsplit('.').next().unwrap_or(member);
@@ -301,6 +319,29 @@ fn stage(kind: u32) -> Option<Stage> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_shader_is_known_by_its_first_line() {
+        let line = |source: &str| {
+            let shader = ShaderSource {
+                kind: c::VERTEX_SHADER,
+                stage: Stage::Vertex,
+                source: source.into(),
+            };
+            shader.first_line()
+        };
+        let text = "#version 330\n#define LIGHTS 4\n\n  // Water, \x1b[31mby\tnight\nin vec3 at;\n";
+        assert_eq!(line(text).as_deref(), Some("// Water, [31mbynight"));
+        assert_eq!(
+            line("/*\n * ----\n * sky.vert\n */").as_deref(),
+            Some("* sky.vert")
+        );
+        assert_eq!(
+            line(&format!("//{}", "é".repeat(99))).map(|l| l.chars().count()),
+            Some(60)
+        );
+        assert_eq!(line("#version 330\n"), None);
+    }
 
     #[test]
     fn a_member_is_read_where_it_is_named_beside_its_declaration() {

@@ -80,6 +80,9 @@ pub(crate) fn scene(name: &str) -> Scene {
             ..scene("shade", &["--sky"], 2)
         },
         "shade_sky_block" => scene("shade", &["--sky", "--glsl", "330"], 1),
+        "shade_box" => scene("shade", &["--box"], 2),
+        "shade_box_combined" => scene("shade", &["--box", "--combined"], 1),
+        "shade_box_block" => scene("shade", &["--box", "--glsl", "330"], 2),
         "passes" => scene("passes", &["--depth-blit"], 2),
         "passes_depth" => scene("passes", &["--from-depth"], 2),
         "passes_samples" => scene("passes", &["--samples-inside", "4", "--mipmap"], 1),
@@ -97,6 +100,10 @@ pub(crate) fn scene(name: &str) -> Scene {
         },
         "shade_es3_sky" => {
             let arguments = &["--profile", "es3", "--sky", "--glsl", "330"];
+            scene("shade", arguments, 1)
+        }
+        "shade_es3_box" => {
+            let arguments = &["--profile", "es3", "--box", "--glsl", "330"];
             scene("shade", arguments, 1)
         }
         "shade_es2_srgb" => scene("shade", &["--profile", "es2", "--srgb"], 1),

@@ -49,7 +49,7 @@ impl Layer {
                 Effect::SynthesiseViews => self.synthesise_views(gl),
                 Effect::LeaveMono => self.draw_all_views(gl),
                 Effect::Fallback(reason) => self.diagnostics.fallback(reason),
-                Effect::Note(sentence) => self.diagnostics.report.note(sentence.into()),
+                Effect::NoCamera(program) => self.tell_of_no_camera(program),
             }
         }
     }

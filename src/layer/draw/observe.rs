@@ -110,26 +110,40 @@ impl Layer {
             Shaders::Variant(_) if shown && !clear => Projection::Perspective,
             _ => self.state.projection_kind(),
         };
-        let classifier = &self.cameras.classifier;
+        let mut turns_by_shader = false;
         if shown {
+            let classifier = &self.cameras.classifier;
             let needs = classifier.needs(kind, projection, first);
             self.state.read_classification(gl, needs);
             let depth = self.state.classification.depth;
             let backdrop = self.known.frame.backdrop.may_go_on();
             if classifier.needs_modelview(projection, first, depth, backdrop) && !clear {
-                self.state.read_classification(gl, Touch::MODELVIEW);
+                match shaders {
+                    Shaders::Variant(variant) => {
+                        turns_by_shader = self.turns_about_eye(gl, variant.program);
+                    }
+                    _ => self.state.read_classification(gl, Touch::MODELVIEW),
+                }
             }
         }
         let (program, shader) = match self.state.in_use.program {
             ProgramName::ZERO => (0, 0),
-            program if classifier.needs_shader() => self.link_and_hash(program),
+            program if self.cameras.classifier.needs_shader() => self.link_and_hash(program),
             _ => (0, 0),
         };
         let by_state = Traits::of(kind, &self.state);
         let foreground = &self.known.frame.foreground;
         Traits {
+            centred: by_state.centred || turns_by_shader,
             // Such a program places its vertices by matrices of its own.
-            turns: by_state.turns && !matches!(shaders, Shaders::Variant(_)),
+            turns: match shaders {
+                Shaders::Variant(_) => turns_by_shader,
+                _ => by_state.turns,
+            },
+            far_end: match shaders {
+                Shaders::Variant(variant) => variant.far_end,
+                _ => false,
+            },
             target,
             program,
             shader,

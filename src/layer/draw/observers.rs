@@ -2,7 +2,7 @@
 
 use super::super::Layer;
 use super::method_name;
-use crate::config::Word;
+use crate::config::{Class, Word};
 use crate::gl::Gl;
 use crate::plan::class::{Classed, Why};
 use crate::plan::{Facts, Method, Plan};
@@ -12,7 +12,12 @@ impl Layer {
     pub(super) fn observe_decision(&mut self, gl: &Gl, facts: &Facts, plan: &Plan) {
         let told = match facts.classed.why {
             Why::Rule(_) => facts.classed,
-            _ if plan.variant => Classed {
+            // Its own view stays as it is where w is 1, and a sky is one by its shader or its matrices.
+            _ if plan.variant && facts.classed.class == Class::Flat => Classed {
+                why: Why::FlatShaders,
+                ..facts.classed
+            },
+            _ if plan.variant && plan.class != Class::Sky => Classed {
                 class: plan.class,
                 why: Why::Shaders,
                 ..facts.classed

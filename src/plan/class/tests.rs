@@ -25,6 +25,7 @@ fn facts() -> Traits {
         program: 0,
         shader: 0,
         turns: false,
+        far_end: false,
         first: true,
         backdrop: false,
         foreground: false,
@@ -159,6 +160,19 @@ fn the_state_tells_what_a_draw_is() {
         ..backdrop
     };
     assert_eq!(class(&c, moved), (Class::Scene, Why::Perspective));
+    // By its shader alone.
+    let far = Traits {
+        depth_state: DepthState::On,
+        far_end: true,
+        first: false,
+        ..facts()
+    };
+    assert_eq!(class(&c, far), (Class::Sky, Why::FarEnd));
+    let flat = Traits {
+        projection: Projection::None,
+        ..far
+    };
+    assert_eq!(class(&c, flat), (Class::Flat, Why::NoProjection));
     // A draw that differs from a sky in one respect belongs to the scene.
     for near in [
         Traits {

@@ -73,6 +73,6 @@ pub enum Effect {
     LeaveMono,
     /// Counts a reason in the report of this frame.
     Fallback(Reason),
-    /// Adds a sentence to the report.
-    Note(&'static str),
+    /// Tells that no camera was found in the matrices of a program.
+    NoCamera(ProgramName),
 }

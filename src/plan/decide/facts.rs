@@ -103,6 +103,8 @@ pub struct VariantFacts {
     pub camera: Option<[f32; 16]>,
     /// At present none of its matrices has a perspective.
     pub lost: bool,
+    /// Its vertices lie at the far end of the depths, z = w in clip space.
+    pub far_end: bool,
     /// The variant that draws one view to its layer.
     pub to_layer: Linked,
     /// The variant that draws all views to their layers.

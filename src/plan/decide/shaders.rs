@@ -7,8 +7,6 @@ use crate::config::{Class, DepthState, Strategy};
 use crate::plan::Kind;
 use crate::plan::class::Why;
 
-const NO_CAMERA: &str = "no camera was found in the matrices of some of the program's shaders: what they draw is the same in all views";
-
 /// The plan of a draw with the program's own shaders; `plan` is its plan as if by fixed function.
 pub(super) fn plan(
     facts: &Facts,
@@ -28,7 +26,7 @@ pub(super) fn plan(
     let Some(camera) = variant.camera.or(known.camera) else {
         // Menus and other flat draws need none. A sky by the rays of its fragments takes that of the scene, after the first frame.
         if facts.state.depth != DepthState::Off && !facts.unprojects() {
-            effects.push(Effect::Note(NO_CAMERA));
+            effects.push(Effect::NoCamera(variant.program));
         }
         return plan;
     };
@@ -38,7 +36,15 @@ pub(super) fn plan(
     let hud = plan.shear.map_or(Flat::Still, Flat::By);
     let (class, shear, flat) = match facts.classed.class {
         Class::Flat if ruled => (Class::Flat, plan.shear, hud),
-        Class::Sky => (Class::Sky, known.rig.sky(&camera), Flat::Still),
+        Class::Sky => {
+            let shear = known.rig.sky(&camera);
+            // A vertex of a box around the eye may have a w of 1. All of a picture without a perspective has.
+            let flat = match variant.camera {
+                Some(_) if !variant.lost => shear.map_or(Flat::Still, Flat::By),
+                _ => Flat::Still,
+            };
+            (Class::Sky, shear, flat)
+        }
         class => {
             let shear = super::plan::of_scene(&facts.classed, &known.rig, &camera);
             let flat = match class {

@@ -131,7 +131,11 @@ fn belongs(
         return no(NotOfScene::PictureInPicture);
     }
     match plan.class {
-        Class::Sky if depth == DepthState::On && facts.classed.why != Why::Backdrop => {
+        // Those of a backdrop are cleared, and the far end is where the clear has put all.
+        Class::Sky
+            if depth == DepthState::On
+                && !matches!(facts.classed.why, Why::Backdrop | Why::FarEnd) =>
+        {
             no(NotOfScene::SkyWithDepths)
         }
         Class::Sky if depth == DepthState::Off && scene.mapping.is_some() => {

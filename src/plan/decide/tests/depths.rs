@@ -247,6 +247,7 @@ fn state_is_read_only_where_something_depends_on_it() {
     // The stencil test decides whether the stencils of the views stay the same.
     assert_eq!(asked(draw, Class::Scene, &known(), &plain), Touch::COVER);
     let variant = Shaders::Variant(VariantFacts {
+        far_end: false,
         program: ProgramName(1),
         camera: None,
         lost: true,

@@ -50,6 +50,7 @@ pub(super) fn scene() -> Facts {
             program: 0,
             shader: 0,
             turns: false,
+            far_end: false,
             first: true,
             backdrop: false,
             foreground: false,
@@ -89,6 +90,7 @@ pub(super) fn scene() -> Facts {
 /// The same, with shaders of the program's own.
 pub(super) fn with_variant(change: impl FnOnce(&mut VariantFacts)) -> Facts {
     let mut variant = VariantFacts {
+        far_end: false,
         program: ProgramName(3),
         camera: Some(perspective()),
         lost: false,

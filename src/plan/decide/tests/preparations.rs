@@ -8,6 +8,7 @@ fn prepared(facts: &Facts, known: &Known, settings: &Settings) -> Preparation {
 
 fn variant(program: u32) -> VariantFacts {
     VariantFacts {
+        far_end: false,
         program: ProgramName(program),
         camera: Some(perspective()),
         lost: false,

@@ -33,7 +33,7 @@ fn a_program_without_a_camera_takes_the_last_one() {
         decision
             .effects
             .iter()
-            .any(|e| matches!(e, Effect::Note(_)))
+            .any(|e| matches!(e, Effect::NoCamera(_)))
     };
     assert!(noted(&none));
     let rays = with_variant(|variant| {
@@ -53,7 +53,12 @@ fn skies_and_flat_things_by_shaders() {
     let sky = decided(&facts, &known(), Strategy::Replay);
     assert_eq!(sky.plan.class, Class::Sky);
     assert_eq!(sky.plan.shear, sky.known.rig.sky(&perspective()));
-    assert_eq!(sky.plan.flat, Flat::Still);
+    // All of a box moves by as much, whatever its w.
+    assert_eq!(sky.plan.flat, sky.plan.shear.map_or(Flat::Still, Flat::By));
+    let mut screen = facts;
+    screen.shaders = with_variant(|variant| variant.lost = true).shaders;
+    let screen = decided(&screen, &sky.known, Strategy::Replay);
+    assert_eq!(screen.plan.flat, Flat::Still, "a picture over the screen");
     // A flat draw may still have vertices with a varying w.
     facts.classed = Classed {
         depth: 0.5,
