@@ -1,6 +1,8 @@
 //! `manyview ctl` and the socket behind it, with programs that draw until they are told to stop.
 #![forbid(unsafe_code)]
 
+#[path = "control/explained.rs"]
+mod explained;
 #[path = "control/running.rs"]
 mod running;
 mod support;

@@ -5,9 +5,8 @@
 use crate::live::{self, free};
 use crate::socket::{self, Checked};
 use crate::switch::{config, say};
-use manyview_core::config::Capture;
 use manyview_core::control::{self, Answer, ControlError, Lines, place};
-use manyview_core::layer::{Layer, Pictured};
+use manyview_core::layer::{Layer, Pictured, Wanted};
 use std::io::Read;
 use std::os::fd::AsRawFd;
 use std::os::unix::fs::MetadataExt;
@@ -40,8 +39,8 @@ pub(crate) struct Server {
     pid: u32,
     user: u32,
     clients: Vec<Client>,
-    /// A picture that a client waits for and that the next frame is to give.
-    wanted: Option<Capture>,
+    /// What a client waits for and the next frame is to give.
+    wanted: Option<Wanted>,
 }
 
 struct Client {
@@ -243,7 +242,9 @@ impl Server {
             let outcome =
                 line.and_then(|line| control::order(&line))
                     .and_then(|order| match order {
-                        control::Order::Capture(..) if busy => Err(ControlError::Busy),
+                        control::Order::Capture(..) | control::Order::Explain(_) if busy => {
+                            Err(ControlError::Busy)
+                        }
                         order => layer.control(order),
                     });
             match outcome {

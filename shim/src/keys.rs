@@ -7,9 +7,9 @@
 use crate::live::{self, free};
 use crate::socket::{self, Checked};
 use crate::switch::{config, say};
-use manyview_core::config::{Capture, profile};
+use manyview_core::config::profile;
 use manyview_core::control::{Answer, keys};
-use manyview_core::layer::{Layer, Pictured};
+use manyview_core::layer::{Layer, Pictured, Wanted};
 use std::error::Error;
 use std::io;
 use std::os::fd::{AsRawFd, FromRawFd};
@@ -55,7 +55,7 @@ struct Keyboard {
     /// Whether each keycode is down.
     down: [bool; 256],
     windows: Vec<Window>,
-    wanted: Option<Capture>,
+    wanted: Option<Wanted>,
     /// A picture is being taken.
     waits: bool,
 }
@@ -212,7 +212,9 @@ impl Keyboard {
         if self.waits {
             match layer.pictured() {
                 Some(Pictured::Later(wanted)) => self.wanted = Some(wanted),
-                Some(Pictured::Done(Ok(Answer::Captured { path, .. }))) => {
+                Some(Pictured::Done(Ok(
+                    Answer::Captured { path, .. } | Answer::Explained { path, .. },
+                ))) => {
                     say(&format!("wrote {}", path.display()));
                 }
                 Some(Pictured::Done(Err(error))) => say(&error.to_string()),

@@ -5,7 +5,9 @@ use super::error::CommandError;
 use super::{Outcome, print};
 use clap::{Args, Subcommand};
 use manyview::config::Capture;
-use manyview::control::{ALL, Answer, ControlError, LAYER, Picture, Request, line, place};
+use manyview::control::{
+    ALL, Answer, ControlError, Explanation, LAYER, Picture, Request, line, place,
+};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -54,6 +56,11 @@ enum What {
         #[arg(long, value_name = "output|atlas|view:I|depth")]
         what: Option<String>,
     },
+    /// Explain the next frame: which draw has which class, and why, as `run --explain` does
+    Explain {
+        /// The files are `explain.png` and `explain.txt` in a folder that exists, else they have the file's name
+        path: PathBuf,
+    },
     /// Show the program's own view, or all views again
     Toggle,
 }
@@ -79,6 +86,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             }
         },
         Answer::Layer(on) => print(&format!("{LAYER} = {}\n", word(&on.into()))),
+        Answer::Explained { path, frame } => {
+            super::tell(&format_args!(
+                "wrote {} and the picture beside it (frame {frame})",
+                path.display()
+            ));
+            Ok(ExitCode::SUCCESS)
+        }
         Answer::Captured { path, frame } => {
             super::tell(&format_args!("wrote {} (frame {frame})", path.display()));
             match &arguments.what {
@@ -119,18 +133,26 @@ fn request(what: &What) -> Result<Request, CommandError> {
                 None | Some("output") => Capture::completed(path),
                 Some(_) => path.clone(),
             };
-            let path = std::path::absolute(&path)
-                .map_err(|source| CommandError::system("finding the current folder", source))?;
-            if path.to_str().is_none() {
-                return Err(ControlError::NotUtf8(path).into());
-            }
             Request::Capture(Picture {
-                path,
+                path: absolute(&path)?,
                 what: what.clone(),
             })
         }
+        What::Explain { path } => Request::Explain(Explanation {
+            path: absolute(path)?,
+        }),
         What::Toggle => Request::Toggle(LAYER.to_owned()),
     })
+}
+
+/// A path that the program understands, whatever its working directory is.
+fn absolute(path: &Path) -> Result<PathBuf, CommandError> {
+    let path = std::path::absolute(path)
+        .map_err(|source| CommandError::system("finding the current folder", source))?;
+    match path.to_str() {
+        Some(_) => Ok(path),
+        None => Err(ControlError::NotUtf8(path).into()),
+    }
 }
 
 /// Finds the program to talk to, and removes sockets at which no program listens any more.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub enum ControlError {
     /// The line is not a request.
     #[error(
-        "a line is no request ({0}); send one JSON object with set, get, capture or toggle, such as {{\"get\": \"all\"}}"
+        "a line is no request ({0}); send one JSON object with set, get, capture, explain or toggle, such as {{\"get\": \"all\"}}"
     )]
     Request(String),
     /// The line is longer than any request.

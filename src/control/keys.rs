@@ -20,11 +20,13 @@ pub enum Key {
     Output,
     /// Writes the next frame to a file.
     Capture,
+    /// Explains the next frame.
+    Explain,
 }
 
 /// Keys by their X keysym without Shift. Keys that window managers and X itself use with Ctrl and Alt (arrows, Delete, Backspace,
 /// function keys) are not among them.
-const KEYS: [(u32, Key); 9] = [
+const KEYS: [(u32, Key); 10] = [
     (0x6d, Key::Toggle),
     (0xff55, Key::Spread(true)),
     (0xff56, Key::Spread(false)),
@@ -34,6 +36,7 @@ const KEYS: [(u32, Key); 9] = [
     (0x6a, Key::HudDepth(false)),
     (0x6f, Key::Output),
     (0x63, Key::Capture),
+    (0x65, Key::Explain),
 ];
 
 /// Factor of one press for the numbers of the cameras.
@@ -95,6 +98,13 @@ impl Key {
                     .collect()
             }
             Self::Capture => vec![Order::Capture(picture(), OUTPUT.to_owned())],
+            Self::Explain => {
+                let picture = picture();
+                let stem = picture.file_stem().unwrap_or_default().to_string_lossy();
+                vec![Order::Explain(
+                    picture.with_file_name(format!("{stem}-explained.png")),
+                )]
+            }
         }
     }
 }

@@ -37,6 +37,8 @@ pub enum Request {
     Get(String),
     /// Takes a picture of the next frame.
     Capture(Picture),
+    /// Explains the next frame.
+    Explain(Explanation),
     /// Switches the third dimension off or on; the name is [`LAYER`].
     Toggle(String),
 }
@@ -52,6 +54,14 @@ pub struct Picture {
     pub what: Option<String>,
 }
 
+/// A requested explanation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Explanation {
+    /// Absolute path of a folder, or of a file whose name is that of the picture and the list but for the extension.
+    pub path: PathBuf,
+}
+
 /// A parsed request.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Order {
@@ -61,6 +71,8 @@ pub enum Order {
     Get(Option<String>),
     /// Takes a picture, with its path and content.
     Capture(PathBuf, String),
+    /// Explains the next frame to such files.
+    Explain(PathBuf),
     /// Switches the third dimension off or on.
     Toggle,
 }
@@ -78,6 +90,13 @@ pub enum Answer {
         /// Path of the file.
         path: PathBuf,
         /// The frame that it shows, counted from 1.
+        frame: u64,
+    },
+    /// A frame is explained.
+    Explained {
+        /// Path of the list of its draws; the picture lies beside it.
+        path: PathBuf,
+        /// The frame, counted from 1.
         frame: u64,
     },
     /// Why nothing has changed, in one sentence.
@@ -120,13 +139,16 @@ pub fn order(line: &str) -> Result<Order, ControlError> {
             name,
             known: names().collect::<Vec<_>>().join(", "),
         }),
-        Request::Capture(Picture { path, .. }) if !path.is_absolute() => {
+        Request::Capture(Picture { path, .. }) | Request::Explain(Explanation { path })
+            if !path.is_absolute() =>
+        {
             Err(ControlError::RelativePath(path))
         }
         Request::Capture(Picture { path, what }) => Ok(Order::Capture(
             path,
             what.unwrap_or_else(|| OUTPUT.to_owned()),
         )),
+        Request::Explain(Explanation { path }) => Ok(Order::Explain(path)),
         Request::Toggle(what) if what == LAYER => Ok(Order::Toggle),
         Request::Toggle(what) => Err(ControlError::Toggle(what)),
     }
@@ -184,6 +206,10 @@ mod tests {
             order(r#"{"capture": {"path": "/a.png"}}"#),
             Ok(Order::Capture("/a.png".into(), "output".to_owned()))
         );
+        assert_eq!(
+            order(r#"{"explain": {"path": "/a"}}"#),
+            Ok(Order::Explain("/a".into()))
+        );
         assert_eq!(order(r#"{"toggle": "layer"}"#), Ok(Order::Toggle));
     }
 
@@ -228,6 +254,7 @@ mod tests {
             r#"{"get": "strategy"}"#,
             r#"{"capture": {"path": "a.png"}}"#,
             r#"{"capture": {"path": "/a.png", "frames": 3}}"#,
+            r#"{"explain": {"path": "a"}}"#,
             r#"{"toggle": "sound"}"#,
             r#"{"stop": "now"}"#,
         ]

@@ -1,7 +1,7 @@
 //! Requests to the running program: values in force, and pictures of the next frame.
 
 use super::Layer;
-use crate::config::{Camera, Capture, CaptureWhat, Live, OptionId, Output};
+use crate::config::{Camera, Capture, CaptureWhat, Explain, Live, OptionId, Output};
 use crate::control::{Answer, ControlError, LAYER, Order, VIEWS, keys::Key};
 use crate::display::LensPart;
 use crate::gl::Gl;
@@ -10,12 +10,21 @@ use crate::state::Neutral;
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 
-/// State of a picture that is asked for.
+/// What is asked for of the next frame that is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Wanted {
+    /// A picture.
+    Picture(Capture),
+    /// An explanation, with the frame.
+    Explanation(Explain),
+}
+
+/// State of what is asked for of a frame.
 #[derive(Debug)]
 pub(super) enum Picture {
     None,
     /// Of the next frame that is shown.
-    Wanted(Capture),
+    Wanted(Wanted),
     Done(Result<Answer, ControlError>),
 }
 
@@ -35,13 +44,13 @@ impl Picture {
     }
 }
 
-/// Outcome of a picture that was asked for.
+/// Outcome of a picture or an explanation that was asked for.
 #[derive(Debug)]
 pub enum Pictured {
     /// It was written, or the error says why not.
     Done(Result<Answer, ControlError>),
     /// The frame was not shown, or lacked views: the picture has to be asked of the next one.
-    Later(Capture),
+    Later(Wanted),
 }
 
 impl Layer {
@@ -72,8 +81,8 @@ impl Layer {
     }
 
     /// Carries out a request, or changes nothing and fails. A picture is not taken here: `Ok(Err(..))` has to be given to [`Layer::picture`]
-    /// before the next frame is shown.
-    pub fn control(&mut self, order: Order) -> Result<Result<Answer, Capture>, ControlError> {
+    /// before the next frame is shown. It has to be called between frames.
+    pub fn control(&mut self, order: Order) -> Result<Result<Answer, Wanted>, ControlError> {
         match order {
             Order::Set(changes) => {
                 let live = self.session.live.with(
@@ -93,12 +102,19 @@ impl Layer {
                 Some(entry) => Ok(Ok(Answer::Values(Map::from_iter([entry])))),
                 None => Err(self.not_in_force(name)),
             },
-            Order::Capture(path, what) => Ok(Err(Capture {
+            Order::Capture(path, what) => Ok(Err(Wanted::Picture(Capture {
                 out: path,
                 first: 0,
                 last: 0,
                 what: CaptureWhat::asked(&what, self.session.config.views)?,
-            })),
+            }))),
+            Order::Explain(out) => {
+                // From the first draw of the frame on.
+                let frame = self.diagnostics.report.frames() + 1;
+                let explain = Explain { out, frame };
+                self.explain_next(explain.clone());
+                Ok(Err(Wanted::Explanation(explain)))
+            }
             Order::Toggle => {
                 self.adopt(Live {
                     flat: !self.session.live.flat,
@@ -114,7 +130,7 @@ impl Layer {
         &mut self,
         key: Key,
         picture: impl FnOnce(u64) -> PathBuf,
-    ) -> Result<Result<Answer, Capture>, ControlError> {
+    ) -> Result<Result<Answer, Wanted>, ControlError> {
         // The next one, counted from 1.
         let frame = self.diagnostics.report.frames() + 1;
         let orders = key.orders(self.session.live, self.known.rig.latched(), || {
@@ -183,8 +199,8 @@ impl Layer {
         }
     }
 
-    /// Asks for a picture of the next frame that is shown.
-    pub fn picture(&mut self, wanted: Capture) {
+    /// Asks for a picture of the next frame that is shown, or waits for its explanation.
+    pub fn picture(&mut self, wanted: Wanted) {
         self.diagnostics.picture = Picture::Wanted(wanted);
     }
 
@@ -200,7 +216,7 @@ impl Layer {
 
     /// Writes the picture that was asked for, if one was.
     pub(super) fn take_picture(&mut self, gl: &Gl, neutral: &Neutral, source: &Source, frame: u64) {
-        if let Picture::Wanted(wanted) = &self.diagnostics.picture {
+        if let Picture::Wanted(Wanted::Picture(wanted)) = &self.diagnostics.picture {
             let wanted = Capture {
                 first: frame,
                 last: frame,
@@ -212,6 +228,16 @@ impl Layer {
             let written = self.write(gl, neutral, source, &wanted, frame);
             self.diagnostics.picture = Picture::Done(match written {
                 Ok(path) => Ok(Answer::Captured { path, frame }),
+                Err(reason) => Err(ControlError::Picture(reason)),
+            });
+        }
+    }
+
+    /// Tells what became of an explanation that was asked for: the path of the list, or why it is not written.
+    pub(super) fn explained(&mut self, frame: u64, outcome: Result<PathBuf, String>) {
+        if let Picture::Wanted(Wanted::Explanation(_)) = &self.diagnostics.picture {
+            self.diagnostics.picture = Picture::Done(match outcome {
+                Ok(path) => Ok(Answer::Explained { path, frame }),
                 Err(reason) => Err(ControlError::Picture(reason)),
             });
         }

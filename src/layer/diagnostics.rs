@@ -13,6 +13,8 @@ pub(super) struct Diagnostics {
     pub(super) report: Report,
     pub(super) explained: Option<explain::Explained>,
     pub(super) proving: prove::Proving,
+    /// The frame that a request to the running program wants to be explained.
+    pub(super) asked: Option<crate::config::Explain>,
     /// The picture that a request to the running program asks for.
     pub(super) picture: control::Picture,
     /// Fallbacks of this frame, by reason.
@@ -29,6 +31,7 @@ impl Diagnostics {
             report,
             explained: None,
             proving: prove::Proving::default(),
+            asked: None,
             picture: control::Picture::None,
             fallbacks: Counts::default(),
             made: Count::default(),

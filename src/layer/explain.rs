@@ -43,11 +43,18 @@ pub(super) struct Explained {
 }
 
 impl Layer {
-    /// The request for an explanation, if it is of the frame that is being drawn.
-    fn explains(&self) -> Option<&'static Explain> {
-        let explain = self.session.config.explain.as_ref()?;
-        (self.diagnostics.report.frames() + 1 == explain.frame && self.state.list.is_none())
-            .then_some(explain)
+    /// The request for an explanation, if it is of the frame that is being drawn. One to the running program goes first.
+    fn explains(&self) -> Option<&Explain> {
+        let options = self.session.config.explain.as_ref();
+        let frame = self.diagnostics.report.frames() + 1;
+        let mut all = self.diagnostics.asked.as_ref().into_iter().chain(options);
+        all.find(|explain| explain.frame == frame && self.state.list.is_none())
+    }
+
+    /// Has the next frame explained, whose number is given. It has to be called between frames.
+    pub(super) fn explain_next(&mut self, explain: Explain) {
+        self.diagnostics.asked = Some(explain);
+        self.cameras.classifier.set_explains(true);
     }
 
     /// Before a draw: finds the pixels that the draw before it has changed.
@@ -118,25 +125,34 @@ impl Layer {
         }
     }
 
-    /// Where this process writes a file of the explanation.
+    /// Where this process writes a file of the explanation. Only this process was asked for one while it ran.
     fn claim(&mut self, explain: &Explain, file: PathBuf) -> PathBuf {
+        if self.diagnostics.asked.is_some() {
+            return file;
+        }
         let claims = &mut self.diagnostics.report.claims;
         claims.path(self.session.config, &explain.out, file)
     }
 
     /// At the end of the frame: writes the picture, the list and the shaders.
     pub(super) fn finish_explanation(&mut self, gl: &Gl) {
-        let Some(explain) = self.explains() else {
+        let Some(explain) = self.explains().cloned() else {
             return;
         };
         self.explain_last(gl);
         let Some(explained) = self.diagnostics.explained.take() else {
             return;
         };
+        let explain = &explain;
         self.write_shaders(explain, &explained);
         let [picture, list] = explain.files().map(|file| self.claim(explain, file));
         let written = capture::write(&explained.picture(), &picture)
             .and_then(|()| capture::write_bytes(explained.list(explain.frame).as_bytes(), &list));
+        if self.diagnostics.asked.take().is_some() {
+            let wanted = self.session.config.explain.is_some();
+            self.cameras.classifier.set_explains(wanted);
+            return self.explained(explain.frame, written.map(|()| list));
+        }
         if let Err(e) = written {
             self.diagnostics
                 .report

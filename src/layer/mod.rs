@@ -52,7 +52,7 @@ mod variants;
 
 pub use blocks::BufferRef;
 pub use canvas::CurrentDrawable;
-pub use control::Pictured;
+pub use control::{Pictured, Wanted};
 pub use draw::Primitives;
 pub use feedback::FeedbackCommand;
 pub use frames::Frames;

@@ -190,6 +190,11 @@ impl Classifier {
         }
     }
 
+    /// Whether all traits are wanted, as for an explanation.
+    pub fn set_explains(&mut self, explains: bool) {
+        self.explains = explains;
+    }
+
     /// Sets another depth for flat draws that no rule places.
     pub fn change_hud_depth(&mut self, depth: f64) {
         self.hud_depth = depth;

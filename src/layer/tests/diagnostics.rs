@@ -1,6 +1,6 @@
 //! Diagnostics: fallbacks and names for the report, and the picture that is asked for.
 
-use super::super::control::{Picture, Pictured};
+use super::super::control::{Picture, Pictured, Wanted};
 use super::super::diagnostics::Diagnostics;
 use super::bench::Bench;
 use crate::config::{Capture, CaptureWhat};
@@ -102,12 +102,12 @@ fn the_report_has_the_names_that_are_made_and_not_deleted() {
 
 #[test]
 fn the_outcome_of_a_picture_is_taken_once() {
-    let wanted = Capture {
+    let wanted = Wanted::Picture(Capture {
         out: "/nowhere/picture.png".into(),
         first: 0,
         last: 0,
         what: CaptureWhat::Output,
-    };
+    });
     let mut picture = Picture::None;
     assert!(!picture.is_awaited() && picture.take().is_none());
     picture = Picture::Wanted(wanted.clone());
