@@ -2,6 +2,9 @@
 
 use super::scan::{Kind, Scan};
 
+/// Tokens of a statement that is read, so that time is linear in the length of the source.
+const LONGEST: usize = 512;
+
 /// Whether the last value of `gl_Position` has z equal to w, by its text: `gl_Position = p.xyww`, `gl_Position = vec4(p.xy, p.w, p.w)`,
 /// `gl_Position.z = gl_Position.w`. False where an `if` or `#if` decides.
 pub(super) fn is_at_far_end(scan: &Scan) -> bool {
@@ -61,7 +64,9 @@ fn written(scan: &Scan, at: usize) -> Option<bool> {
     if !touches || !assigned && !compound {
         return None;
     }
-    let end = (operator..scan.tokens.len()).find(|&at| is(at, b';'))?;
+    let Some(end) = (operator..operator + LONGEST).find(|&at| is(at, b';')) else {
+        return Some(false);
+    };
     let words: Vec<Vec<u8>> = (operator + 1..end).map(|at| word(scan, at)).collect();
     let words: Vec<&[u8]> = words.iter().map(Vec::as_slice).collect();
     Some(
@@ -127,6 +132,8 @@ mod tests {
         ] {
             assert!(of(far), "{far}");
         }
+        let long = format!("gl_Position = (p{}).xyww;", " * 1.0".repeat(LONGEST));
+        assert!(!of(&long), "not read to its end");
         for near in [
             "gl_Position = p;",
             "gl_Position = p.xyzw;",
