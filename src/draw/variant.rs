@@ -136,8 +136,7 @@ pub fn drawn(
     let name = gl
         .link_at(&shaders, &attributes, &outputs)
         .map_err(NoVariant::Driver)?;
-    let mut variant = Variant::of(gl, program, name, &shift, rewritten.window.as_ref());
-    variant.far_end = rewritten.far_end;
+    let variant = Variant::of(gl, program, name, &shift, &rewritten);
     Ok(Drawn::ByVariant(Arc::new(variant)))
 }
 
@@ -299,13 +298,18 @@ impl Variant {
         program: ProgramName,
         name: ProgramName,
         shift: &Names,
-        place: Option<&Names>,
+        rewritten: &Rewritten,
     ) -> Variant {
         let ours = |names: &Names, uniform| {
             let uniform = CString::new(names.uniform(uniform)).unwrap_or_default();
             gl.uniform_location(name, &uniform)
         };
-        let window = |uniform| place.map_or(-1, |names| ours(names, uniform));
+        let window = |uniform| {
+            rewritten
+                .window
+                .as_ref()
+                .map_or(-1, |names| ours(names, uniform))
+        };
         let mut uniforms = Vec::new();
         for active in gl.active_uniforms(program) {
             let left = (1..=active.size.max(1) as u32).rev();
@@ -321,8 +325,8 @@ impl Variant {
         }
         let blocks = gl.block_bindings(program).len() as u32;
         Variant {
-            far_end: false,
             name,
+            far_end: rewritten.far_end,
             shift: ours(shift, Uniform::Shift),
             tile: ours(shift, Uniform::Tile),
             views: ours(shift, Uniform::Views),

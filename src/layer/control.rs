@@ -1,7 +1,7 @@
 //! Requests to the running program: values in force, and pictures of the next frame.
 
 use super::Layer;
-use crate::config::{Camera, Capture, CaptureWhat, Explain, Live, OptionId, Output};
+use crate::config::{Camera, Capture, CaptureWhat, Live, OptionId, Output};
 use crate::control::{Answer, ControlError, LAYER, Order, VIEWS, keys::Key};
 use crate::display::LensPart;
 use crate::gl::Gl;
@@ -15,8 +15,8 @@ use std::path::PathBuf;
 pub enum Wanted {
     /// A picture.
     Picture(Capture),
-    /// An explanation, with the frame.
-    Explanation(Explain),
+    /// An explanation.
+    Explanation,
 }
 
 /// State of what is asked for of a frame.
@@ -110,10 +110,8 @@ impl Layer {
             }))),
             Order::Explain(out) => {
                 // From the first draw of the frame on.
-                let frame = self.diagnostics.report.frames() + 1;
-                let explain = Explain { out, frame };
-                self.explain_next(explain.clone());
-                Ok(Err(Wanted::Explanation(explain)))
+                self.explain_next(out);
+                Ok(Err(Wanted::Explanation))
             }
             Order::Toggle => {
                 self.adopt(Live {
@@ -235,7 +233,7 @@ impl Layer {
 
     /// Tells what became of an explanation that was asked for: the path of the list, or why it is not written.
     pub(super) fn explained(&mut self, frame: u64, outcome: Result<PathBuf, String>) {
-        if let Picture::Wanted(Wanted::Explanation(_)) = &self.diagnostics.picture {
+        if let Picture::Wanted(Wanted::Explanation) = &self.diagnostics.picture {
             self.diagnostics.picture = Picture::Done(match outcome {
                 Ok(path) => Ok(Answer::Explained { path, frame }),
                 Err(reason) => Err(ControlError::Picture(reason)),

@@ -13,8 +13,8 @@ pub(super) struct Diagnostics {
     pub(super) report: Report,
     pub(super) explained: Option<explain::Explained>,
     pub(super) proving: prove::Proving,
-    /// The frame that a request to the running program wants to be explained.
-    pub(super) asked: Option<crate::config::Explain>,
+    /// Where a request to the running program wants the explanation of the next frame.
+    pub(super) asked: Option<std::path::PathBuf>,
     /// The picture that a request to the running program asks for.
     pub(super) picture: control::Picture,
     /// Fallbacks of this frame, by reason.

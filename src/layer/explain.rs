@@ -44,16 +44,21 @@ pub(super) struct Explained {
 
 impl Layer {
     /// The request for an explanation, if it is of the frame that is being drawn. One to the running program goes first.
-    fn explains(&self) -> Option<&Explain> {
-        let options = self.session.config.explain.as_ref();
+    fn explains(&self) -> Option<Explain> {
         let frame = self.diagnostics.report.frames() + 1;
-        let mut all = self.diagnostics.asked.as_ref().into_iter().chain(options);
-        all.find(|explain| explain.frame == frame && self.state.list.is_none())
+        if self.state.list.is_some() {
+            return None;
+        }
+        if let Some(out) = self.diagnostics.asked.clone() {
+            return Some(Explain { out, frame });
+        }
+        let options = self.session.config.explain.as_ref();
+        options.filter(|explain| explain.frame == frame).cloned()
     }
 
-    /// Has the next frame explained, whose number is given. It has to be called between frames.
-    pub(super) fn explain_next(&mut self, explain: Explain) {
-        self.diagnostics.asked = Some(explain);
+    /// Has the next frame explained. It has to be called between frames.
+    pub(super) fn explain_next(&mut self, out: PathBuf) {
+        self.diagnostics.asked = Some(out);
         self.cameras.classifier.set_explains(true);
     }
 
@@ -136,7 +141,7 @@ impl Layer {
 
     /// At the end of the frame: writes the picture, the list and the shaders.
     pub(super) fn finish_explanation(&mut self, gl: &Gl) {
-        let Some(explain) = self.explains().cloned() else {
+        let Some(explain) = self.explains() else {
             return;
         };
         self.explain_last(gl);

@@ -113,12 +113,6 @@ pub fn turns_about_eye(camera: &[f32; 16], matrices: &[[f32; 16]]) -> bool {
     };
     let near = f64::from(projection[14]) / (f64::from(projection[10]) - 1.0);
     let off = near * ROUNDED;
-    let rotates = |m: &DMat4| {
-        let m = glam::DMat3::from_mat4(*m);
-        [
-            m.x_axis.y, m.x_axis.z, m.y_axis.x, m.y_axis.z, m.z_axis.x, m.z_axis.y,
-        ] != [0.0; 6]
-    };
     let own = matrix(camera);
     // The eye is where x, y and w are 0, whatever z is.
     let rows = own.transpose();
@@ -129,15 +123,20 @@ pub fn turns_about_eye(camera: &[f32; 16], matrices: &[[f32; 16]]) -> bool {
     {
         return false;
     }
-    let others = matrices.iter().filter(|m| *m != camera).map(matrix);
+    let others = matrices.iter().filter(|m| *m != camera);
     let mut turns = !is_projection(camera);
-    for other in others.filter(|m| m.transpose().w_axis == DVec4::W) {
-        if other.w_axis.truncate().length() > off {
+    for other in others.filter(|m| [m[3], m[7], m[11], m[15]] == [0.0, 0.0, 0.0, 1.0]) {
+        if matrix(other).w_axis.truncate().length() > off {
             return false;
         }
-        turns |= rotates(&other);
+        turns |= rotates(other);
     }
     turns
+}
+
+/// Whether an affine matrix does more than to scale along the axes and to translate.
+pub fn rotates(m: &[f32; 16]) -> bool {
+    [m[1], m[2], m[4], m[6], m[8], m[9]] != [0.0; 6]
 }
 
 fn matrix(m: &[f32; 16]) -> DMat4 {

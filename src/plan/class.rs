@@ -430,10 +430,9 @@ fn turns(m: &[f32; 16], p: &[f32; 16]) -> bool {
         return false;
     }
     let off = glam::DVec3::new(m[12].into(), m[13].into(), m[14].into()) / f64::from(m[15]);
-    let rotates = [m[1], m[2], m[4], m[6], m[8], m[9]] != [0.0; 6];
     let [near, _] = parallax::planes(p);
     // A camera that does not rotate leaves nothing to round: such a translation is meant, as one to the centres of pixels is.
-    off == glam::DVec3::ZERO || rotates && off.length() <= near * camera::ROUNDED
+    off == glam::DVec3::ZERO || camera::rotates(m) && off.length() <= near * camera::ROUNDED
 }
 
 #[cfg(test)]

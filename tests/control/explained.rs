@@ -1,7 +1,7 @@
 //! Frames that are explained on request.
 
 use super::CAMERAS;
-use super::running::{Running, same};
+use super::running::{Running, same, until};
 use super::support::{own_screen, rgb};
 
 /// The next frame is explained, then the program goes on as before.
@@ -26,6 +26,16 @@ fn a_frame_is_explained_while_the_program_runs() {
         "{first}"
     );
     assert_eq!(classes(&first), classes(&second));
+    // As if it had been asked for at the start, with all traits of the draws.
+    let path = running.path("started.png");
+    let asked = ("EXPLAIN", path.to_str().expect("UTF-8"));
+    let all = [&options[..], &[asked, ("EXPLAIN_FRAME", "2")]].concat();
+    let mut started = Running::controlled(&screen, &all);
+    let list = path.with_extension("txt");
+    until("a list", || list.exists().then_some(()));
+    started.end();
+    let list = std::fs::read_to_string(list).expect("a list");
+    assert_eq!(classes(&first), classes(&list));
     for name in ["first.png", "second.png"] {
         let picture = rgb(&running.path(name));
         assert!(picture.width() == 96 && picture.height() > 64, "{name}");
