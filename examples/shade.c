@@ -2,19 +2,20 @@
  * varyings, matrices as uniforms; 330: the camera in a uniform block, the model in a uniform. In OpenGL ES these are GLSL 1.00 and 3.00 es.
  * --sky: a triangle over the whole screen, whose fragments compute their rays by the inverse of the projection: before the scene, with depths
  * (120), or after it, at the far end (330). --box: a sky on a box around the eye, before the scene and without depths (120), or after it, with z = w
- * (330). */
+ * (330). --orthographic: the scene has no perspective; it cannot have a sky. */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static int version = 120, toon, combined, sky, box;
+static int version = 120, toon, combined, sky, box, orthographic;
 const struct demo_option demo_options[] = {
     {"--glsl", "120 or 330 (default 120)", &version, 1},
     {"--toon", "steps of light and dark outlines", &toon, 0},
     {"--combined", "one matrix for projection, camera and model (120)", &combined, 0},
     {"--sky", "a sky by the rays of fragments", &sky, 0},
     {"--box", "a sky on a box around the eye", &box, 0},
+    {"--orthographic", "the scene without perspective", &orthographic, 0},
     {0}};
 
 static const char *const vertex_120 =
@@ -328,8 +329,15 @@ void demo_frame(int frame)
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     glUseProgram(program);
-    demo_frustum(projection, 40.0, (double)demo_width / demo_height, 1.0, 50.0);
-    demo_view(projection);
+    if (orthographic) {
+        double wide = 3.5 * demo_width / demo_height;
+        demo_matrix flat = {(GLfloat)(1.0 / wide), 0, 0, 0, 0, 1.0f / 3.5f, 0, 0, 0, 0, -1.0f / 20.0f, 0, 0, 0, 0, 1};
+        memcpy(projection, flat, sizeof flat);
+        demo_view_slanted(projection);
+    } else {
+        demo_frustum(projection, 40.0, (double)demo_width / demo_height, 1.0, 50.0);
+        demo_view(projection);
+    }
     if (sky && version == 120)
         draw_sky(projection);
     if (box && version == 120)

@@ -195,6 +195,81 @@ fn a_scene_without_depths_is_in_the_budget_at_infinity() {
     assert_eq!(view("view:0", &AUTO), view("view:0", &placed));
 }
 
+/// After a jump of the camera nothing leaves the budget, and from the next frame on the scene is deep.
+#[test]
+fn a_cut_is_within_the_budget() {
+    for how in ["cut", "cut-shader", "cut-view"] {
+        let frames = frames(&walls(how, &AUTO));
+        assert_eq!(frames.len() as u64, FRAMES, "{how}");
+        for frame in &frames {
+            let near = if frame.frame > 5 { 1.5 } else { 6.0 };
+            let wanted = [near, 40.0].map(|distance| frame.disparity(distance, WIDTH));
+            for (wanted, got) in wanted.iter().zip([frame.px[0], frame.px[2]]) {
+                assert!((wanted - got).abs() < 4e-3, "{how}: {wanted} in {frame:?}");
+            }
+            assert!(
+                frame.px.iter().all(|px| px.abs() <= BUDGET),
+                "{how}: {frame:?}"
+            );
+            // What the first frame after it is shown with is safe, and shallow.
+            if ![1, 6].contains(&frame.frame) {
+                let [near, far] = [frame.px[0], frame.px[2]].map(|px| px / BUDGET);
+                assert!((near + 0.25).abs() < 0.01, "{how}: {frame:?}");
+                assert!((far - 0.75).abs() < 0.01, "{how}: {frame:?}");
+            }
+        }
+    }
+}
+
+/// What is in an orthographic scene moves by as many pixels as the report tells, the nearest by a quarter of the budget before the panel.
+#[test]
+fn an_orthographic_scene_is_within_the_budget() {
+    let program = compiled("depths", Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("report.json");
+    let panel = folder.path().join("panel.toml");
+    std::fs::write(&panel, "kind = \"huebner\"\nbudget-px = 4\n").expect("written");
+    for how in ["isometric", "isometric-reversed"] {
+        let walls = |view: &str| {
+            let out = folder.path().join("view.png");
+            let all = [
+                ("VIEWS", "5"),
+                ("AUTO_DEPTH", ""),
+                ("DISPLAY", panel.to_str().expect("UTF-8")),
+                ("REPORT", path.to_str().expect("UTF-8")),
+                ("CAPTURE_OUT", out.to_str().expect("UTF-8")),
+                ("CAPTURE_FRAMES", "8"),
+                ("CAPTURE_WHAT", view),
+            ];
+            succeed(layered(&program, &all).arg(how));
+            let picture = support::rgb(&out);
+            [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
+                .map(|colour| support::extent(&picture, 1, 0, colour))
+        };
+        let (left, right) = (walls("view:0"), walls("view:4"));
+        let frame = frames(&report(&path)).pop().expect("frames");
+        for (wall, px) in [(0, frame.px[0]), (2, frame.px[2])] {
+            for edge in 0..2 {
+                let moved = right[wall][edge] - left[wall][edge];
+                assert!((moved - 4.0 * px).abs() <= 1.0, "{how}: {moved} {frame:?}");
+            }
+        }
+        assert!((-2.0..-0.5).contains(&frame.px[0]), "{how}: {frame:?}");
+        assert!((2.0..4.0).contains(&frame.px[2]), "{how}: {frame:?}");
+    }
+}
+
+/// An option that an orthographic scene has no use for says so.
+#[test]
+fn a_convergence_without_effect_is_told() {
+    let notes = |options: &[(&str, &str)]| walls("isometric", options)["notes"].to_string();
+    let told = "convergence has no effect on a scene without perspective";
+    assert!(notes(&[("SEPARATION", "0.01"), ("CONVERGENCE", "7")]).contains(told));
+    let alone = notes(&[AUTO[0], ("FOCAL_DEPTH", "7")]);
+    assert!(alone.contains("focal-depth alone has no effect"), "{alone}");
+    assert_eq!(notes(&[("EYE_SPACING", "0.1"), ("FOCAL_DEPTH", "7")]), "[]");
+}
+
 /// Values that the user gives are kept; where both are given, nothing is measured.
 #[test]
 fn what_is_given_is_kept() {

@@ -77,6 +77,20 @@ fn what_is_set_holds_for_the_next_frame() {
 }
 
 #[test]
+fn a_program_that_draws_only_when_it_is_uncovered_answers() {
+    let screen = own_screen();
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = [&[("CONTROL", "1"), ("VIEWS", "5")][..], &CAMERAS].concat();
+    let mut program = layered(running::stays(), &options);
+    let running = Running::start_in(folder, &screen, program.env("IDLE", "1"));
+    until("a socket", || running.socket().exists().then_some(()));
+    let idle = running.capture("view:0");
+    assert_eq!(running.done(&["get", "views"]), "5\n");
+    let drawn = Running::controlled(&screen, &options).capture("view:0");
+    same(&idle, &drawn, "view 0");
+}
+
+#[test]
 fn what_is_set_holds_for_contexts_that_show_nothing_themselves() {
     let screen = own_screen();
     let program = compiled("widget", Compiled::Program, &["-lEGL", "-lGL"]);

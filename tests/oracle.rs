@@ -521,7 +521,7 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears lists echo echo_listed blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky sky_far_off sky_cleared field menu shade shade_toon shade_combined shade_block shade_sky shade_sky_block shade_box shade_box_combined shade_box_block passes passes_depth passes_samples passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
+    glx: gears lists echo echo_listed blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky sky_far_off sky_cleared field menu shade shade_toon shade_combined shade_block shade_sky shade_sky_block shade_box shade_box_combined shade_box_block isometric shade_orthographic shade_orthographic_block passes passes_depth passes_samples passes_copies crowd crowd_indirect relief relief_geometry relief_both relief_points;
     egl: gears lists echo shade passes_samples;
     osmesa: gears lists echo blur shade passes_samples;
 }

@@ -102,6 +102,31 @@ void demo_view(GLfloat p[16]) { move_view(p, 0); }
 
 void demo_view_sky(GLfloat p[16]) { move_view(p, 1); }
 
+/* The same where the eye is infinitely far away and the cameras differ by an angle: row0' = row0 + sep * row2 - sep * conv * row3. Row 2 grows
+ * by `deeper` for each unit of depth, and conv is z at depth X. */
+static int move_slanted(GLfloat p[16])
+{
+    double e = (view_index - (view_count - 1) / 2.0) * eye_spacing;
+    if (e == 0.0)
+        return 0;
+    double wide = sqrt((double)p[0] * p[0] + (double)p[4] * p[4] + (double)p[8] * p[8]);
+    double deeper = sqrt((double)p[2] * p[2] + (double)p[6] * p[6] + (double)p[10] * p[10]);
+    double sep = wide / deeper * e / focal_depth, conv = p[14] + deeper * focal_depth;
+    for (int c = 0; c < 4; c++)
+        p[4 * c] = (GLfloat)(p[4 * c] + sep * p[4 * c + 2] - sep * conv * p[4 * c + 3]);
+    return 1;
+}
+
+void demo_view_slanted(GLfloat p[16]) { move_slanted(p); }
+
+void demo_slanted_done(void)
+{
+    GLfloat p[16];
+    glGetFloatv(GL_PROJECTION_MATRIX, p);
+    if (move_slanted(p))
+        glLoadMatrixf(p);
+}
+
 static void load_view(int infinitely_far)
 {
     GLfloat p[16];

@@ -47,6 +47,10 @@ void demo_projection_done(void);
 void demo_view(GLfloat projection[16]);
 /* The same for a sky, which is infinitely far in every view. */
 void demo_view_sky(GLfloat projection[16]);
+/* The same for an orthographic projection of a scene with depths, without a camera in it. */
+void demo_view_slanted(GLfloat projection[16]);
+/* Has to follow an orthographic GL_PROJECTION matrix of a scene with depths, while GL_PROJECTION is the matrix mode. */
+void demo_slanted_done(void);
 /* Loads a perspective projection and calls demo_projection_done(). fovy in degrees. */
 void demo_perspective(double fovy, double aspect, double z_near, double z_far);
 /* The same for a sky, which is infinitely far in every view. */

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::error::CommandError;
-use super::{Outcome, print};
+use super::{Outcome, print, wake};
 use clap::{Args, Subcommand};
 use manyview::config::Capture;
 use manyview::control::{
@@ -15,10 +15,12 @@ use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A program answers once per frame; loading may take this long.
 const PATIENCE: Duration = Duration::from_secs(10);
+/// One that has not answered for so long may be idle, and is woken.
+const IDLE: Duration = Duration::from_millis(300);
 
 #[derive(Args)]
 pub(crate) struct Arguments {
@@ -215,18 +217,25 @@ fn ask(pid: u32, stream: UnixStream, request: &Request) -> Result<Answer, Comman
         ErrorKind::BrokenPipe | ErrorKind::ConnectionReset => ControlError::Closed(pid).into(),
         _ => CommandError::system("talking to the program", source),
     };
+    let limit = Instant::now() + PATIENCE;
     stream
-        .set_read_timeout(Some(PATIENCE))
+        .set_read_timeout(Some(IDLE))
         .and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
         .and_then(|()| (&stream).write_all(line(request).as_bytes()))
         .map_err(failed)?;
-    let mut answer = String::new();
-    BufReader::new(stream)
-        .read_line(&mut answer)
-        .map_err(failed)?;
+    let mut answer = Vec::new();
+    let mut reader = BufReader::new(stream);
+    // What has arrived before an error stays in `answer`.
+    while let Err(error) = reader.read_until(b'\n', &mut answer) {
+        let idle = matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut);
+        if !idle || Instant::now() > limit {
+            return Err(failed(error));
+        }
+        wake::wake(pid);
+    }
     if answer.is_empty() {
         return Err(ControlError::Closed(pid).into());
     }
-    serde_json::from_str(&answer)
+    serde_json::from_slice(&answer)
         .map_err(|error| CommandError::system("reading the program's answer", error.into()))
 }

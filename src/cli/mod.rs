@@ -18,6 +18,7 @@ mod sheet;
 mod show;
 mod simulate;
 mod volume;
+mod wake;
 mod weave;
 
 use clap::{Parser, Subcommand};

@@ -58,6 +58,18 @@ pub enum Viewport {
     Inset,
 }
 
+/// Which draws without perspective are sheared by their depths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OrthographicDraws {
+    /// Those that are seen from an oblique direction, in programs without perspective.
+    #[default]
+    Auto,
+    /// None.
+    Flat,
+    /// All that are tested against depths.
+    Scene,
+}
+
 /// A value that is written as a word.
 pub trait Word: Copy + PartialEq + 'static {
     /// Every value with its word.

@@ -25,7 +25,7 @@ mod tests;
 mod words;
 
 pub use capture::{Capture, CaptureWhat};
-pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
+pub use class::{Class, DepthRange, DepthState, OrthographicDraws, Projection, Viewport, Word};
 pub use error::ConfigError;
 pub use explain::Explain;
 pub use field::{Field, Origin, Renaming};
@@ -68,6 +68,8 @@ pub struct Config {
     pub clip: Option<Clip>,
     /// How many views `hybrid` draws; the others are synthesised from them.
     pub true_views: TrueViews,
+    /// Which draws without perspective are sheared by their depths.
+    pub orthographic: OrthographicDraws,
     /// Holes of synthesised views are magenta.
     pub marks_holes: bool,
     /// Size of a tile over the size of the window.

@@ -39,6 +39,8 @@ pub enum OptionId {
     Clip,
     /// How disocclusions of synthesised views are shown.
     Holes,
+    /// Which draws without perspective are sheared by their depths.
+    Orthographic,
     /// Number of true views, from which the others are synthesised.
     TrueViews,
     /// Frames per second that the number of true views follows.
@@ -343,6 +345,9 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::HudDepth, "hud-depth", "MANYVIEW_HUD_DEPTH", "D",
         "Where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel")
         .default("0").manual("See [Profiles](profiles.md)."),
+    OptionSpec::new(OptionId::Orthographic, "orthographic", "MANYVIEW_ORTHOGRAPHIC", "",
+        "Which draws without perspective are moved by their depths: those of a scene, none, or all that are tested against depths")
+        .choices(&["auto", "flat", "scene"]).default("auto").manual("See [Depth](depth.md)."),
     OptionSpec::new(OptionId::Disable, "disable", "MANYVIEW_DISABLE_OPTIMISATIONS", "NAME,…",
         "Optimisations to turn off, several by commas, to measure what they save")
         .choices(&["unseen", "mono", "lists", "uniforms", "frustum"])
@@ -510,6 +515,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 32, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 33, "a new option needs a row");
     }
 }

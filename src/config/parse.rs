@@ -10,8 +10,8 @@ use super::settings::Settings;
 use super::strategy::STRATEGIES;
 use super::{
     Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter,
-    Kept, MAX_VIEWS, Mixture, Optimisation, Output, Profile, Strategy, TrueViews, ViewScale, panel,
-    profile,
+    Kept, MAX_VIEWS, Mixture, Optimisation, OrthographicDraws, Output, Profile, Strategy,
+    TrueViews, ViewScale, panel, profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::path::{Path, PathBuf};
@@ -36,6 +36,8 @@ impl Config {
             atlas: choice(settings, OptionId::Atlas, ATLASES)?.unwrap_or(AtlasLayout::SideBySide),
             clip: choice(settings, OptionId::Clip, CLIPS)?,
             marks_holes: choice(settings, OptionId::Holes, HOLES)?.unwrap_or(false),
+            orthographic: choice(settings, OptionId::Orthographic, ORTHOGRAPHIC)?
+                .unwrap_or_default(),
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
             disabled: disabled(settings)?,
@@ -55,6 +57,12 @@ impl Config {
 }
 
 const HOLES: &[(&str, bool)] = &[("fill", false), ("mark", true)];
+
+const ORTHOGRAPHIC: &[(&str, OrthographicDraws)] = &[
+    ("auto", OrthographicDraws::Auto),
+    ("flat", OrthographicDraws::Flat),
+    ("scene", OrthographicDraws::Scene),
+];
 
 const CLIPS: &[(&str, Clip)] = &[
     ("distances", Clip::Distances),

@@ -2,7 +2,7 @@
 //! The program's own object stays as it is and answers all queries of the program.
 
 use crate::gl::{Active, Gl, ProgramName, ShaderName, consts as c};
-use crate::plan::{Flat, Shear};
+use crate::plan::{Along, Flat, Shear};
 use crate::rewrite::{
     Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, rewrite,
 };
@@ -417,6 +417,9 @@ impl Variant {
         let shift = |&place: &f64| {
             let sep = |shear: &Shear| shear.separation(place);
             let scene = shear.map_or((0.0, 0.0), |s| (sep(&s), sep(&s) * s.conv));
+            if shear.is_some_and(|shear| shear.along == Along::Z) {
+                return [scene.0 as f32, scene.1 as f32, 0.0, 2.0];
+            }
             // The last number: corners of the screen stay.
             let (flat, corners) = match flat {
                 Flat::Still => (0.0, 0.0),

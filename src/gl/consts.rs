@@ -218,6 +218,8 @@ pub const ALWAYS: u32 = 0x0207;
 pub const EQUAL: u32 = 0x0202;
 /// `GL_LEQUAL`
 pub const LEQUAL: u32 = 0x0203;
+/// `GL_GREATER`
+pub const GREATER: u32 = 0x0204;
 /// `GL_GEQUAL`
 pub const GEQUAL: u32 = 0x0206;
 pub const VERTEX_ARRAY_BINDING: u32 = 0x85B5;

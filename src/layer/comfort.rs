@@ -6,7 +6,7 @@ use crate::display::Budget;
 use crate::gl::{BufferName, FramebufferName, Gl, consts as c};
 use crate::plan::decide::DepthWatch;
 use crate::plan::depths::{DepthMapping, Distances};
-use crate::plan::{DepthMappings, Shear, comfort, parallax};
+use crate::plan::{Cuts, DepthMappings, Shear, Slant, Slanting, comfort, orthographic, parallax};
 use crate::report::Disparity;
 use crate::state::Neutral;
 
@@ -16,16 +16,24 @@ pub(super) struct Comfort {
     /// Depths are read, because the cameras follow them or the report has disparities.
     on: bool,
     cameras: comfort::Comfort,
+    /// The same for an orthographic scene.
+    slanting: Slanting,
     /// Separation and convergence that were found, in force from the next frame on.
     next: Option<(f64, f64)>,
     /// The same of what is drawn before everything else, where they differ.
     foreground: Option<(f64, f64)>,
+    /// Cameras of an orthographic scene that were found, in force from the next frame on.
+    slant: Option<Slant>,
     pub(super) mappings: DepthMappings,
     /// Depth pictures of this frame; `sent` has those of the previous one that were not read yet.
     taken: Vec<Taken>,
     sent: Vec<Taken>,
     /// The pictures in `sent` are of other cameras or of another atlas, and must not be used.
     stale: bool,
+    /// Jumps of the program's camera.
+    pub(super) cuts: Cuts,
+    /// See [`Layer::tell_of_orthographic_scene`].
+    pub(super) told_orthographic: bool,
 }
 
 /// What has to be known to use one depth picture.
@@ -49,10 +57,14 @@ impl Comfort {
             cameras: comfort::Comfort::new(None),
             next: None,
             foreground: None,
+            slanting: Slanting::default(),
+            slant: None,
             mappings: DepthMappings::default(),
             taken: Vec::new(),
             sent: Vec::new(),
             stale: false,
+            cuts: Cuts::default(),
+            told_orthographic: false,
         };
         comfort.change(config, camera);
         comfort
@@ -70,12 +82,25 @@ impl Comfort {
                 let focal = config.profile.focal_depth.map(Kept::FocalDepth);
                 self.cameras = comfort::Comfort::new(kept.or(focal));
                 (self.next, self.foreground) = (None, None);
+                (self.slant, self.slanting) = (None, Slanting::default());
                 self.stale = !self.sent.is_empty();
                 true
             }
             _ => false,
         };
         self.on = config.views > 1 && (measured || config.report.is_some());
+    }
+
+    /// The depths of the frames before say nothing of this one.
+    pub(super) fn restart(&mut self) {
+        self.cameras.restart();
+        (self.next, self.foreground) = (None, None);
+        self.stale = !self.sent.is_empty();
+    }
+
+    /// Whether cameras were found, for a scene in perspective or an orthographic one.
+    fn has_found(&self) -> bool {
+        self.next.is_some() || self.slant.is_some()
     }
 
     /// The next frame is drawn to another atlas: the depth pictures of this one are not used.
@@ -89,6 +114,7 @@ impl Layer {
     /// end of this frame.
     pub(super) fn begin_frame(&mut self, gl: &Gl) {
         self.known.rig.set_reach(self.reach());
+        self.tell_of_orthographic_scene();
         if self.cameras.comfort.sent.is_empty() || !self.targets.atlas.depths_are_there(gl) {
             return;
         }
@@ -105,6 +131,9 @@ impl Layer {
                 let farthest = self.cameras.comfort.cameras.farthest(cameras, budget);
                 let foreground = self.cameras.comfort.foreground;
                 self.known.rig.set_measured(cameras, farthest, foreground);
+            }
+            if let Some(slant) = self.cameras.comfort.slant {
+                self.known.rig.set_slant(slant);
             }
         }
     }
@@ -149,7 +178,7 @@ impl Layer {
             let way = mappings.most().map(|way| way.projection);
             self.cameras.comfort.taken.push(Taken {
                 frame: self.diagnostics.report.frames() + 1,
-                cameras: way.and_then(|p| numbers(self.known.rig.shear(&p))),
+                cameras: way.and_then(|p| self.cameras_in_force(&p)),
                 foreground: way.and_then(|p| numbers(self.known.rig.foreground(&p))),
                 sky: way
                     .and_then(|p| self.known.rig.sky(&p))
@@ -188,12 +217,12 @@ impl Layer {
         self.cameras.comfort.sent = std::mem::take(&mut self.cameras.comfort.taken);
         self.targets.atlas.send_depths(gl);
         let measured = matches!(self.session.live.camera, Camera::Measured(_));
-        if measured && self.cameras.comfort.next.is_none() {
+        if measured && !self.cameras.comfort.has_found() {
             // No cameras were found yet: it is better to wait once for the depths than to show another shallow frame.
             self.read_depths(gl);
         }
         if measured
-            && self.cameras.comfort.next.is_none()
+            && !self.cameras.comfort.has_found()
             && let Some(p) = self.known.depths.projection.filter(|p| !parallax::flat(p))
         {
             let (_, scale) = parallax::lens(&p);
@@ -202,6 +231,7 @@ impl Layer {
             self.find_cameras(&p, &seen);
         }
         self.set_measured_cameras();
+        self.cameras.comfort.cuts.end_frame();
         self.known.depths = DepthWatch::default();
         self.cameras.comfort.mappings = DepthMappings::default();
     }
@@ -255,9 +285,35 @@ impl Layer {
     /// Finds the cameras for the distances that were seen in a frame; `p` is the projection of its scene.
     fn find_cameras(&mut self, p: &[f32; 16], seen: &comfort::Seen) {
         if let Camera::Measured(_) = self.session.live.camera {
+            if parallax::flat(p) {
+                return self.find_slant(p, seen);
+            }
             let limits = self.reach().limits(parallax::lens(p));
             self.cameras.comfort.next = self.cameras.comfort.cameras.track(seen, &limits);
         }
+    }
+
+    /// The same for an orthographic scene, whose distances are parts of the way from the far plane to the near one.
+    fn find_slant(&mut self, p: &[f32; 16], seen: &comfort::Seen) {
+        let (reach, planes) = (self.reach(), self.depth_planes());
+        let most = orthographic::orthoscopic(p, &planes, reach.neighbours);
+        if let Some([far, near]) = seen.scene {
+            let ends = [1.0 - near, 1.0 - far];
+            let slanting = &mut self.cameras.comfort.slanting;
+            self.cameras.comfort.slant = slanting.track(ends, reach.budget, most);
+        }
+    }
+
+    /// Separation and convergence of a scene with this projection, as for distances 1/w; for an orthographic scene, whose distances are parts of
+    /// the way from the far plane to the near one, those that give the same disparities.
+    fn cameras_in_force(&self, p: &[f32; 16]) -> Option<(f64, f64)> {
+        if !parallax::flat(p) {
+            return numbers(self.known.rig.shear(p));
+        }
+        let planes = self.depth_planes();
+        let shear = self.known.rig.orthographic(p, &planes)?;
+        let beyond = planes.at(1.0) - shear.conv;
+        Some((shear.separation(1.0) * beyond, planes.extent() / beyond))
     }
 
     /// Finds the cameras for a frame with these distances (1/w), and adds its disparities to the report.
@@ -284,6 +340,7 @@ impl Layer {
         self.find_cameras(p, &seen);
         let budget = self.reach().budget;
         let comfort = &mut self.cameras.comfort;
+        comfort.cuts.judge([far, near], budget);
         comfort.foreground =
             foreground.and_then(|range| comfort.cameras.foreground(near, range, budget));
         if self.session.config.report.is_none() {

@@ -4,8 +4,8 @@ use super::blocks::BlockReader;
 use super::unprojections::Unprojections;
 use crate::draw::{Drawn, NoVariant, Variant};
 use crate::gl::{Gl, Held, ProgramName};
-use crate::plan::camera;
 use crate::plan::decide::Linked as Linking;
+use crate::plan::{Pose, camera, orthographic};
 use crate::state::{Matrices, Samplers, SideEffects, block_change, link_change, uniform_change};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -59,6 +59,8 @@ struct CameraSearch {
     told: bool,
     /// None of its matrices has a perspective now.
     lost: bool,
+    /// Where none has, the matrix by which an orthographic scene is measured (see [`orthographic::among`]).
+    oblique: Option<[f32; 16]>,
     /// [`uniform_change`] and [`block_change`] at the last search; without matrices in blocks the latter is 0.
     seen: [u64; 2],
 }
@@ -111,6 +113,7 @@ impl ProgramRecord {
                 found: None,
                 told: false,
                 lost: true,
+                oblique: None,
                 seen: [0; 2],
             },
             followed: [(0, 0); 4],
@@ -275,6 +278,12 @@ impl OwnVariants {
         known.is_none_or(|known| known.camera.lost)
     }
 
+    /// The matrix of the orthographic scene that a program draws; none where its matrices have a perspective, or show nothing obliquely.
+    pub(super) fn oblique(&self, program: ProgramName) -> Option<[f32; 16]> {
+        let camera = &self.known.get(&program)?.camera;
+        camera.oblique.filter(|_| camera.lost)
+    }
+
     /// Whether it is the first time that this is asked of a program with a record.
     pub(super) fn is_first_telling(&mut self, program: ProgramName) -> bool {
         let known = self.known.get_mut(&program);
@@ -304,6 +313,20 @@ impl OwnVariants {
         let values = known.matrices.values(gl, program, in_block);
         let camera = known.camera.found.filter(|_| !known.camera.lost);
         camera.is_some_and(|camera| camera::turns_about_eye(&camera.matrix, &values))
+    }
+
+    /// Where a program puts what it draws (see [`camera::pose`]).
+    pub(super) fn pose(
+        &self,
+        gl: &Gl,
+        program: ProgramName,
+        blocks: &mut BlockReader,
+    ) -> Option<Pose> {
+        let known = self.known.get(&program)?;
+        let camera = known.camera.found.filter(|_| !known.camera.lost)?;
+        let in_block = &mut |place| blocks.matrix(program, place);
+        let values = known.matrices.values(gl, program, in_block);
+        camera::pose(&camera.matrix, &values)
     }
 
     /// The matrix of a program's camera, as the program has it and as a pure projection (see [`camera::equivalent`]); both are column-major.
@@ -397,6 +420,7 @@ impl OwnVariants {
                 CameraSearch {
                     found: camera,
                     lost,
+                    oblique,
                     seen,
                     ..
                 },
@@ -439,6 +463,7 @@ impl OwnVariants {
                 })
             });
             *lost = found.is_none();
+            *oblique = orthographic::among(&values).filter(|_| *lost);
             *camera = found.or(*camera);
         }
         Some(camera.map(|camera| camera.projection))

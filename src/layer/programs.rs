@@ -7,6 +7,7 @@ use super::unprojections::Unprojections;
 use crate::config::Strategy;
 use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
+use crate::plan::Pose;
 use crate::plan::decide::{Linked as Linking, Shaders, VariantFacts};
 use crate::rewrite::Stage;
 use crate::state::{
@@ -147,6 +148,11 @@ impl Layer {
         self.read_own(gl, |own, _, blocks| {
             own.turns_about_eye(gl, program, blocks)
         })
+    }
+
+    /// Where a program with a variant puts what it draws, by its matrices.
+    pub(super) fn pose_by_shader(&mut self, gl: &Gl, program: ProgramName) -> Option<Pose> {
+        self.read_own(gl, |own, _, blocks| own.pose(gl, program, blocks))
     }
 
     /// Reads the uniforms of programs. `read` also gets the aspect of the picture, width over height.

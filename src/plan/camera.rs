@@ -1,6 +1,6 @@
 //! The camera in a matrix that a program's own shaders multiply positions by.
 
-use super::Shear;
+use super::{Pose, Shear};
 use glam::{DMat4, DVec4};
 
 /// A pure projection (column-major) with the focal lengths and the near and far distances of `m`. `m` is a projection, or a projection
@@ -134,6 +134,19 @@ pub fn turns_about_eye(camera: &[f32; 16], matrices: &[[f32; 16]]) -> bool {
     turns
 }
 
+/// Where a program puts what it draws: by `camera`, one of its `matrices`, if there is more than a projection in it, else by all that are affine. Which of
+/// these is the view, the model or their product is not known. All are multiplied, so that none of them jumps unseen.
+pub fn pose(camera: &[f32; 16], matrices: &[[f32; 16]]) -> Option<Pose> {
+    if !is_projection(camera) {
+        return Pose::of_clip(camera);
+    }
+    let affine = matrices
+        .iter()
+        .filter(|m| [m[3], m[7], m[11], m[15]] == [0.0, 0.0, 0.0, 1.0]);
+    let all = affine.fold(matrix(camera), |all, m| all * matrix(m));
+    Pose::of_clip(&all.as_mat4().to_cols_array())
+}
+
 /// Whether an affine matrix does more than to scale along the axes and to translate.
 pub fn rotates(m: &[f32; 16]) -> bool {
     [m[1], m[2], m[4], m[6], m[8], m[9]] != [0.0; 6]
@@ -244,6 +257,7 @@ mod tests {
             assert!(!unprojects(&m.to_cols_array(), 1.5));
             assert_eq!(among(&[inverse], 1.5), None);
             let shear = Shear {
+                along: crate::plan::Along::W,
                 a: 1.0,
                 spacing: 0.3,
                 focal: 8.0,

@@ -46,6 +46,8 @@ pub struct Traits {
     pub first: bool,
     /// The last frame began with draws around the eye whose depths were cleared for the scene, and this one may have begun so.
     pub backdrop: bool,
+    /// Without perspective, and yet a part of a scene (see [`super::decide::OrthographicWatch`]).
+    pub slants: bool,
     /// By the frames before, it comes before everything else ([`super::decide::Foreground`]).
     pub foreground: bool,
 }
@@ -85,6 +87,8 @@ pub enum Why {
     Raster,
     /// An orthographic projection has no depth to shift by.
     Orthographic,
+    /// Without perspective, but seen from an oblique direction and with depths: deeper moves further.
+    Slanted,
     /// No projection at all.
     NoProjection,
     /// It is rotated about the eye, writes no depth and comes before the scene.
@@ -114,6 +118,7 @@ impl core::fmt::Display for Why {
             Why::Whole => f.write_str("the whole picture"),
             Why::Raster => f.write_str("at the raster position"),
             Why::Orthographic => f.write_str("orthographic projection"),
+            Why::Slanted => f.write_str("orthographic projection of a scene, from an oblique direction and with depths"),
             Why::NoProjection => f.write_str("no projection"),
             Why::TurnsAboutEye => {
                 f.write_str("turns about the eye, writes no depth, comes before the scene")
@@ -282,6 +287,7 @@ impl Classifier {
             };
         }
         match facts.projection {
+            _ if facts.slants => classed(Class::Scene, Why::Slanted),
             Projection::Orthographic => Classed {
                 depth: self.hud_depth,
                 ..classed(Class::Flat, Why::Orthographic)
@@ -351,6 +357,7 @@ impl Traits {
             shader: 0,
             turns: turns(&state.classification.modelview, p),
             far_end: false,
+            slants: false,
             first: false,
             backdrop: false,
             foreground: false,

@@ -13,11 +13,11 @@ use crate::config::Kept;
 
 /// Parts of the budget that the cameras aim at, behind the panel and before it. In 516 frames of gltron the nearest point came up to 35 %
 /// nearer from one frame to the next. With 0.8 on both sides eleven frames left the budget; with these none did.
-const BEHIND: f64 = 0.75;
-const BEFORE: f64 = 0.25;
+pub(super) const BEHIND: f64 = 0.75;
+pub(super) const BEFORE: f64 = 0.25;
 /// Parts of the budget that the last measured depths never exceed.
-const LIMIT_BEHIND: f64 = 0.9;
-const LIMIT_BEFORE: f64 = 0.5;
+pub(super) const LIMIT_BEHIND: f64 = 0.9;
+pub(super) const LIMIT_BEFORE: f64 = 0.5;
 /// Part of the budget that the nearest point of a foreground gets, before the panel.
 const FOREGROUND: f64 = 0.5;
 /// The largest separation, in budgets: the disparity of an infinitely far point. A scene of little depth gets more than one budget until
@@ -128,6 +128,11 @@ impl Comfort {
             moving: false,
             foreground: None,
         }
+    }
+
+    /// What was measured says nothing of the next frame.
+    pub fn restart(&mut self) {
+        *self = Comfort::new(self.kept);
     }
 
     /// Separation and convergence after a frame in which `seen` was visible; none before the first scene.

@@ -44,6 +44,22 @@ impl Ramp {
         (found && !oblique).then_some(ramp)
     }
 
+    /// For an orthographic scene, in a depth range. In place of 1/w it has the part of the way from the far plane to the near one.
+    /// `reversed`: nearer points have larger depths.
+    pub fn orthographic(range: [f32; 2], reversed: bool) -> Option<Ramp> {
+        let [low, high] = [range[0].min(range[1]), range[0].max(range[1])].map(f64::from);
+        let part = 1.0 / (high - low);
+        let (slope, offset) = match reversed {
+            true => (part, -low * part),
+            false => (-part, high * part),
+        };
+        part.is_finite().then_some(Ramp {
+            range: [low, high],
+            slope,
+            offset,
+        })
+    }
+
     /// Slope and offset of 1/w over the window depth.
     pub fn line(&self) -> [f64; 2] {
         [self.slope, self.offset]

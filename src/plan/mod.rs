@@ -4,21 +4,25 @@
 pub mod camera;
 pub mod class;
 pub mod comfort;
+pub mod cut;
 pub mod decide;
 pub mod depths;
 pub mod frustum;
 mod governor;
+pub mod orthographic;
 pub mod parallax;
 pub mod reason;
 pub mod trial;
 
 pub use class::{Classed, Classifier, Traits};
 pub use comfort::Comfort;
+pub use cut::{Cuts, Pose};
 pub use decide::{Decision, Facts, Flat, Known, Method, Plan, Preparation, Settings, decide};
 pub use depths::{DepthMappings, Ramp};
 pub use frustum::Bounds;
 pub use governor::Governor;
-pub use parallax::{Rig, Shear};
+pub use orthographic::{Planes, Slant, Slanting};
+pub use parallax::{Along, Rig, Shear};
 pub use reason::{Reason, Unrepresentable};
 pub use trial::Trial;
 

@@ -121,6 +121,9 @@ pub enum NotOfScene {
     /// A draw of the scene without a shift.
     #[error("a scene without parallax")]
     NoParallax,
+    /// A scene without perspective.
+    #[error("an orthographic scene")]
+    Orthographic,
     /// A projection from whose depths no distance follows.
     #[error("a projection without depths")]
     NoDepths,

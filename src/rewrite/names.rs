@@ -7,7 +7,8 @@ use std::collections::HashSet;
 /// A uniform of the rewritten shaders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Uniform {
-    /// `vec4 mv_shift[VIEWS]`, per view: s, s · conv, the shift of a vertex without perspective; all in clip space.
+    /// `vec4 mv_shift[VIEWS]`, per view: s, s · conv, the shift of a vertex without perspective, all in clip space; then 1 where corners of the
+    /// screen stay, 2 in an orthographic scene, else 0.
     Shift,
     /// `vec4 mv_tile[VIEWS]`, per view: centre of its tile x and y in NDC of the atlas, layer.
     Tile,

@@ -3,6 +3,7 @@
 //! ```text
 //! x' = x + s·w − s·conv     in the scene: equal to the view's own projection if w in eye space is 1
 //! x' = x + flat             if w in clip space is 1: no perspective, so no depth to shift by
+//! x' = x + s·z − s·conv·w   in an orthographic scene
 //! ```
 //! Where such a vertex belongs to the scene, it stays if it is a corner of the screen or beyond: of a sky or another picture that covers the
 //! screen, which would have a gap at its edge.
@@ -27,7 +28,11 @@ pub(super) fn shift(edits: &mut Edits, names: &Names, version: Version, view: &s
         names.other("by"),
     );
     edits.append(format!("    {highp}vec4 {by} = {shift}[{view}];"));
-    edits.append("    if (gl_Position.w > 0.999999 && gl_Position.w < 1.000001)");
+    edits.append(format!("    if ({by}.w > 1.5)"));
+    edits.append(format!(
+        "        gl_Position.x += {by}.x * gl_Position.z - {by}.y * gl_Position.w;"
+    ));
+    edits.append("    else if (gl_Position.w > 0.999999 && gl_Position.w < 1.000001)");
     edits.append("    {");
     edits.append(format!(
         "        if ({by}.w == 0.0 || gl_Position.x * gl_Position.x < 0.999999 || gl_Position.y * gl_Position.y < 0.999999)"

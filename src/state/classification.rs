@@ -12,6 +12,8 @@ pub struct ClassificationState {
     pub depth: DepthState,
     /// Fragments have to have exactly the depth in the buffer: GL_EQUAL.
     pub equal: bool,
+    /// Nearer points have larger depths: GL_GREATER or GL_GEQUAL.
+    pub reversed: bool,
     /// Which part of the depth buffer is drawn to.
     pub range: DepthRange,
     /// GL_DEPTH_RANGE, near and far.
@@ -35,6 +37,7 @@ impl Default for ClassificationState {
         ClassificationState {
             depth: DepthState::Off,
             equal: false,
+            reversed: false,
             range: DepthRange::Whole,
             depths: [0.0, 1.0],
             zero_to_one: false,
@@ -60,8 +63,12 @@ impl State {
             } else {
                 DepthState::On
             };
-            self.classification.equal = self.classification.depth != DepthState::Off
-                && gl.get_integer(c::DEPTH_FUNC) as u32 == c::EQUAL;
+            let function = match self.classification.depth {
+                DepthState::Off => 0,
+                _ => gl.get_integer(c::DEPTH_FUNC) as u32,
+            };
+            self.classification.equal = function == c::EQUAL;
+            self.classification.reversed = matches!(function, c::GREATER | c::GEQUAL);
         }
         if stale(Touch::RANGE) {
             self.classification.depths = gl.get_floats(c::DEPTH_RANGE);

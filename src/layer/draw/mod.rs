@@ -214,8 +214,11 @@ impl Layer {
     pub(super) fn decide(&mut self, gl: &Gl, request: &Request) -> Decided {
         self.explain_last(gl);
         self.state.refresh(gl);
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             let (facts, images) = self.observe(gl, request);
+            if round == 0 {
+                self.watch_cuts(gl, &facts);
+            }
             match decide(&facts, &self.known, &self.settings()) {
                 Ok(decision) => {
                     self.apply(gl, request, decision.effects);

@@ -56,7 +56,7 @@ impl Layer {
         let mut facts = Facts {
             traits,
             classed,
-            projections: self.observe_projections(lens),
+            projections: self.observe_projections(lens, &traits),
             rects: self.observe_rects(),
             shaders,
             state: self.state.classification,
@@ -76,8 +76,14 @@ impl Layer {
         (facts, images)
     }
 
-    fn observe_projections(&self, lens: Option<f64>) -> Projections {
+    fn observe_projections(&self, lens: Option<f64>, traits: &Traits) -> Projections {
         let [matrix, scene] = self.projections();
+        let program = self.state.in_use.program;
+        let slanted = traits.projection != Projection::Perspective && !program.is_zero();
+        let oblique = slanted
+            .then(|| self.variants.own.oblique(program))
+            .flatten();
+        let matrix = oblique.unwrap_or(matrix);
         Projections {
             fixed: self.state.matrices.projection,
             matrix,
@@ -126,6 +132,8 @@ impl Layer {
                 }
             }
         }
+        let slants =
+            shown && !clear && kind != Kind::Pixels && self.slants(gl, projection, shaders);
         let (program, shader) = match self.state.in_use.program {
             ProgramName::ZERO => (0, 0),
             program if self.cameras.classifier.needs_shader() => self.link_and_hash(program),
@@ -144,6 +152,7 @@ impl Layer {
                 Shaders::Variant(variant) => variant.far_end,
                 _ => false,
             },
+            slants,
             target,
             program,
             shader,

@@ -26,6 +26,7 @@ fn facts() -> Traits {
         shader: 0,
         turns: false,
         far_end: false,
+        slants: false,
         first: true,
         backdrop: false,
         foreground: false,
@@ -62,6 +63,15 @@ fn the_state_tells_what_a_draw_is() {
             },
             Class::Flat,
             Why::NoProjection,
+        ),
+        (
+            Traits {
+                projection: Projection::Orthographic,
+                slants: true,
+                ..facts()
+            },
+            Class::Scene,
+            Why::Slanted,
         ),
         (
             Traits {

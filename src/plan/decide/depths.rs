@@ -2,7 +2,7 @@
 
 use super::{DepthWatch, Effect, Facts, Known, Preparation, Rects, Settings};
 use crate::config::{Class, DepthState, Viewport};
-use crate::plan::{Kind, Ramp};
+use crate::plan::Kind;
 
 fn looked_at(facts: &Facts, settings: &Settings) -> bool {
     // Depths of framebuffers that are no part of the window's picture do not count.
@@ -63,14 +63,9 @@ fn take(depths: &mut DepthWatch, effects: &mut Vec<Effect>) {
 fn map(facts: &Facts, depths: &mut DepthWatch, effects: &mut Vec<Effect>) {
     let viewport = facts.traits.viewport;
     if viewport == Viewport::Main && facts.traits.kind != Kind::Pixels {
-        depths.projection = Some(facts.projections.scene);
+        depths.projection = Some(facts.scene_projection());
     }
-    let ramp = Ramp::of(
-        &facts.projections.matrix,
-        facts.state.depths,
-        facts.state.zero_to_one,
-    );
-    let Some(ramp) = ramp.filter(|_| facts.state.depth == DepthState::On) else {
+    let Some(ramp) = facts.ramp().filter(|_| facts.state.depth == DepthState::On) else {
         return;
     };
     let framebuffer = facts.destination.framebuffer;
@@ -87,7 +82,7 @@ fn map(facts: &Facts, depths: &mut DepthWatch, effects: &mut Vec<Effect>) {
     }
     effects.push(Effect::MapDepths {
         ramp,
-        projection: facts.projections.scene,
+        projection: facts.scene_projection(),
         focal: facts.classed.focal,
         foreground: facts.classed.is_foreground(),
         viewport,

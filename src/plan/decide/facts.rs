@@ -1,8 +1,10 @@
 //! The facts that a decision depends on: plain data, observed before anything is decided.
 
+use crate::config::{Class, Projection};
 use crate::gl::{FramebufferName, ProgramName, TextureName};
-use crate::plan::class::{Classed, Traits};
+use crate::plan::class::{Classed, Traits, Why};
 use crate::plan::reason::Unrepresentable;
+use crate::plan::{Kind, Ramp};
 use crate::state::ClassificationState;
 
 /// One command, and the state that it finds.
@@ -53,6 +55,32 @@ impl Facts {
     /// Whether a draw at the raster position moves with the view.
     pub fn raster_moves(&self) -> bool {
         self.projections.raster_moves
+    }
+
+    /// Whether it belongs to an orthographic scene, by the state or a rule: its views are sheared by depth.
+    pub fn slants(&self) -> bool {
+        let why = self.classed.why;
+        self.classed.class == Class::Scene
+            && self.traits.projection != Projection::Perspective
+            && self.traits.kind != Kind::Pixels
+            && (why == Why::Slanted || matches!(why, Why::Rule(_)))
+    }
+
+    /// The mapping from its window depths to distances; `None` where there is none.
+    pub fn ramp(&self) -> Option<Ramp> {
+        let state = &self.state;
+        match self.slants() {
+            true => Ramp::orthographic(state.depths, state.reversed),
+            false => Ramp::of(&self.projections.matrix, state.depths, state.zero_to_one),
+        }
+    }
+
+    /// The projection of the scene, column-major: without the camera's rotation and position in perspective.
+    pub fn scene_projection(&self) -> [f32; 16] {
+        match self.slants() {
+            true => self.projections.matrix,
+            false => self.projections.scene,
+        }
     }
 
     /// Whether its shaders compute positions from places on the screen, by matrices that each view has of its own.

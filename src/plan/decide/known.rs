@@ -3,6 +3,7 @@
 use super::backdrop::Backdrop;
 use super::foreground::Foreground;
 use super::mono::Mono;
+use super::orthographic::OrthographicWatch;
 use super::scene::Scene;
 use crate::config::Strategy;
 use crate::gl::FramebufferName;
@@ -44,6 +45,8 @@ pub struct Frame {
     pub backdrop: Backdrop,
     /// What is drawn before everything else.
     pub foreground: Foreground,
+    /// The orthographic scene, in a program without perspective.
+    pub orthographic: OrthographicWatch,
 }
 
 impl Frame {
@@ -53,6 +56,7 @@ impl Frame {
         Frame {
             backdrop: self.backdrop.next(),
             foreground: self.foreground.next(),
+            orthographic: self.orthographic.next(),
             ..Frame::default()
         }
     }

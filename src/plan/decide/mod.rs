@@ -12,6 +12,7 @@ mod foreground;
 mod grid;
 mod known;
 mod mono;
+mod orthographic;
 mod pass;
 mod plan;
 mod scene;
@@ -30,12 +31,13 @@ pub use foreground::Foreground;
 pub use grid::retreat;
 pub use known::{DepthWatch, Frame, Known, Settings};
 pub use mono::{ALL_BUFFERS, Mono};
+pub use orthographic::OrthographicWatch;
 pub use plan::{Flat, Method, Plan, ReferenceDraw};
 pub use scene::{DisparityMapping, Scene};
 pub use synthesis::is_over_candidate;
 
 use super::Kind;
-use super::class::Classed;
+use super::class::{Classed, Why};
 use crate::config::{Class, Projection, Repetition, Strategy};
 use crate::state::Touch;
 
@@ -114,6 +116,10 @@ pub fn needs(
         Touch::DEPTH,
     );
     add(!settings.same_depths && !known.replays_all, Touch::DEPTH);
+    add(
+        classed.why == Why::Slanted || scene && ruled(classed),
+        Touch::RANGE | Touch::DEPTH,
+    );
     let variant = matches!(shaders, Shaders::Variant(_));
     add(variant && !clear, Touch::DEPTH);
     let synthesises = settings.synthesises && known.scene.is_some() && !clear;
@@ -144,6 +150,11 @@ pub fn has_depths_of_replay(strategy: Strategy, layers: bool, distances: bool) -
 /// Whether a command writes whole buffers rather than primitives.
 fn is_whole(kind: Kind) -> bool {
     matches!(kind, Kind::Clear { .. } | Kind::Accum)
+}
+
+/// Whether a rule of the profile gave a draw its class.
+fn ruled(classed: &Classed) -> bool {
+    matches!(classed.why, Why::Rule(_))
 }
 
 /// Whether a command draws in perspective.

@@ -5,7 +5,7 @@ use crate::config::{Class, Repetition, Viewport};
 use crate::gl::TextureName;
 use crate::plan::class::Classed;
 use crate::plan::reason::{Missing, Reason, Replayed};
-use crate::plan::{Kind, Rig, Shear};
+use crate::plan::{Kind, Planes, Rig, Shear};
 
 /// How the views are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -87,6 +87,7 @@ pub(super) fn of_fixed_function(facts: &Facts, known: &Known, settings: &Setting
     let p = &facts.projections.fixed;
     let shear = match class {
         _ if super::is_whole(kind) => None,
+        Class::Scene if facts.slants() => rig.orthographic(p, &Planes::of(&facts.state)),
         Class::Scene => of_scene(classed, rig, p),
         Class::Sky => rig.sky(p),
         Class::Flat => {

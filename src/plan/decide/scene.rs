@@ -98,6 +98,7 @@ pub(super) fn observe(facts: &Facts, known: &mut Known, settings: &Settings) {
     known.frame.draws = facts.traits.draw;
     known.frame.backdrop.observe(facts);
     known.frame.foreground.observe(facts);
+    known.frame.orthographic.observe(facts);
     if shown {
         let behind = facts.classed.class == Class::Sky;
         if clear {
@@ -111,11 +112,7 @@ pub(super) fn observe(facts: &Facts, known: &mut Known, settings: &Settings) {
     }
     known.rig.latch(&facts.projections.fixed);
     if settings.shows_depth && known.frame.nearer_is_larger.is_none() {
-        let ramp = Ramp::of(
-            &facts.projections.matrix,
-            facts.state.depths,
-            facts.state.zero_to_one,
-        );
+        let ramp = facts.ramp();
         known.frame.nearer_is_larger = ramp.map(|ramp| ramp.nearer_is_larger());
     }
 }

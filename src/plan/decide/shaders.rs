@@ -4,8 +4,8 @@ use super::{
     Effect, Facts, Flat, Known, Linked, Method, Plan, Preparation, Settings, Shaders, VariantFacts,
 };
 use crate::config::{Class, DepthState, Strategy};
-use crate::plan::Kind;
 use crate::plan::class::Why;
+use crate::plan::{Kind, Planes};
 
 /// The plan of a draw with the program's own shaders; `plan` is its plan as if by fixed function.
 pub(super) fn plan(
@@ -23,7 +23,16 @@ pub(super) fn plan(
     let Shaders::Variant(variant) = &facts.shaders else {
         return plan;
     };
-    let Some(camera) = variant.camera.or(known.camera) else {
+    let camera = variant.camera.or(known.camera);
+    if facts.slants() && (camera.is_none() || facts.classed.why == Why::Slanted) {
+        let planes = Planes::of(&facts.state);
+        return Plan {
+            shear: known.rig.orthographic(&facts.projections.matrix, &planes),
+            variant: true,
+            ..plan
+        };
+    }
+    let Some(camera) = camera else {
         // Menus and other flat draws need none. A sky by the rays of its fragments takes that of the scene, after the first frame.
         if facts.state.depth != DepthState::Off && !facts.unprojects() {
             effects.push(Effect::NoCamera(variant.program));

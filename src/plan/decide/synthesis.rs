@@ -168,6 +168,9 @@ fn of_scene(
 ) -> Result<DisparityMapping, NotOfScene> {
     let shear = plan.shear.ok_or(NotOfScene::NoParallax)?;
     let state = &facts.state;
+    if facts.slants() {
+        return Err(NotOfScene::Orthographic);
+    }
     let ramp = Ramp::of(&facts.projections.matrix, state.depths, state.zero_to_one);
     let ramp = ramp.ok_or(NotOfScene::NoDepths)?;
     let shown = state.depth == DepthState::On && !state.blends;

@@ -1,14 +1,16 @@
 /* Three walls at distances of 4 + frame/2, 10 and 40 units from the camera, in frames 1 to 10 of a surface without a window system.
  *
  * depths plain|reversed|inverted|overlay|weapon|cleared|nodepth|shader|block|reversed-shader|pass-16|pass-24|pass-24-8|pass-32f|
- *        pass-unsized|pass-samples|part|pass-part
+ *        pass-unsized|pass-samples|part|pass-part|isometric|isometric-reversed|cut|cut-shader|cut-view
  *
  * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: a flat picture that
  * writes depths over everything at the end; weapon: a surface at 1.5 in a depth range of its own; cleared: the same after a clear of the
  * depths; nodepth: no depth test; shader, block: shaders, with the projection in a uniform or a uniform block; pass: to a framebuffer of
  * twice the window's size, with depths in a renderbuffer (16, samples) or a texture (the others), whose picture is then drawn over the
  * window; part: the lowest quarter has the nearest depths and is not drawn to, by the viewport
- * or the scissor test of a pass, as under a status bar. */
+ * or the scissor test of a pass, as under a status bar; isometric: without perspective, 68 units wide and from 1 to 100 deep, with other
+ * walls and a piece of floor that is seen from an oblique direction; isometric-reversed: the same with depths from 1 (near) to 0 (far);
+ * cut: from frame 6 on the camera looks the other way, where walls are at 1.5, 10 and 40; by shaders with one matrix (shader) or two (view). */
 #include "shaders.h"
 #include "surface.h"
 
@@ -37,6 +39,23 @@ static void scene(int frame)
     wall(40 * 0.6, 40, 8);
 }
 
+static void isometric_scene(int frame)
+{
+    glMatrixMode(GL_MODELVIEW);
+    glPushMatrix();
+    glTranslated(0, -25, -20);
+    glRotated(-60, 1, 0, 0);
+    glColor3d(0.5, 0.5, 0.5);
+    wall(0, 0, 6);
+    glPopMatrix();
+    glColor3d(1, 0, 0);
+    wall(-20, 4 + frame * 0.5, 6);
+    glColor3d(0, 1, 0);
+    wall(0, 10, 6);
+    glColor3d(0, 0, 1);
+    wall(20, 40, 6);
+}
+
 /* A program that uses the current projection. */
 static void shaders(int block)
 {
@@ -59,6 +78,59 @@ static void shaders(int block)
     } else
         glUniformMatrix4fv(glGetUniformLocation(program, "camera"), 1, GL_FALSE, camera);
     glLoadIdentity();
+}
+
+static void both_sides(void)
+{
+    const double nearest[2] = {6, 1.5};
+    for (int side = 0; side < 2; side++) {
+        const double sign = side ? -1 : 1;
+        glColor3d(0.8, 0.2, 0.2);
+        wall(-nearest[side] * 0.6, sign * nearest[side], nearest[side] * 0.2);
+        glColor3d(0.2, 0.8, 0.2);
+        wall(0, sign * 10, 2);
+        glColor3d(0.2, 0.2, 0.8);
+        wall(40 * 0.6, sign * 40, 8);
+    }
+}
+
+/* A program with the uniforms `projection` and `view`; the projection is the current one. */
+static GLuint cut_program(void)
+{
+    GLuint program = glCreateProgram();
+    attached(program, GL_VERTEX_SHADER, "#version 120\nuniform mat4 projection, view; void main() { gl_Position = projection * view * gl_Vertex; gl_FrontColor = gl_Color; }");
+    attached(program, GL_FRAGMENT_SHADER, "void main() { gl_FragColor = gl_Color; }");
+    glLinkProgram(program);
+    glUseProgram(program);
+    return program;
+}
+
+static void cut_scene(const char *how, int frame)
+{
+    static GLuint program;
+    const GLfloat turn = frame > 5 ? -1 : 1, view[16] = {turn, 0, 0, 0, 0, 1, 0, 0, 0, 0, turn, 0, 0, 0, 0, 1};
+    GLfloat projection[16];
+    glGetFloatv(GL_PROJECTION_MATRIX, projection);
+    if (!strcmp(how, "cut-shader")) {
+        if (frame == 1)
+            shaders(0);
+        glGetIntegerv(GL_CURRENT_PROGRAM, (GLint *)&program);
+        glLoadMatrixf(projection);
+        glMultMatrixf(view);
+        glGetFloatv(GL_PROJECTION_MATRIX, projection);
+        glUniformMatrix4fv(glGetUniformLocation(program, "camera"), 1, GL_FALSE, projection);
+        glLoadIdentity();
+    } else if (!strcmp(how, "cut-view")) {
+        if (frame == 1)
+            program = cut_program();
+        glUniformMatrix4fv(glGetUniformLocation(program, "projection"), 1, GL_FALSE, projection);
+        glUniformMatrix4fv(glGetUniformLocation(program, "view"), 1, GL_FALSE, view);
+        glLoadIdentity();
+    } else {
+        glMatrixMode(GL_MODELVIEW);
+        glLoadMatrixf(view);
+    }
+    both_sides();
 }
 
 /* The framebuffer of a pass, and with samples the one that its picture is copied to; 0 where there is none. */
@@ -147,7 +219,8 @@ static void show_pass(void)
 int main(int count, char **arguments)
 {
     const char *how = count > 1 ? arguments[1] : "plain";
-    const int block = !strcmp(how, "block"), shader = block || strstr(how, "shader") != NULL;
+    const int cut = !strncmp(how, "cut", 3), block = !strcmp(how, "block"), shader = !cut && (block || strstr(how, "shader"));
+    const int isometric = !strncmp(how, "isometric", 9), turned = !strcmp(how, "isometric-reversed");
     const int reversed = !strncmp(how, "reversed", 8), inverted = !strcmp(how, "inverted");
     PFNGLCLIPCONTROLPROC clip_control = (PFNGLCLIPCONTROLPROC)eglGetProcAddress("glClipControl");
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
@@ -163,6 +236,9 @@ int main(int count, char **arguments)
             const double infinite[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0};
             clip_control(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
             glLoadMatrixd(infinite);
+        } else if (isometric) {
+            glLoadIdentity();
+            glOrtho(-34, 34, -34, 34, turned ? 100 : 1, turned ? 1 : 100);
         } else {
             glLoadIdentity();
             glFrustum(-1, 1, -1, 1, 1, 100);
@@ -171,8 +247,8 @@ int main(int count, char **arguments)
             shaders(block);
         if (inverted)
             glDepthRange(1, 0);
-        glClearDepth(reversed || inverted ? 0 : 1);
-        glDepthFunc(reversed || inverted ? GL_GREATER : GL_LESS);
+        glClearDepth(reversed || inverted || turned ? 0 : 1);
+        glDepthFunc(reversed || inverted || turned ? GL_GREATER : GL_LESS);
         if (strcmp(how, "nodepth"))
             glEnable(GL_DEPTH_TEST);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -191,7 +267,12 @@ int main(int count, char **arguments)
                 glViewport(0, whole[3] / 4, whole[2], 3 * whole[3] / 4);
             }
         }
-        scene(frame);
+        if (cut)
+            cut_scene(how, frame);
+        else if (isometric)
+            isometric_scene(frame);
+        else
+            scene(frame);
         glDisable(GL_SCISSOR_TEST);
         if (!strcmp(how, "overlay")) {
             glLoadIdentity();

@@ -1,5 +1,6 @@
 /* Draws the same frame again and again until the file STOP exists or the frames are over.
  *   stays STOP [FOLDER]
+ * With IDLE in the environment it draws only when the window was exposed.
  * The keysyms of the window's key presses are added to `keys` in FOLDER, a line each.
  * Where FOLDER has a file `shoot`, the program writes the window's pixels to `shot.ppm` and removes `shoot`. */
 #include "scene.h"
@@ -7,6 +8,7 @@
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 enum { FRAMES = 20000 };
@@ -50,11 +52,14 @@ static void shoot(Display *display, Window window, const char *folder)
     unlink(order);
 }
 
-static void type(Display *display, const char *folder)
+/* Returns whether the window was exposed. */
+static int type(Display *display, const char *folder)
 {
+    int exposed = 0;
     while (XPending(display)) {
         XEvent event;
         XNextEvent(display, &event);
+        exposed |= event.type == Expose;
         char path[4096];
         snprintf(path, sizeof path, "%s/keys", folder);
         FILE *out = event.type == KeyPress ? fopen(path, "a") : NULL;
@@ -63,10 +68,12 @@ static void type(Display *display, const char *folder)
             fclose(out);
         }
     }
+    return exposed;
 }
 
 int main(int count, char **arguments)
 {
+    const int idle = getenv("IDLE") != NULL;
     int wanted[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, None};
     Display *display = XOpenDisplay(NULL);
     XVisualInfo *visual = display ? glXChooseVisual(display, DefaultScreen(display), wanted) : NULL;
@@ -74,7 +81,7 @@ int main(int count, char **arguments)
         return 2;
     Window root = DefaultRootWindow(display);
     XSetWindowAttributes a = {.colormap = XCreateColormap(display, root, visual->visual, AllocNone), .override_redirect = True,
-                              .event_mask = KeyPressMask};
+                              .event_mask = KeyPressMask | (idle ? ExposureMask : 0)};
     Window window = XCreateWindow(display, root, 0, 0, WIDTH, HEIGHT, 0, visual->depth, InputOutput, visual->visual,
                                   CWColormap | CWOverrideRedirect | CWEventMask, &a);
     XMapWindow(display, window);
@@ -83,12 +90,15 @@ int main(int count, char **arguments)
     if (!glXMakeCurrent(display, window, context))
         return 3;
     for (int i = 0; i < FRAMES && access(arguments[1], F_OK); i++) {
+        int exposed = count > 2 && type(display, arguments[2]);
+        if (idle && !exposed) {
+            usleep(2000);
+            continue;
+        }
         draw();
         glXSwapBuffers(display, window);
-        if (count > 2) {
+        if (count > 2)
             shoot(display, window, arguments[2]);
-            type(display, arguments[2]);
-        }
         usleep(2000);
     }
     glXMakeCurrent(display, None, NULL);

@@ -14,6 +14,7 @@ mod classes;
 mod depths;
 mod foreground;
 mod mono;
+mod orthographic;
 mod preparations;
 mod scenes;
 mod shaders;
@@ -51,6 +52,7 @@ pub(super) fn scene() -> Facts {
             shader: 0,
             turns: false,
             far_end: false,
+            slants: false,
             first: true,
             backdrop: false,
             foreground: false,

@@ -172,6 +172,8 @@ fn what_does_not_belong_has_its_reason() {
     assert_eq!(viewport, Some(NotOfScene::OtherProjection));
     let focal = of(&drawn, &|f| f.classed.focal = Some(2.0));
     assert_eq!(focal, Some(NotOfScene::OwnFocalDepth));
+    let slants = of(&drawn, &|f| *f = super::orthographic::oblique());
+    assert_eq!(slants, Some(NotOfScene::Orthographic));
     let flat = |f: &mut Facts| f.classed = classed(Class::Flat);
     assert_eq!(of(&drawn, &flat), Some(NotOfScene::Flat));
     // Before the scene a flat draw belongs to it, if it lies on the panel and writes no depths.
