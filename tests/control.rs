@@ -3,6 +3,8 @@
 
 #[path = "control/explained.rs"]
 mod explained;
+#[path = "control/profiles.rs"]
+mod profiles;
 #[path = "control/running.rs"]
 mod running;
 mod support;

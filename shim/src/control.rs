@@ -12,7 +12,7 @@ use std::os::fd::AsRawFd;
 use std::os::unix::fs::MetadataExt;
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 /// The most clients at the same time.
 const CLIENTS: usize = 8;
@@ -238,7 +238,7 @@ impl Server {
         {
             // After a line that is too long, the beginning of the next one is not known.
             client.done |= line.is_err();
-            let before = layer.live();
+            let (before, profile) = (layer.live(), Arc::clone(layer.profile()));
             let outcome =
                 line.and_then(|line| control::order(&line))
                     .and_then(|order| match order {
@@ -262,6 +262,7 @@ impl Server {
                 }
             }
             live::changed(layer, before);
+            live::profile_changed(layer, &profile);
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Outcome, print, wake};
 use clap::{Args, Subcommand};
 use manyview::config::Capture;
 use manyview::control::{
-    ALL, Answer, ControlError, Explanation, LAYER, Picture, Request, line, place,
+    ALL, Answer, ControlError, Explanation, LAYER, Picture, ProfileRequest, Request, line, place,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -65,6 +65,22 @@ enum What {
     },
     /// Show the program's own view, or all views again
     Toggle,
+    /// Read the program's profile again, or write one
+    Profile {
+        #[command(subcommand)]
+        what: WhatOfProfile,
+    },
+}
+
+#[derive(Subcommand)]
+enum WhatOfProfile {
+    /// Put the file as it is now in force from the next frame on
+    Reload,
+    /// Write the rules and the values in force, hud-depth and focal-depth
+    Save {
+        /// The file [default: the user's own profile of the program, in manyview/profiles in XDG_CONFIG_HOME or ~/.config]
+        path: Option<PathBuf>,
+    },
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
@@ -88,6 +104,22 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             }
         },
         Answer::Layer(on) => print(&format!("{LAYER} = {}\n", word(&on.into()))),
+        Answer::Profile { path, rules, left } => {
+            let done = match arguments.what {
+                What::Profile {
+                    what: WhatOfProfile::Save { .. },
+                } => "wrote",
+                _ => "read",
+            };
+            super::tell(&format_args!("{done} {} (rules: {rules})", path.display()));
+            if !left.is_empty() {
+                super::tell(&format_args!(
+                    "a profile does not hold {}; give them as options",
+                    left.join(", ")
+                ));
+            }
+            Ok(ExitCode::SUCCESS)
+        }
         Answer::Explained { path, frame } => {
             super::tell(&format_args!(
                 "wrote {} and the picture beside it (frame {frame})",
@@ -144,6 +176,12 @@ fn request(what: &What) -> Result<Request, CommandError> {
             path: absolute(path)?,
         }),
         What::Toggle => Request::Toggle(LAYER.to_owned()),
+        What::Profile { what } => Request::Profile(match what {
+            WhatOfProfile::Reload => ProfileRequest::Reload,
+            WhatOfProfile::Save { path } => {
+                ProfileRequest::Save(path.as_deref().map(absolute).transpose()?)
+            }
+        }),
     })
 }
 

@@ -16,6 +16,7 @@ mod parse;
 pub mod profile;
 #[cfg(test)]
 mod profile_tests;
+pub mod profile_text;
 mod replace;
 mod settings;
 mod status;
@@ -80,6 +81,8 @@ pub struct Config {
     pub disabled: Disabled,
     /// Rules for the classes of the program's draws.
     pub profile: Profile,
+    /// Folders in which profiles are found, the user's own first.
+    pub profiles: Vec<PathBuf>,
     /// One frame to explain, if any.
     pub explain: Option<Explain>,
     /// Every K-th frame is drawn by replay as well and compared; none: no frame is.
@@ -117,10 +120,9 @@ impl Config {
 
     /// Without `--profile`, takes the profile that names the program.
     pub fn choose_profile(&mut self, settings: &Settings, program: Option<String>) {
-        let folder = settings.get(OptionId::Profiles);
         if settings.get(OptionId::Profile).is_none()
-            && let (Some(folder), Some(program)) = (folder, program)
-            && let Some(profile) = Profile::automatic(Path::new(&folder.value), &program)
+            && let Some(program) = program
+            && let Some(profile) = Profile::automatic(&self.profiles, &program)
         {
             self.profile = profile;
         }

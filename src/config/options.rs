@@ -393,7 +393,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         "Folder in which the programs of one launch agree which of them writes to a path; set by the commands that start programs")
         .path(PathKind::File),
     OptionSpec::variable(OptionId::Profiles, "MANYVIEW_PROFILES", "FOLDER",
-        "Folder in which profiles are found by name and by program")
+        "Folder in which profiles are found by name and by program, after `manyview/profiles` in `XDG_CONFIG_HOME` or `~/.config`")
         .path(PathKind::File).default("`profiles` beside `libmanyview.so`"),
 ];
 

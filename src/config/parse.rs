@@ -14,7 +14,7 @@ use super::{
     TrueViews, ViewScale, panel, profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const DEFAULT_FRAME: u64 = 30;
 
@@ -42,6 +42,7 @@ impl Config {
             hud_depth: hud_depth(settings)?,
             disabled: disabled(settings)?,
             profile: named_profile(settings)?,
+            profiles: profile_folders(settings),
             explain: explain(settings, views)?,
             prove: prove(settings, views)?,
             report: path(settings, OptionId::Report),
@@ -373,6 +374,12 @@ pub(super) fn hud_depth(settings: &Settings) -> Result<Option<f64>, ConfigError>
     }
 }
 
+fn profile_folders(settings: &Settings) -> Vec<PathBuf> {
+    let with_library = settings.get(OptionId::Profiles);
+    let with_library = with_library.map(|setting| PathBuf::from(&setting.value));
+    profile::users().into_iter().chain(with_library).collect()
+}
+
 fn named_profile(settings: &Settings) -> Result<Profile, ConfigError> {
     let Some((field, value)) = settings.field(OptionId::Profile) else {
         return Ok(Profile::default());
@@ -380,9 +387,8 @@ fn named_profile(settings: &Settings) -> Result<Profile, ConfigError> {
     if value == profile::NONE {
         return Ok(Profile::default());
     }
-    let folder = settings.get(OptionId::Profiles);
-    let folder = folder.map(|setting| Path::new(&setting.value));
-    Profile::named(folder, value).map_err(|reason| ConfigError::Profile { field, reason })
+    Profile::named(&profile_folders(settings), value)
+        .map_err(|reason| ConfigError::Profile { field, reason })
 }
 
 fn explain(settings: &Settings, views: u32) -> Result<Option<Explain>, ConfigError> {

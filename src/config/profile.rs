@@ -137,21 +137,21 @@ impl Profile {
         })
     }
 
-    /// The profile in a folder that names a program; files with mistakes name none.
+    /// The first profile in some folders that names a program; files with mistakes name none.
     #[must_use]
-    pub fn automatic(folder: &Path, program: &str) -> Option<Self> {
-        shelf(folder)
+    pub fn automatic(folders: &[PathBuf], program: &str) -> Option<Self> {
+        shelves(folders)
             .iter()
             .filter_map(|path| Self::read(path).ok())
             .find(|profile| profile.executable.iter().any(|name| name == program))
     }
 
-    /// The profile for a name in a folder, or for a file.
-    pub fn named(folder: Option<&Path>, value: &str) -> Result<Self, String> {
+    /// The profile for a name in some folders, or for a file.
+    pub fn named(folders: &[PathBuf], value: &str) -> Result<Self, String> {
         if is_file(value) {
             return Self::read(Path::new(value));
         }
-        let paths = folder.map(shelf).unwrap_or_default();
+        let paths = shelves(folders);
         let name = |path: &Path| path.file_stem().unwrap_or_default().to_os_string();
         if let Some(path) = paths.iter().find(|path| name(path) == OsStr::new(value)) {
             return Self::read(path);
@@ -182,6 +182,19 @@ pub fn beside(library: &Path) -> Option<PathBuf> {
         .find(|profiles| profiles.is_dir())
 }
 
+/// The folder of the user's own profiles, which go before those that come with a library; it need not be there.
+#[must_use]
+pub fn users() -> Option<PathBuf> {
+    let absolute = |name: &str| {
+        std::env::var_os(name)
+            .map(PathBuf::from)
+            .filter(|p| p.is_absolute())
+    };
+    let configuration =
+        absolute("XDG_CONFIG_HOME").or_else(|| Some(absolute("HOME")?.join(".config")));
+    Some(configuration?.join("manyview/profiles"))
+}
+
 /// The file name of the program of this process.
 #[must_use]
 pub fn this_program() -> Option<String> {
@@ -192,6 +205,11 @@ pub fn this_program() -> Option<String> {
 /// The name without the words that Linux appends to that of a program that has been replaced since it was started, as updates do.
 pub(super) fn program_name(link: &str) -> &str {
     link.strip_suffix(" (deleted)").unwrap_or(link)
+}
+
+/// The profiles in some folders, one folder after the other.
+fn shelves(folders: &[PathBuf]) -> Vec<PathBuf> {
+    folders.iter().flat_map(|folder| shelf(folder)).collect()
 }
 
 /// The profiles in a folder, in the order of their names.

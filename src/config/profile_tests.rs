@@ -133,17 +133,20 @@ fn profiles_are_found_by_name_and_by_program() {
     write("room.toml", WHOLE);
     write("other.toml", "executable = \"other\"");
     write("notes.txt", "not a profile");
-    let by_name = Profile::named(Some(folder.path()), "room").unwrap();
+    let by_name = Profile::named(&[folder.path().to_owned()], "room").unwrap();
     assert_eq!(by_name.rules.len(), 3);
-    let by_program = Profile::automatic(folder.path(), "room.x86_64").unwrap();
+    let by_program = Profile::automatic(&[folder.path().to_owned()], "room.x86_64").unwrap();
     assert_eq!(by_program, by_name);
-    assert_eq!(Profile::automatic(folder.path(), "unknown"), None);
+    assert_eq!(
+        Profile::automatic(&[folder.path().to_owned()], "unknown"),
+        None
+    );
     insta::assert_snapshot!(
-        Profile::named(Some(folder.path()), "rome").unwrap_err(),
+        Profile::named(&[folder.path().to_owned()], "rome").unwrap_err(),
         @"there is no profile 'rome'; give a file that ends in .toml, or one of none, a-broken, other, room"
     );
     insta::assert_snapshot!(
-        Profile::named(None, "rome").unwrap_err(),
+        Profile::named(&[], "rome").unwrap_err(),
         @"there is no profile 'rome'; give a file that ends in .toml, or one of none"
     );
 }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub enum ControlError {
     /// The line is not a request.
     #[error(
-        "a line is no request ({0}); send one JSON object with set, get, capture, explain or toggle, such as {{\"get\": \"all\"}}"
+        "a line is no request ({0}); send one JSON object with set, get, capture, explain, toggle or profile, such as {{\"get\": \"all\"}}"
     )]
     Request(String),
     /// The line is longer than any request.
@@ -59,6 +59,22 @@ pub enum ControlError {
     /// The picture could not be written.
     #[error("the picture is not written: {0}; give a path in a folder where the program may write")]
     Picture(String),
+    /// There is no profile to be read.
+    #[error(
+        "the program has no profile; give one with --profile, or write one with `manyview ctl profile save`"
+    )]
+    NoProfile,
+    /// The profile has a mistake, and the one before stays in force; the sentence names the file and the remedy.
+    #[error("{0}; the rules before stay in force")]
+    Profile(String),
+    /// The profile could not be written.
+    #[error("{} cannot be written ({reason}); give a file in a folder where the program may write", path.display())]
+    Unsaved {
+        /// Its path.
+        path: PathBuf,
+        /// The error of the system.
+        reason: String,
+    },
     /// Another client waits for a picture.
     #[error("another picture is being taken; ask again when it is written")]
     Busy,

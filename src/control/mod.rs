@@ -41,6 +41,18 @@ pub enum Request {
     Explain(Explanation),
     /// Switches the third dimension off or on; the name is [`LAYER`].
     Toggle(String),
+    /// Reads or writes the program's profile.
+    Profile(ProfileRequest),
+}
+
+/// What is to be done with the profile.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ProfileRequest {
+    /// Reads its file again.
+    Reload,
+    /// Writes the values in force into a file with an absolute path, or into the user's own profile of the program.
+    Save(Option<PathBuf>),
 }
 
 /// A requested picture.
@@ -75,6 +87,8 @@ pub enum Order {
     Explain(PathBuf),
     /// Switches the third dimension off or on.
     Toggle,
+    /// Reads or writes the profile.
+    Profile(ProfileRequest),
 }
 
 /// An answer as it is sent.
@@ -98,6 +112,15 @@ pub enum Answer {
         path: PathBuf,
         /// The frame, counted from 1.
         frame: u64,
+    },
+    /// The profile was read or written.
+    Profile {
+        /// Path of the file.
+        path: PathBuf,
+        /// The number of its rules.
+        rules: usize,
+        /// Values in force that a profile does not hold.
+        left: Vec<String>,
     },
     /// Why nothing has changed, in one sentence.
     Error(String),
@@ -139,7 +162,9 @@ pub fn order(line: &str) -> Result<Order, ControlError> {
             name,
             known: names().collect::<Vec<_>>().join(", "),
         }),
-        Request::Capture(Picture { path, .. }) | Request::Explain(Explanation { path })
+        Request::Capture(Picture { path, .. })
+        | Request::Explain(Explanation { path })
+        | Request::Profile(ProfileRequest::Save(Some(path)))
             if !path.is_absolute() =>
         {
             Err(ControlError::RelativePath(path))
@@ -149,6 +174,7 @@ pub fn order(line: &str) -> Result<Order, ControlError> {
             what.unwrap_or_else(|| OUTPUT.to_owned()),
         )),
         Request::Explain(Explanation { path }) => Ok(Order::Explain(path)),
+        Request::Profile(what) => Ok(Order::Profile(what)),
         Request::Toggle(what) if what == LAYER => Ok(Order::Toggle),
         Request::Toggle(what) => Err(ControlError::Toggle(what)),
     }
@@ -211,6 +237,16 @@ mod tests {
             Ok(Order::Explain("/a".into()))
         );
         assert_eq!(order(r#"{"toggle": "layer"}"#), Ok(Order::Toggle));
+        let profile = |what| order(&line(&Request::Profile(what)));
+        for what in [
+            ProfileRequest::Reload,
+            ProfileRequest::Save(None),
+            ProfileRequest::Save(Some("/a.toml".into())),
+        ] {
+            assert_eq!(profile(what.clone()), Ok(Order::Profile(what)));
+        }
+        let reload = order(r#"{"profile": "reload"}"#);
+        assert_eq!(reload, Ok(Order::Profile(ProfileRequest::Reload)));
     }
 
     #[test]
@@ -256,6 +292,8 @@ mod tests {
             r#"{"capture": {"path": "/a.png", "frames": 3}}"#,
             r#"{"explain": {"path": "a"}}"#,
             r#"{"toggle": "sound"}"#,
+            r#"{"profile": "forget"}"#,
+            r#"{"profile": {"save": "a.toml"}}"#,
             r#"{"stop": "now"}"#,
         ]
         .map(|line| order(line).unwrap_err().to_string());

@@ -66,7 +66,7 @@ impl Comfort {
             cuts: Cuts::default(),
             told_orthographic: false,
         };
-        comfort.change(config, camera);
+        comfort.change(config, camera, config.profile.focal_depth);
         comfort
     }
 
@@ -75,11 +75,11 @@ impl Comfort {
         self.on
     }
 
-    /// The user asks for other cameras.
-    pub(super) fn change(&mut self, config: &Config, camera: Camera) {
+    /// The user asks for other cameras; `focal` is the focal depth of the profile.
+    pub(super) fn change(&mut self, config: &Config, camera: Camera, focal: Option<f64>) {
         let measured = match camera {
             Camera::Measured(kept) => {
-                let focal = config.profile.focal_depth.map(Kept::FocalDepth);
+                let focal = focal.map(Kept::FocalDepth);
                 self.cameras = comfort::Comfort::new(kept.or(focal));
                 (self.next, self.foreground) = (None, None);
                 (self.slant, self.slanting) = (None, Slanting::default());

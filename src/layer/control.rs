@@ -2,7 +2,7 @@
 
 use super::Layer;
 use crate::config::{Camera, Capture, CaptureWhat, Live, OptionId, Output};
-use crate::control::{Answer, ControlError, LAYER, Order, VIEWS, keys::Key};
+use crate::control::{Answer, ControlError, LAYER, Order, ProfileRequest, VIEWS, keys::Key};
 use crate::display::LensPart;
 use crate::gl::Gl;
 use crate::interleave::Source;
@@ -62,9 +62,10 @@ impl Layer {
     /// Puts other values in force from the next draw on. It has to be called between frames, so that no frame is drawn with both.
     pub fn adopt(&mut self, live: Live) {
         if live.camera != self.session.live.camera {
+            let focal = self.session.profile.focal_depth;
             self.cameras
                 .comfort
-                .change(self.session.config, live.camera);
+                .change(self.session.config, live.camera, focal);
         }
         self.session.adopt(live);
         self.known.rig.change(live.camera, live.flat);
@@ -113,6 +114,8 @@ impl Layer {
                 self.explain_next(out);
                 Ok(Err(Wanted::Explanation))
             }
+            Order::Profile(ProfileRequest::Reload) => self.reload_profile().map(Ok),
+            Order::Profile(ProfileRequest::Save(path)) => self.save_profile(path).map(Ok),
             Order::Toggle => {
                 self.adopt(Live {
                     flat: !self.session.live.flat,

@@ -39,6 +39,7 @@ mod queries;
 mod reading;
 mod reads;
 mod recordings;
+mod rules;
 mod sampling;
 mod session;
 mod share_group;

@@ -2,7 +2,7 @@
 //! layer.
 
 use super::{Member, OnScreen, Support, auto};
-use crate::config::{Config, Live, Strategy};
+use crate::config::{Config, Live, Profile, Strategy};
 use crate::display::{Display, Placement};
 use crate::gl::Gl;
 use crate::plan::decide::has_depths_of_replay;
@@ -18,6 +18,8 @@ pub(super) struct Session {
     pub(super) group: Arc<Member>,
     /// The values that the user may change while the program runs.
     pub(super) live: Live,
+    /// The rules for the program's draws, as the user's file last had them.
+    pub(super) profile: Arc<Profile>,
     /// Position of the window; none where the window system does not report it.
     pub(super) on_screen: Option<OnScreen>,
     /// The display with other numbers of its lens sheet, once they have been changed.
@@ -49,6 +51,7 @@ impl Session {
             strategy: auto.as_ref().map_or(config.strategy, auto::Auto::strategy),
             group,
             live: Live::new(config),
+            profile: Arc::new(config.profile.clone()),
             on_screen: None,
             fitted: None,
             auto,

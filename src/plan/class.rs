@@ -177,22 +177,16 @@ impl Classifier {
         program: Option<&str>,
         explains: bool,
     ) -> Self {
-        let ours = |rule: &Rule| {
-            rule.executable.is_empty()
-                || rule
-                    .executable
-                    .iter()
-                    .any(|name| Some(name.as_str()) == program)
-        };
-        let numbered = profile.rules.iter().enumerate();
         Classifier {
-            rules: numbered
-                .filter(|(_, rule)| ours(rule))
-                .map(|(at, rule)| (at + 1, rule.clone()))
-                .collect(),
+            rules: numbered(profile, program),
             hud_depth: hud_depth.or(profile.hud_depth).unwrap_or(0.0),
             explains,
         }
+    }
+
+    /// Sets other rules, for a program by the name of its executable.
+    pub fn change_rules(&mut self, profile: &Profile, program: Option<&str>) {
+        self.rules = numbered(profile, program);
     }
 
     /// Whether all traits are wanted, as for an explanation.
@@ -428,6 +422,18 @@ impl Traits {
         }
         Some(format!("{{ {} }},", keys.join(", ")))
     }
+}
+
+/// The rules of a profile for a program, each with its number from 1.
+fn numbered(profile: &Profile, program: Option<&str>) -> Vec<(usize, Rule)> {
+    let ours = |rule: &Rule| {
+        let names = &rule.executable;
+        names.is_empty() || names.iter().any(|name| Some(name.as_str()) == program)
+    };
+    let all = (1..).zip(&profile.rules);
+    all.filter(|(_, rule)| ours(rule))
+        .map(|(number, rule)| (number, rule.clone()))
+        .collect()
 }
 
 /// Whether a modelview matrix (column-major) rotates or scales about the eye and is not the identity; `p` is the projection matrix.

@@ -108,6 +108,14 @@ impl Rig {
         self.foreground = foreground;
     }
 
+    /// Sets the focal depth of cameras that the user does not place.
+    pub fn change_focal(&mut self, focal: Option<f64>) {
+        if focal != self.focal {
+            self.focal = focal;
+            self.forget_measured();
+        }
+    }
+
     /// Lets go of the cameras that were measured: the next projection places them as the first one did.
     pub fn forget_measured(&mut self) {
         self.latched = None;
