@@ -259,6 +259,17 @@ fn an_orthographic_scene_is_within_the_budget() {
     }
 }
 
+/// Walls that are seen from the front may be a menu, unless the user says that they are a scene; a scene is flat where the user says so.
+#[test]
+fn the_user_says_what_an_orthographic_scene_is() {
+    let has_depth = |how: &str, draws: &str| {
+        let report = walls(how, &[AUTO[0], ("ORTHOGRAPHIC", draws)]);
+        !report["disparity"].is_null()
+    };
+    assert!(has_depth("isometric", "auto") && !has_depth("isometric", "flat"));
+    assert!(!has_depth("isometric-front", "auto") && has_depth("isometric-front", "scene"));
+}
+
 /// An option that an orthographic scene has no use for says so.
 #[test]
 fn a_convergence_without_effect_is_told() {

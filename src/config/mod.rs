@@ -81,7 +81,7 @@ pub struct Config {
     pub disabled: Disabled,
     /// Rules for the classes of the program's draws.
     pub profile: Profile,
-    /// Folders in which profiles are found, the user's own first.
+    /// Folders in which profiles are found, the user's own first; none where the user wants no profile.
     pub profiles: Vec<PathBuf>,
     /// One frame to explain, if any.
     pub explain: Option<Explain>,

@@ -375,6 +375,10 @@ pub(super) fn hud_depth(settings: &Settings) -> Result<Option<f64>, ConfigError>
 }
 
 fn profile_folders(settings: &Settings) -> Vec<PathBuf> {
+    let wanted = settings.get(OptionId::Profile);
+    if wanted.is_some_and(|setting| setting.value == profile::NONE) {
+        return Vec::new();
+    }
     let with_library = settings.get(OptionId::Profiles);
     let with_library = with_library.map(|setting| PathBuf::from(&setting.value));
     profile::users().into_iter().chain(with_library).collect()

@@ -5,7 +5,6 @@ use crate::config::{Camera, Class, Projection, Viewport};
 use crate::gl::Gl;
 use crate::plan::decide::Shaders;
 use crate::plan::{Facts, Kind, Pose};
-use crate::state::Touch;
 
 impl Layer {
     /// Before a draw is decided: looks whether the frame comes after a cut.
@@ -26,13 +25,7 @@ impl Layer {
         }
         let pose = match &facts.shaders {
             Shaders::Variant(variant) => self.pose_by_shader(gl, variant.program),
-            _ if self.state.has.compatibility => {
-                self.state.read_classification(gl, Touch::MODELVIEW);
-                let modelview = glam::Mat4::from_cols_array(&self.state.classification.modelview);
-                let p = glam::Mat4::from_cols_array(&facts.projections.fixed);
-                Pose::of_clip(&(p * modelview).to_cols_array())
-            }
-            _ => None,
+            _ => self.fixed_matrix(gl).and_then(|all| Pose::of_clip(&all)),
         };
         if let Some(pose) = pose
             && self.cameras.comfort.cuts.observe(pose, cameras)

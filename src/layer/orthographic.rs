@@ -30,14 +30,21 @@ impl Layer {
         }
         match shaders {
             Shaders::Variant(variant) => self.variants.own.oblique(variant.program).is_some(),
-            _ if self.state.has.compatibility => {
-                self.state.read_classification(gl, Touch::MODELVIEW);
-                let modelview = glam::Mat4::from_cols_array(&self.state.classification.modelview);
-                let all = glam::Mat4::from_cols_array(&p) * modelview;
-                orthographic::is_oblique(&all.to_cols_array())
-            }
-            _ => false,
+            _ => self
+                .fixed_matrix(gl)
+                .is_some_and(|all| orthographic::is_oblique(&all)),
         }
+    }
+
+    /// The product of GL_PROJECTION_MATRIX and GL_MODELVIEW_MATRIX, column-major; none in a context without them.
+    pub(super) fn fixed_matrix(&mut self, gl: &Gl) -> Option<[f32; 16]> {
+        if !self.state.has.compatibility {
+            return None;
+        }
+        self.state.read_classification(gl, Touch::MODELVIEW);
+        let modelview = glam::Mat4::from_cols_array(&self.state.classification.modelview);
+        let p = glam::Mat4::from_cols_array(&self.state.matrices.projection);
+        Some((p * modelview).to_cols_array())
     }
 
     /// Says once which numbers of the cameras an orthographic scene does not have.

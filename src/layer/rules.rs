@@ -95,9 +95,8 @@ impl Layer {
         }
         replace(&path, text.as_bytes()).map_err(unsaved)?;
         let chosen = match live.camera {
-            Camera::Measured(Some(Kept::Separation(_))) | Camera::Clip { .. } => {
-                &[OptionId::Separation, OptionId::Convergence][..]
-            }
+            Camera::Clip { .. } => &[OptionId::Separation, OptionId::Convergence][..],
+            Camera::Measured(Some(Kept::Separation(_))) => &[OptionId::Separation],
             Camera::Measured(Some(Kept::EyeSpacing(_))) | Camera::Eye { .. } => {
                 &[OptionId::EyeSpacing]
             }

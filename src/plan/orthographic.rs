@@ -90,14 +90,17 @@ impl Slant {
 /// `p` is the projection, alone or with the view and the model (column-major); `neighbours` the distance of neighbouring cameras over the focal
 /// depth.
 pub fn orthoscopic(p: &[f32; 16], planes: &Planes, neighbours: f64) -> f64 {
-    let row = |r: usize| {
-        let [x, y, z] = [p[r], p[r + 4], p[r + 8]].map(f64::from);
-        glam::DVec3::new(x, y, z).length()
-    };
-    match row(0) / row(2) * planes.extent().abs() * neighbours.abs() {
+    let [wide, deep] = [0, 2].map(|row| row_length(p, row));
+    match wide / deep * planes.extent().abs() * neighbours.abs() {
         slope if slope > 0.0 && slope.is_finite() => slope,
         _ => f64::INFINITY,
     }
+}
+
+/// Length of a row of a matrix (column-major), but for its last number.
+pub(super) fn row_length(p: &[f32; 16], row: usize) -> f64 {
+    let [x, y, z] = [p[row], p[row + 4], p[row + 8]].map(f64::from);
+    glam::DVec3::new(x, y, z).length()
 }
 
 /// Whether a matrix (column-major) has no perspective and shows things from an oblique direction: depth changes along their x or y axis. What is

@@ -5,7 +5,7 @@
 //! Δx = A·κ·(1 − z/ξ), written for homogeneous coordinates:
 //! row0(P_i) = row0(P) + sep_i·row3(P) − sep_i·conv·(0,0,0,1), sep_i = A·e_i/ξ, conv = ξ, e_i = (i − (N−1)/2)·κ.
 
-use super::orthographic::{Planes, Slant};
+use super::orthographic::{Planes, Slant, row_length};
 use super::{camera, comfort};
 use crate::config::profile::FARTHEST;
 use crate::config::{Camera, Kept};
@@ -278,11 +278,8 @@ impl Rig {
             focal_depth,
         } = self.camera
         {
-            let length = |r: usize| {
-                let [x, y, z] = [p[r], p[r + 4], p[r + 8]].map(f64::from);
-                glam::DVec3::new(x, y, z).length()
-            };
-            let deeper = length(2) * planes.extent().signum();
+            let [wide, deep] = [0, 2].map(|row| row_length(p, row));
+            let deeper = deep * planes.extent().signum();
             // A matrix that turns may move things as well, so it does not tell how far away they are.
             let conv = match [p[2], p[6]] == [0.0; 2] {
                 true => f64::from(p[14]) + deeper * focal_depth,
@@ -290,7 +287,7 @@ impl Rig {
             };
             return (deeper != 0.0).then(|| Shear {
                 along: Along::Z,
-                a: length(0) / deeper,
+                a: wide / deeper,
                 spacing,
                 focal: focal_depth,
                 conv,

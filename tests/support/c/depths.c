@@ -1,7 +1,7 @@
 /* Three walls at distances of 4 + frame/2, 10 and 40 units from the camera, in frames 1 to 10 of a surface without a window system.
  *
  * depths plain|reversed|inverted|overlay|weapon|cleared|nodepth|shader|block|reversed-shader|pass-16|pass-24|pass-24-8|pass-32f|
- *        pass-unsized|pass-samples|part|pass-part|isometric|isometric-reversed|cut|cut-shader|cut-view
+ *        pass-unsized|pass-samples|part|pass-part|isometric|isometric-reversed|isometric-front|cut|cut-shader|cut-view
  *
  * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: a flat picture that
  * writes depths over everything at the end; weapon: a surface at 1.5 in a depth range of its own; cleared: the same after a clear of the
@@ -9,7 +9,8 @@
  * twice the window's size, with depths in a renderbuffer (16, samples) or a texture (the others), whose picture is then drawn over the
  * window; part: the lowest quarter has the nearest depths and is not drawn to, by the viewport
  * or the scissor test of a pass, as under a status bar; isometric: without perspective, 68 units wide and from 1 to 100 deep, with other
- * walls and a piece of floor that is seen from an oblique direction; isometric-reversed: the same with depths from 1 (near) to 0 (far);
+ * walls and a piece of floor that is seen from an oblique direction; isometric-reversed: the same with depths from 1 (near) to 0 (far), isometric-front:
+ * without the floor;
  * cut: from frame 6 on the camera looks the other way, where walls are at 1.5, 10 and 40; by shaders with one matrix (shader) or two (view). */
 #include "shaders.h"
 #include "surface.h"
@@ -39,14 +40,15 @@ static void scene(int frame)
     wall(40 * 0.6, 40, 8);
 }
 
-static void isometric_scene(int frame)
+static void isometric_scene(const char *how, int frame)
 {
     glMatrixMode(GL_MODELVIEW);
     glPushMatrix();
     glTranslated(0, -25, -20);
     glRotated(-60, 1, 0, 0);
     glColor3d(0.5, 0.5, 0.5);
-    wall(0, 0, 6);
+    if (strcmp(how, "isometric-front"))
+        wall(0, 0, 6);
     glPopMatrix();
     glColor3d(1, 0, 0);
     wall(-20, 4 + frame * 0.5, 6);
@@ -270,7 +272,7 @@ int main(int count, char **arguments)
         if (cut)
             cut_scene(how, frame);
         else if (isometric)
-            isometric_scene(frame);
+            isometric_scene(how, frame);
         else
             scene(frame);
         glDisable(GL_SCISSOR_TEST);
