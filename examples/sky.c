@@ -1,13 +1,16 @@
 /* Outdoors: a sky box that turns with the camera but never moves and writes no depth, a ground with pillars and smoke, balloons at the far end
  * of the depth range, a weapon in the viewer's hand at its near end, and over it a flat display. With --far-off the camera is far from the origin,
  * and the sky is moved to it by a second matrix, so that the two cancel but for what they round. With --cleared the sky is a small box that writes
- * depths, which are cleared for the ground. */
+ * depths, which are cleared for the ground. With --renamed the textures have other names, and with --repaint the program paints over that of the
+ * ground before the second frame. */
 #include "demo.h"
 #include <math.h>
 
-static int far_off, cleared;
+static int far_off, cleared, renamed, repaint;
 const struct demo_option demo_options[] = {{"--far-off", "the camera and the sky are far from the origin", &far_off, 0},
                                            {"--cleared", "the sky writes depths, which are cleared after it", &cleared, 0},
+                                           {"--renamed", "the textures have other names", &renamed, 0},
+                                           {"--repaint", "the ground is painted over before the second frame", &repaint, 0},
                                            {0}};
 
 static GLuint clouds, grass, stone;
@@ -16,6 +19,8 @@ void demo_setup(void)
 {
     static const GLubyte white[3] = {235, 240, 245}, blue[3] = {120, 165, 220}, green[3] = {95, 140, 70},
                          dark[3] = {60, 100, 50}, pale[3] = {200, 190, 170}, brown[3] = {150, 120, 90};
+    if (renamed)
+        demo_checker(8, 2, pale, brown);
     clouds = demo_checker(64, 8, white, blue);
     grass = demo_checker(64, 2, green, dark);
     stone = demo_checker(64, 4, pale, brown);
@@ -62,6 +67,13 @@ static void sky(void)
     glEnable(GL_DEPTH_TEST);
     if (cleared)
         glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+static void paint_over(void)
+{
+    static const GLubyte ice[32 * 32 * 3] = {225};
+    glBindTexture(GL_TEXTURE_2D, grass);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 16, 16, 32, 32, GL_RGB, GL_UNSIGNED_BYTE, ice);
 }
 
 static void ground(void)
@@ -163,6 +175,8 @@ static void display(void)
 void demo_frame(int frame)
 {
     double t = demo_time(frame), aspect = (double)demo_width / demo_height;
+    if (repaint && frame == 1)
+        paint_over();
     demo_viewport(0, 0, demo_width, demo_height);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glMatrixMode(GL_MODELVIEW);

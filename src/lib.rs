@@ -20,6 +20,8 @@ pub mod control;
 
 pub mod claim;
 
+pub mod checksum;
+
 pub mod fixed;
 
 pub mod rewrite;

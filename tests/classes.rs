@@ -246,6 +246,38 @@ fn every_rule_of_an_explanation_changes_the_class_of_its_draw() {
     }
 }
 
+/// Names of textures may be others in the next run, and an image is another one once the program has painted over it.
+#[test]
+fn a_rule_knows_an_image_by_what_it_shows() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("why.png");
+    let list = out.with_extension("txt");
+    let ruled = |profile: &str, arguments: &[&str]| -> Vec<usize> {
+        explain("sky", &["--profile", profile], arguments, &out);
+        let text = std::fs::read_to_string(&list).expect("a list");
+        let lines = text.lines().skip(3).enumerate();
+        let by_rule = lines.filter(|(_, line)| line.contains("rule 1 of the profile"));
+        by_rule.map(|(at, _)| at).collect()
+    };
+    explain("sky", &[], &[], &out);
+    let text = std::fs::read_to_string(&list).expect("a list");
+    let ground = draws(&list).iter().position(|draw| draw.0 == "scene");
+    let ground = ground.expect("the ground, after the six sides of the sky");
+    let line = text.lines().nth(3 + ground).expect("its line");
+    let sum = line.split("image = \"").nth(1).expect("an image");
+    let rule = |key: &str| format!("rule = [{{ {key}, class = \"flat\" }}]");
+    let by_image = profile(folder.path(), &rule(&format!("image = \"{}\"", &sum[..16])));
+    let runs: [&[&str]; 3] = [&[], &["--renamed"], &["--repaint"]];
+    let found = runs.map(|arguments| ruled(&by_image, arguments));
+    assert_eq!(found, [vec![ground], vec![ground], vec![]]);
+    let head = text.lines().nth(2).expect("the head");
+    let column = head.find("texture").expect("a column");
+    let name = &line[column..column + "texture".len()];
+    let by_name = profile(folder.path(), &rule(&format!("texture = {}", name.trim())));
+    assert_eq!(ruled(&by_name, &[]), [ground]);
+    assert_ne!(ruled(&by_name, &["--renamed"]), [ground]);
+}
+
 #[test]
 fn an_explanation_changes_nothing_of_the_picture() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -63,10 +63,17 @@ pub(crate) fn if_split(f: impl FnOnce(&Gl, &mut Layer)) {
     }
 }
 
+/// Runs work of the layer for a write to a texture.
+fn if_followed(f: impl FnOnce(&Gl, &mut Layer)) {
+    if context::peek(|l| l.follows_textures()) == Some(true) {
+        enter(f);
+    }
+}
+
 /// Before a command that writes to a texture and that display lists compile.
 #[inline]
 pub(crate) fn texture(to: TextureAt) {
-    if context::peek(|l| l.compiles() || l.has_copies()) == Some(true) {
+    if context::peek(|l| l.compiles() || l.follows_textures()) == Some(true) {
         enter(|gl, l| l.texture_written(gl, to));
     }
 }
@@ -75,14 +82,14 @@ pub(crate) fn texture(to: TextureAt) {
 #[inline]
 pub(crate) fn texture_now(target: u32) {
     before_uncompiled();
-    if_split(|gl, l| l.bound_texture_written(gl, target));
+    if_followed(|gl, l| l.bound_texture_written(gl, target));
 }
 
 /// Before a command that writes to a texture or renderbuffer, which it names.
 #[inline]
 pub(crate) fn named(object: Object) {
     before_uncompiled();
-    if_split(|gl, l| l.written(gl, object));
+    if_followed(|gl, l| l.written(gl, object));
 }
 
 /// Before a command that reads or writes textures other than by drawing.

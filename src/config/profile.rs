@@ -39,6 +39,8 @@ pub struct Rule {
     pub executable: Vec<String>,
     /// Names of 2D textures that the draw samples on the active unit; 0 is none.
     pub texture: Vec<u32>,
+    /// Checksums of the images of those textures, as `--explain` lists them.
+    pub image: Vec<u64>,
     /// Names of display lists that are called.
     pub list: Vec<u32>,
     /// The projection matrix.
@@ -57,6 +59,12 @@ pub struct Rule {
     pub pass: Vec<u32>,
     /// Number of the draw in its frame, counted from 1; both ends included.
     pub draw: Option<(u32, u32)>,
+    /// How often the depths have been cleared in its frame.
+    pub clear: Vec<u32>,
+    /// Number of the draw since the last clear of the depths, counted from 1; both ends included.
+    pub after_clear: Option<(u32, u32)>,
+    /// Nothing in perspective has written depth since the frame began or was last cleared.
+    pub before_depth: Option<bool>,
     /// The class of the draw.
     pub class: Class,
     /// Where a flat draw stands: 0 on the panel, 1 infinitely far, below 0 before the panel.
@@ -69,6 +77,7 @@ const PROFILE_KEYS: &[&str] = &["executable", "hud-depth", "focal-depth", "rule"
 const RULE_KEYS: &[&str] = &[
     "executable",
     "texture",
+    "image",
     "list",
     "projection",
     "viewport",
@@ -78,6 +87,9 @@ const RULE_KEYS: &[&str] = &[
     "program",
     "pass",
     "draw",
+    "clear",
+    "after-clear",
+    "before-depth",
     "class",
     "depth",
     "focal-depth",
@@ -245,6 +257,7 @@ impl Rule {
         Ok(Self {
             executable: names(table, "executable")?,
             texture: numbers(table, "texture")?,
+            image: sums(table, "image")?,
             list: numbers(table, "list")?,
             projection: word(table, "projection")?,
             viewport: word(table, "viewport")?,
@@ -254,6 +267,9 @@ impl Rule {
             program: numbers(table, "program")?,
             pass: numbers(table, "pass")?,
             draw: range(table, "draw")?,
+            clear: numbers(table, "clear")?,
+            after_clear: range(table, "after-clear")?,
+            before_depth: flag(table, "before-depth")?,
             class,
             depth,
             focal_depth,
@@ -333,6 +349,16 @@ fn word<T: Word>(table: &Table, key: &str) -> Result<Option<T>, String> {
     match value.as_str().and_then(T::of) {
         Some(known) => Ok(Some(known)),
         None => Err(wrong(key, value, &format!("give one of {}", words::<T>()))),
+    }
+}
+
+fn flag(table: &Table, key: &str) -> Result<Option<bool>, String> {
+    let Some(value) = table.get(key) else {
+        return Ok(None);
+    };
+    match value.as_bool() {
+        Some(flag) => Ok(Some(flag)),
+        None => Err(wrong(key, value, "give true or false, without quotes")),
     }
 }
 

@@ -20,6 +20,10 @@ projection = "orthographic"
 viewport = "inset"
 depth-state = "test-only"
 depth-range = "near"
+image = "fedcba9876543210"
+clear = [1, 2]
+after-clear = "1..3"
+before-depth = true
 shader = "0123456789abcdef"
 program = 2
 pass = [0, 3]
@@ -50,6 +54,7 @@ fn every_key_is_understood() {
         Rule {
             executable: vec!["room".to_owned()],
             texture: vec![7],
+            image: vec![0xFEDC_BA98_7654_3210],
             list: vec![3, 4],
             projection: Some(Projection::Orthographic),
             viewport: Some(Viewport::Inset),
@@ -59,6 +64,9 @@ fn every_key_is_understood() {
             program: vec![2],
             pass: vec![0, 3],
             draw: Some((5, 9)),
+            clear: vec![1, 2],
+            after_clear: Some((1, 3)),
+            before_depth: Some(true),
             class: Class::Flat,
             depth: Some(-0.5),
             focal_depth: None,
@@ -108,6 +116,9 @@ fn every_mistake_is_one_clear_sentence() {
         rule("class = 5"),
         rule("class = \"flat\", texure = 3"),
         rule("class = \"flat\", texture = -1"),
+        rule("class = \"flat\", image = 7"),
+        rule("class = \"flat\", after-clear = 0"),
+        rule("class = \"flat\", before-depth = \"true\""),
         rule("class = \"flat\", list = \"3\""),
         rule("class = \"flat\", projection = \"ortho\""),
         rule("class = \"flat\", depth-state = true"),

@@ -45,6 +45,20 @@ impl Gl {
         out.into_iter().step_by(size).collect()
     }
 
+    /// glGetTexImage of level 0 of the 2D texture that is bound, as RGBA bytes, rows bottom up. `size` is that of the level. The bytes are 0
+    /// where the driver refuses, as for integers and depths. OpenGL ES has no such command.
+    pub fn read_texture(&self, _: &PixelStore, size: [i32; 2]) -> Vec<u8> {
+        let [w, h] = size.map(|side| side.max(0) as usize);
+        let mut out = vec![0u8; w * h * 4];
+        let p = out.as_mut_ptr().cast();
+        // SAFETY: w·h texels of four bytes; without gaps, in no buffer (`PixelStore`).
+        unsafe {
+            self.real
+                .glGetTexImage(c::TEXTURE_2D, 0, c::RGBA, c::UNSIGNED_BYTE, p)
+        };
+        out
+    }
+
     /// Whether glReadPixels reads depths; OpenGL ES has that by an extension.
     pub fn reads_depths(&self) -> bool {
         !self.is_es() || self.has_extension("GL_NV_read_depth")

@@ -1,6 +1,7 @@
 //! The program's camera, as far as it is known, and the cameras of the views.
 
 use super::comfort::Comfort;
+use super::image_sums::ImageSums;
 use crate::config::{Config, Live, Projection};
 use crate::plan::{Classifier, Shear};
 
@@ -9,6 +10,8 @@ use crate::plan::{Classifier, Shear};
 pub(super) struct Cameras {
     pub(super) classifier: Classifier,
     pub(super) comfort: Comfort,
+    /// The images that rules for the classifier ask for.
+    pub(super) image_sums: ImageSums,
     /// The shift of the projection under which the raster position was set; none where the position does not move with the view.
     raster: Option<Shear>,
     /// The kind of projection under which the raster position was set; [`Projection::None`] where glWindowPos did it.
@@ -26,6 +29,7 @@ impl Cameras {
                 config.explain.is_some(),
             ),
             comfort: Comfort::new(config, live.camera),
+            image_sums: ImageSums::default(),
             raster: None,
             raster_placed: Projection::None,
         }

@@ -94,6 +94,7 @@ impl Layer {
         [x, width]: [i32; 2],
         call: &mut dyn FnMut(TextureName),
     ) {
+        self.cameras.image_sums.forget(to.1);
         let from = self.state.framebuffers.read;
         if let (FramebufferName::ZERO, Reading::Parked(_)) = (from, self.canvases.reading()) {
             return self.in_read_canvas(gl, |layer| {
@@ -256,13 +257,20 @@ impl Layer {
 
     /// As [`Layer::texture_written`], for a command on the texture that is bound, which no display list compiles.
     pub fn bound_texture_written(&mut self, gl: &Gl, target: u32) {
-        if let Some(texture) = self.targets.offscreen.bound_at(gl, target) {
+        let bound = match target {
+            c::TEXTURE_2D => Some(self.bound_texture(gl, target)),
+            target => self.targets.offscreen.bound_at(gl, target),
+        };
+        if let Some(texture) = bound {
             self.written(gl, Object::Texture(texture));
         }
     }
 
     /// The program changes the image of a texture or renderbuffer: all views see the same again.
     pub fn written(&mut self, gl: &Gl, object: Object) {
+        if let Object::Texture(texture) = object {
+            self.cameras.image_sums.forget(texture);
+        }
         if self.targets.offscreen.has(object) {
             self.write_back_textures(gl);
             self.targets.offscreen.forget(gl, [object]);
@@ -291,6 +299,7 @@ impl Layer {
     /// Before glDeleteTextures.
     pub fn deletes_textures(&mut self, gl: &Gl, textures: &[TextureName]) {
         for &name in textures {
+            self.cameras.image_sums.forget(name);
             if self.hides_texture(name) {
                 self.take_texture(gl, name);
             }

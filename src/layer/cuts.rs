@@ -1,10 +1,10 @@
 //! Cuts: the first frame after a jump of the program's camera is drawn with cameras that are safe for anything.
 
 use super::Layer;
-use crate::config::{Camera, Class, Projection, Viewport};
+use crate::config::Camera;
 use crate::gl::Gl;
 use crate::plan::decide::Shaders;
-use crate::plan::{Facts, Kind, Pose};
+use crate::plan::{Facts, Pose};
 
 impl Layer {
     /// Before a draw is decided: looks whether the frame comes after a cut.
@@ -13,14 +13,7 @@ impl Layer {
         let Some(cameras) = self.known.rig.latched().filter(|_| measured) else {
             return;
         };
-        let traits = &facts.traits;
-        let scene = facts.classed.class == Class::Scene
-            && !facts.classed.is_foreground()
-            && traits.projection == Projection::Perspective
-            && traits.viewport == Viewport::Main
-            && traits.target.is_shown()
-            && !matches!(traits.kind, Kind::Clear { .. } | Kind::Accum | Kind::Pixels);
-        if !scene || !self.cameras.comfort.cuts.looks() {
+        if !facts.is_main_scene() || !self.cameras.comfort.cuts.looks() {
             return;
         }
         let pose = match &facts.shaders {

@@ -23,6 +23,7 @@ mod fit;
 mod frame;
 mod framebuffer;
 mod frames;
+mod image_sums;
 mod immediate;
 mod lists;
 mod mono;

@@ -4,7 +4,7 @@
 //! sky that keeps a little.
 
 use super::{Kind, camera, parallax};
-use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport, Word};
+use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport};
 use crate::gl::{FramebufferName, ListName, TextureName};
 use crate::state::{State, Touch};
 
@@ -17,6 +17,10 @@ pub struct Traits {
     pub target: Target,
     /// Its number in the frame, counted from 1; clears are not counted.
     pub draw: u32,
+    /// How often the depths have been cleared in the frame.
+    pub clear: u32,
+    /// Its number since the last of these clears, or in the frame, counted from 1.
+    pub after_clear: u32,
     /// The display list that is called.
     pub list: Option<ListName>,
     /// The projection under which the raster position was placed.
@@ -33,6 +37,8 @@ pub struct Traits {
     pub range: DepthRange,
     /// The 2D texture of the active unit, 0 for none; where asked for.
     pub texture: TextureName,
+    /// The checksum of that texture's image, 0 where it is not known; where asked for.
+    pub image: u64,
     /// The number of the program object in use, in the order of linking, 0 for none; where asked for.
     pub program: u32,
     /// The hash of its sources; where asked for.
@@ -214,13 +220,23 @@ impl Classifier {
         if rule(|rule| rule.depth_range.is_some()) || projection == Projection::Perspective {
             needs = needs | Touch::RANGE;
         }
-        if rule(|rule| !rule.texture.is_empty()) {
+        if rule(|rule| !rule.texture.is_empty() || !rule.image.is_empty()) {
             needs = needs | Touch::TEXTURE;
         }
         if projection == Projection::Perspective && first {
             needs = needs | Touch::DEPTH;
         }
         needs
+    }
+
+    /// Whether the class may depend on the image of the texture that is sampled.
+    pub fn needs_image(&self) -> bool {
+        self.explains || self.has_rules_for_images()
+    }
+
+    /// Whether a rule asks for the image of a texture.
+    pub fn has_rules_for_images(&self) -> bool {
+        self.rules.iter().any(|(_, rule)| !rule.image.is_empty())
     }
 
     /// Whether the class may depend on the program object in use.
@@ -313,7 +329,11 @@ fn matches(rule: &Rule, facts: &Traits) -> bool {
     let any = |names: &[u32], name: Option<u32>| {
         names.is_empty() || name.is_some_and(|name| names.contains(&name))
     };
+    let within = |range: Option<(u32, u32)>, number: u32| {
+        range.is_none_or(|(first, last)| (first..=last).contains(&number))
+    };
     any(&rule.texture, Some(facts.texture.0))
+        && (rule.image.is_empty() || rule.image.contains(&facts.image))
         && any(&rule.list, facts.list.map(|list| list.0))
         && rule.projection.is_none_or(|p| p == facts.projection)
         && rule.viewport.is_none_or(|v| v == facts.viewport)
@@ -322,9 +342,10 @@ fn matches(rule: &Rule, facts: &Traits) -> bool {
         && any(&rule.program, Some(facts.program))
         && any(&rule.pass, facts.pass())
         && (rule.shader.is_empty() || rule.shader.contains(&facts.shader))
-        && rule
-            .draw
-            .is_none_or(|(first, last)| (first..=last).contains(&facts.draw))
+        && any(&rule.clear, Some(facts.clear))
+        && within(rule.draw, facts.draw)
+        && within(rule.after_clear, facts.after_clear)
+        && rule.before_depth.is_none_or(|before| before == facts.first)
 }
 
 impl Traits {
@@ -339,6 +360,8 @@ impl Traits {
                 name => Target::Framebuffer(name.0),
             },
             draw: 0,
+            clear: 0,
+            after_clear: 0,
             list: None,
             raster: Projection::None,
             projection: state.projection_kind(),
@@ -347,6 +370,7 @@ impl Traits {
             depth_state: state.classification.depth,
             range: state.classification.range,
             texture: state.classification.texture,
+            image: 0,
             program: 0,
             shader: 0,
             turns: turns(&state.classification.modelview, p),
@@ -370,57 +394,6 @@ impl Traits {
             Target::Pass(name) | Target::Framebuffer(name) => Some(name),
             Target::Nothing => None,
         }
-    }
-
-    /// Whether a person may see a sky in a draw of the scene: it is drawn around the eye, or without depths before the rest.
-    fn may_be_sky(&self) -> bool {
-        let before = self.first && self.depth_state != DepthState::On;
-        self.projection == Projection::Perspective && (self.is_around_eye() || before)
-    }
-
-    /// The line of a profile that would give this draw another class; none where no picture is drawn.
-    pub fn rule(&self, classed: &Classed) -> Option<String> {
-        let pass = self.pass()?;
-        let mut keys = Vec::new();
-        if pass != 0 {
-            keys.push(format!("pass = {pass}"));
-        }
-        if self.shader != 0 {
-            keys.push(format!("shader = \"{:016x}\"", self.shader));
-        }
-        if let Some(list) = self.list {
-            keys.push(format!("list = {list}"));
-        }
-        // Shaders are the same in every run, names of textures are not.
-        if !self.texture.is_zero() && self.shader == 0 {
-            keys.push(format!("texture = {}", self.texture));
-        }
-        if keys.is_empty() || (self.shader == 0 && pass != 0 && keys.len() == 1) {
-            // No other key tells it from its neighbours.
-            keys.push(format!("draw = {}", self.draw));
-        }
-        keys.push(format!("projection = \"{}\"", self.projection.word()));
-        if self.viewport != Viewport::Main {
-            keys.push(format!("viewport = \"{}\"", self.viewport.word()));
-        }
-        keys.push(format!("depth-state = \"{}\"", self.depth_state.word()));
-        if self.range != DepthRange::Whole {
-            keys.push(format!("depth-range = \"{}\"", self.range.word()));
-        }
-        let other = match (classed.class, self.projection) {
-            (Class::Scene, _) if self.may_be_sky() => Class::Sky,
-            (Class::Scene, _) => Class::Flat,
-            (Class::OffScreen, _) => Class::Scene,
-            (Class::Sky, _) => Class::Scene,
-            (_, Projection::Perspective) if self.kind != Kind::Pixels => Class::Scene,
-            // It has no depths of its own, so it can only be placed at another depth.
-            _ => Class::Flat,
-        };
-        keys.push(format!("class = \"{}\"", other.word()));
-        if classed.class == Class::Flat && other == Class::Flat {
-            keys.push("depth = 0.25".to_owned());
-        }
-        Some(format!("{{ {} }},", keys.join(", ")))
     }
 }
 
@@ -448,5 +421,6 @@ fn turns(m: &[f32; 16], p: &[f32; 16]) -> bool {
     off == glam::DVec3::ZERO || camera::rotates(m) && off.length() <= near * camera::ROUNDED
 }
 
+mod proposal;
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! The sources from which the programs of a share group were linked.
 
+use crate::checksum::fnv1a;
 use crate::gl::{BlockPlace, Gl, ProgramName, consts as c};
 use crate::rewrite::Stage;
 use std::collections::HashMap;
@@ -299,9 +300,7 @@ fn hash(sources: &[ShaderSource]) -> u64 {
         let kind = shader.kind.to_le_bytes();
         kind.into_iter().chain(shader.source.iter().copied())
     });
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+    fnv1a(bytes)
 }
 
 fn stage(kind: u32) -> Option<Stage> {

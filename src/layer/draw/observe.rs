@@ -140,6 +140,10 @@ impl Layer {
             _ => (0, 0),
         };
         let by_state = Traits::of(kind, &self.state);
+        let image = match shown && !clear && self.cameras.classifier.needs_image() {
+            true => self.image_sum(gl, by_state.texture),
+            false => 0,
+        };
         let foreground = &self.known.frame.foreground;
         Traits {
             centred: by_state.centred || turns_by_shader,
@@ -156,7 +160,10 @@ impl Layer {
             target,
             program,
             shader,
+            image,
             draw: self.known.frame.draws + u32::from(counts),
+            clear: self.known.frame.clears,
+            after_clear: self.known.frame.draws_since_clear() + u32::from(counts),
             list: self.frame.list(),
             raster: self.cameras.raster_placed(),
             first,

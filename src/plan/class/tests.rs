@@ -14,6 +14,8 @@ fn facts() -> Traits {
         kind: Kind::Begin(7),
         target: Target::Window,
         draw: 5,
+        clear: 1,
+        after_clear: 4,
         list: None,
         raster: Projection::None,
         projection: Projection::Perspective,
@@ -22,6 +24,7 @@ fn facts() -> Traits {
         depth_state: DepthState::On,
         range: DepthRange::Whole,
         texture: TextureName(3),
+        image: 0,
         program: 0,
         shader: 0,
         turns: false,
@@ -328,6 +331,77 @@ fn the_first_rule_whose_every_key_matches_decides() {
         ..outside
     });
     assert_eq!((classed.why, classed.depth), (Why::Orthographic, 0.5));
+}
+
+#[test]
+fn rules_know_images_and_places_between_clears() {
+    let c = classifier(
+        r#"rule = [
+            { image = "00000000000000ff", class = "sky" },
+            { clear = 2, after-clear = "1..3", class = "flat" },
+            { clear = 2, before-depth = true, class = "off-screen" },
+        ]"#,
+    );
+    let why = |change: fn(&mut Traits)| {
+        let mut facts = facts();
+        change(&mut facts);
+        c.class(&facts).why
+    };
+    assert_eq!(why(|f| f.image = 255), Why::Rule(1));
+    assert_eq!(why(|f| f.image = 254), Why::Perspective);
+    let after = |clear, after_clear, first| {
+        let facts = Traits {
+            clear,
+            after_clear,
+            first,
+            ..facts()
+        };
+        c.class(&facts).why
+    };
+    assert_eq!(after(2, 3, true), Why::Rule(2));
+    assert_eq!(after(2, 4, true), Why::Rule(3));
+    assert_eq!(after(2, 4, false), Why::Perspective);
+    assert_eq!(after(1, 3, true), Why::Perspective);
+    assert!(c.needs_image() && !classifier("").needs_image());
+    let groups = c.needs(Kind::Other, Projection::Orthographic, false);
+    assert_eq!(groups, Touch::TEXTURE);
+}
+
+#[test]
+fn what_is_the_same_in_every_run_is_proposed() {
+    let line = |facts: Traits| {
+        let classed = classifier("").class(&facts);
+        facts.rule(&classed).expect("a rule")
+    };
+    let painted = Traits {
+        image: 0xABC,
+        ..facts()
+    };
+    let text = line(painted);
+    assert!(
+        text.starts_with("{ image = \"0000000000000abc\", projection"),
+        "{text}"
+    );
+    let shaded = Traits {
+        shader: 1,
+        ..painted
+    };
+    assert!(!line(shaded).contains("image"), "its shaders tell it");
+    let plain = Traits {
+        texture: TextureName::ZERO,
+        clear: 2,
+        ..facts()
+    };
+    let text = line(plain);
+    assert!(
+        text.starts_with("{ clear = 2, after-clear = 4, projection"),
+        "{text}"
+    );
+    let sky = Traits {
+        depth_state: DepthState::TestOnly,
+        ..plain
+    };
+    assert!(line(sky).contains("before-depth = true, class = \"sky\""));
 }
 
 #[test]

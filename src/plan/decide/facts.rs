@@ -1,6 +1,6 @@
 //! The facts that a decision depends on: plain data, observed before anything is decided.
 
-use crate::config::{Class, Projection};
+use crate::config::{Class, Projection, Viewport};
 use crate::gl::{FramebufferName, ProgramName, TextureName};
 use crate::plan::class::{Classed, Traits, Why};
 use crate::plan::reason::Unrepresentable;
@@ -64,6 +64,17 @@ impl Facts {
             && self.traits.projection != Projection::Perspective
             && self.traits.kind != Kind::Pixels
             && (why == Why::Slanted || matches!(why, Why::Rule(_)))
+    }
+
+    /// Whether it is a draw in perspective to the whole picture of the scene, and not to something in the viewer's hand.
+    pub fn is_main_scene(&self) -> bool {
+        let traits = &self.traits;
+        self.classed.class == Class::Scene
+            && !self.classed.is_foreground()
+            && traits.projection == Projection::Perspective
+            && traits.viewport == Viewport::Main
+            && traits.target.is_shown()
+            && !matches!(traits.kind, Kind::Clear { .. } | Kind::Accum | Kind::Pixels)
     }
 
     /// The mapping from its window depths to distances; `None` where there is none.

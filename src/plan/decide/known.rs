@@ -37,6 +37,10 @@ pub struct Known {
 pub struct Frame {
     /// The number of draws, without clears.
     pub draws: u32,
+    /// The number of clears of the depths.
+    pub clears: u32,
+    /// The number of draws until the last of these clears.
+    pub draws_before_clear: u32,
     /// Something in perspective has written depth since the frame began or was last cleared.
     pub wrote_depth: bool,
     /// Whether nearer points have larger depths, by the first draw of the scene.
@@ -50,6 +54,11 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The number of draws since the depths were last cleared, or since the frame began.
+    pub fn draws_since_clear(&self) -> u32 {
+        self.draws - self.draws_before_clear
+    }
+
     /// The knowledge that the frame after this one begins with.
     #[must_use]
     pub fn next(&self) -> Frame {

@@ -2,7 +2,7 @@
 
 use super::{Facts, Known, Settings, is_perspective, is_whole};
 use crate::config::{Class, DepthState};
-use crate::plan::{Ramp, Shear};
+use crate::plan::{Kind, Ramp, Shear};
 
 /// The scene that has been drawn to some views since their depths were cleared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -101,6 +101,10 @@ pub(super) fn observe(facts: &Facts, known: &mut Known, settings: &Settings) {
     known.frame.orthographic.observe(facts);
     if shown {
         let behind = facts.classed.class == Class::Sky;
+        if let Kind::Clear { depths: true, .. } = facts.traits.kind {
+            known.frame.clears += 1;
+            known.frame.draws_before_clear = known.frame.draws;
+        }
         if clear {
             known.frame.wrote_depth = false;
         } else if is_perspective(facts) && facts.traits.first && !behind {
