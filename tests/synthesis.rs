@@ -82,6 +82,31 @@ fn reasons(report: &Value) -> Vec<String> {
     all.keys().cloned().collect()
 }
 
+#[test]
+fn frames_of_which_no_view_is_synthesised_say_why() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("view.png");
+    let cases = [
+        ("passes", "1", "the scene is drawn to a framebuffer"),
+        (
+            "blur",
+            "1",
+            "the depths of the window are not cleared as a whole",
+        ),
+        ("echo", "1", "the views have textures or framebuffers"),
+        ("teapot", "0.5", "views have fewer pixels than the window"),
+    ];
+    for (demonstration, scale, reason) in cases {
+        let options = ["--strategy", "depth-image", "--view-scale", scale];
+        let report = shown(&[demonstration], "view:0", &options, &out);
+        // The first frame of `echo` has no copies yet.
+        assert!(made(&report)[1] <= 1, "{demonstration}: {report}");
+        let expected = format!("no view is synthesised: {reason}");
+        let told = reasons(&report).iter().any(|r| r.starts_with(&expected));
+        assert!(told, "{demonstration}: {report}");
+    }
+}
+
 fn psnr(expected: &RgbImage, actual: &RgbImage) -> f64 {
     let compared = Comparison::new(expected, actual, None);
     compared.expect("pictures of one size").psnr

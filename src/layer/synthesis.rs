@@ -16,6 +16,7 @@ use crate::gl::{Gl, ProgramName, consts as c};
 use crate::interleave::{Cleared, Disparities, Places, Sources};
 use crate::plan::Governor;
 use crate::plan::decide::{DisparityMapping, Scene};
+use crate::plan::reason::Hindrance;
 use crate::state::{BACK, Neutral};
 use crate::synthesis::Passes;
 use crate::view::ViewIndex;
@@ -166,15 +167,22 @@ impl Layer {
         needed.count() as u32
     }
 
-    /// Whether atlas, output and settings allow that views are synthesised.
-    pub(super) fn may_synthesise(&self) -> bool {
-        self.session.config.prove.is_none()
-            && !self.targets.atlas.depth.is_zero()
-            && self.targets.atlas.tiles.grid.is_full()
-            && self.targets.back_alone()
-            && !self.has_copies()
-            && !self.session.live.flat
-            && self.synthesis.number().is_none_or(|n| n < self.needed())
+    /// Why atlas, output or settings do not allow that views are synthesised; none where they do.
+    pub(super) fn hindrance(&self) -> Option<Hindrance> {
+        let drawn = self.synthesis.number();
+        let unwanted = self.session.config.prove.is_some()
+            || self.session.live.flat
+            || drawn.is_some_and(|n| n >= self.needed());
+        let grid = self.targets.atlas.tiles.grid;
+        let hindrances = [
+            (unwanted, Hindrance::Unwanted),
+            (!grid.is_full(), Hindrance::Scaled),
+            (self.targets.atlas.depth.is_zero(), Hindrance::NoDepths),
+            (!self.targets.back_alone(), Hindrance::Buffers),
+            (self.has_copies(), Hindrance::Images),
+        ];
+        let first = hindrances.into_iter().find(|(hinders, _)| *hinders);
+        first.map(|(_, hindrance)| hindrance)
     }
 
     /// Ends the scene that only some views have: synthesises the others into their tiles. From now on all of them are drawn.

@@ -28,6 +28,36 @@ pub enum Reason {
     /// The views were synthesised before a command that has to be drawn in each of them.
     #[error("views are synthesised before {0}")]
     SynthesisedBefore(NotOfScene),
+    /// Views were to be synthesised, and each is drawn.
+    #[error("no view is synthesised: {0}")]
+    NotSynthesised(Hindrance),
+}
+
+/// Why no view of a scene is synthesised; each text is a sentence.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Error)]
+pub enum Hindrance {
+    /// Only a clear of all depths begins a scene.
+    #[default]
+    #[error("the depths of the window are not cleared as a whole before the scene")]
+    NoClear,
+    /// Depths are taken from the window alone.
+    #[error("the scene is drawn to a framebuffer of the program's own")]
+    Framebuffer,
+    /// Each view has to be drawn with its own images.
+    #[error("the views have textures or framebuffers of their own")]
+    Images,
+    /// The front buffer and the accumulation buffer hold pictures that were shown or added before.
+    #[error("the program uses the front buffer or the accumulation buffer")]
+    Buffers,
+    /// A window without a depth buffer.
+    #[error("the window has no depths")]
+    NoDepths,
+    /// Synthesis has the window's own pixels.
+    #[error("views have fewer pixels than the window")]
+    Scaled,
+    /// The user wants every view to be drawn at present.
+    #[error("every view is wanted as it is drawn")]
+    Unwanted,
 }
 
 /// The draws that only replay can make; each text is the subject of "are replayed".

@@ -301,7 +301,7 @@ impl Layer {
         let over = begun && !clear && is_over_candidate(facts);
         debug_assert_eq!(facts.classed, *classed);
         SynthesisFacts {
-            possible: clear && self.may_synthesise(),
+            hindrance: clear.then(|| self.hindrance()).flatten(),
             adds_views: clear && self.adds_views(),
             over_last: over && self.is_over_last(gl, request.primitives),
             reference: map.filter(|_| self.synthesis.reference.is_on() && request.surfaces),

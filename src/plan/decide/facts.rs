@@ -3,7 +3,7 @@
 use crate::config::{Class, Projection, Viewport};
 use crate::gl::{FramebufferName, ProgramName, TextureName};
 use crate::plan::class::{Classed, Traits, Why};
-use crate::plan::reason::Unrepresentable;
+use crate::plan::reason::{Hindrance, Unrepresentable};
 use crate::plan::{Kind, Ramp};
 use crate::state::ClassificationState;
 
@@ -231,8 +231,8 @@ pub struct ClearFacts {
 /// The facts that the synthesis of views depends on; the defaults where no view is synthesised.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SynthesisFacts {
-    /// Atlas, output and settings allow views to be synthesised.
-    pub possible: bool,
+    /// Why no view can be synthesised of a scene that begins with this clear; none where views can.
+    pub hindrance: Option<Hindrance>,
     /// From this clear on a view would be drawn that was not drawn before, so its tile holds no earlier picture.
     pub adds_views: bool,
     /// The draw is another pass over the same vertices as the last surface.

@@ -8,6 +8,7 @@ use super::scene::Scene;
 use crate::config::Strategy;
 use crate::gl::FramebufferName;
 use crate::plan::Rig;
+use crate::plan::reason::Hindrance;
 
 /// The knowledge from the commands so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +44,8 @@ pub struct Frame {
     pub draws_before_clear: u32,
     /// Something in perspective has written depth since the frame began or was last cleared.
     pub wrote_depth: bool,
+    /// Why no view is synthesised of a scene that would be drawn now to the window.
+    pub hindrance: Hindrance,
     /// Whether nearer points have larger depths, by the first draw of the scene.
     pub nearer_is_larger: Option<bool>,
     /// What is drawn around the eye before the depths are cleared for the scene.

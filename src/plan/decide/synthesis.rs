@@ -5,7 +5,7 @@ use super::{Settings, Shaders};
 use crate::config::{Class, DepthState, Viewport};
 use crate::gl::{TextureName, consts as c};
 use crate::plan::class::Why;
-use crate::plan::reason::{NotOfScene, Reason};
+use crate::plan::reason::{Hindrance, NotOfScene, Reason};
 use crate::plan::{Kind, Ramp};
 
 /// Decides, for a planned command, whether it belongs to the scene. If not, the other views are synthesised before it.
@@ -17,6 +17,9 @@ pub(super) fn watch(
     effects: &mut Vec<Effect>,
 ) {
     let drawn = plan.method != Method::Once && facts.destination.is_window();
+    if settings.synthesises && plan.method != Method::Once {
+        hindered(facts, known, effects);
+    }
     if !settings.synthesises || !drawn {
         return;
     }
@@ -43,6 +46,19 @@ pub(super) fn watch(
             effects.push(Effect::Fallback(Reason::SynthesisedBefore(what)));
             synthesise(known, effects);
         }
+    }
+}
+
+/// Tells of a draw of the scene that each view gets, although no draw before it was the end of a scene to synthesise from.
+fn hindered(facts: &Facts, known: &Known, effects: &mut Vec<Effect>) {
+    let begun = known.scene.is_some() || known.synthesised;
+    let hindrance = match facts.destination.is_window() {
+        true if begun => return,
+        true => known.frame.hindrance,
+        false => Hindrance::Framebuffer,
+    };
+    if facts.is_main_scene() && hindrance != Hindrance::Unwanted {
+        effects.push(Effect::Fallback(Reason::NotSynthesised(hindrance)));
     }
 }
 
@@ -83,7 +99,11 @@ fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>
     }
     // Without a clear of colours, the last picture stays visible. The other views do not have it, nor has a view that is drawn for the
     // first time.
-    if !facts.synthesis.possible || (!colours && facts.synthesis.adds_views) {
+    if let Some(hindrance) = facts.synthesis.hindrance {
+        known.frame.hindrance = hindrance;
+        return synthesise(known, effects);
+    }
+    if !colours && facts.synthesis.adds_views {
         return synthesise(known, effects);
     }
     // The last picture is cleared, so the other views need no copy of it.

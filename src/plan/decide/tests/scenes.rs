@@ -1,7 +1,8 @@
 //! Scenes that are drawn to some views only, and where the others are synthesised.
 
 use super::*;
-use crate::plan::reason::NotOfScene;
+use crate::plan::class::Target;
+use crate::plan::reason::{Hindrance, NotOfScene};
 
 fn synthesising() -> Settings {
     Settings {
@@ -26,7 +27,6 @@ fn clear(whole: u32) -> Facts {
         unscissored: true,
         depth: 0.75,
     };
-    facts.synthesis.possible = true;
     facts
 }
 
@@ -83,7 +83,7 @@ fn other_clears_begin_none() {
     part.clear.unscissored = false;
     assert!(!begins(&part));
     let mut impossible = clear(ALL_BUFFERS);
-    impossible.synthesis.possible = false;
+    impossible.synthesis.hindrance = Some(Hindrance::Images);
     assert!(!begins(&impossible));
     // A view that is drawn for the first time has no earlier picture.
     let mut new_view = clear(c::DEPTH_BUFFER_BIT);
@@ -404,4 +404,40 @@ fn lenses_are_remembered_where_a_pass_shows_them() {
         decided(&facts, &first, Strategy::Replay).known.lens,
         Some(1.5)
     );
+}
+
+/// Why no view of a draw's scene is synthesised; none where views are, or may be.
+fn hindered(facts: &Facts, known: &Known) -> Option<Hindrance> {
+    let decision = next(facts, known);
+    decision.effects.iter().find_map(|effect| match effect {
+        Effect::Fallback(Reason::NotSynthesised(why)) => Some(*why),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_scene_that_each_view_gets_says_why() {
+    assert_eq!(hindered(&scene(), &known()), Some(Hindrance::NoClear));
+    assert_eq!(hindered(&scene(), &begun()), None);
+    let mut late = known();
+    late.synthesised = true;
+    assert_eq!(hindered(&scene(), &late), None, "it was told before");
+    let mut clear = clear(ALL_BUFFERS);
+    clear.synthesis.hindrance = Some(Hindrance::Images);
+    let after = next(&clear, &known()).known;
+    assert_eq!(hindered(&scene(), &after), Some(Hindrance::Images));
+    clear.synthesis.hindrance = Some(Hindrance::Unwanted);
+    let after = next(&clear, &known()).known;
+    assert_eq!(hindered(&scene(), &after), None);
+    let mut pass = scene();
+    pass.traits.target = Target::Pass(1);
+    pass.destination.framebuffer = FramebufferName(9);
+    pass.destination.differs = true;
+    pass.destination.split = Linked::Yes;
+    assert_eq!(hindered(&pass, &begun()), Some(Hindrance::Framebuffer));
+    let mut flat = scene();
+    flat.classed = classed(Class::Flat);
+    assert_eq!(hindered(&flat, &known()), None);
+    let replayed = decided(&scene(), &known(), Strategy::Replay);
+    assert_eq!(replayed.effects, []);
 }
