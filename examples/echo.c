@@ -1,12 +1,12 @@
 /* The frame is copied to textures and drawn over itself: a trail of earlier frames by glCopyTexImage2D, water that mirrors the picture so far
- * by glCopyTexSubImage2D, and an inset by glCopyPixels. With --listed, display lists copy to the textures. */
+ * by glCopyTexSubImage2D, and an inset by glCopyPixels. Nothing is copied to a texture without texels, as games do at start. With --listed, display lists copy to the textures. */
 #include "demo.h"
 #include <stddef.h>
 
 static int listed;
 const struct demo_option demo_options[] = {{"--listed", "display lists copy to the textures", &listed, 0}, {0}};
 
-static GLuint trail, water, copies; /* copies: a list for each texture */
+static GLuint nothing, trail, water, copies; /* copies: a list for each texture */
 static int size_w, size_h; /* powers of two that hold the picture */
 
 void demo_setup(void)
@@ -20,6 +20,10 @@ void demo_setup(void)
         size_w *= 2;
     for (size_h = 1; size_h < demo_height;)
         size_h *= 2;
+    glGenTextures(1, &nothing);
+    glBindTexture(GL_TEXTURE_2D, nothing);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 0, 0, 0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, 0, 0);
     glGenTextures(1, &trail);
     glGenTextures(1, &water);
     glBindTexture(GL_TEXTURE_2D, water);

@@ -99,6 +99,7 @@ fn frames_of_which_no_view_is_synthesised_say_why() {
     for (demonstration, scale, reason) in cases {
         let options = ["--strategy", "depth-image", "--view-scale", scale];
         let report = shown(&[demonstration], "view:0", &options, &out);
+        assert_eq!(report["gl_errors"], 0, "{demonstration}");
         // The first frame of `echo` has no copies yet.
         assert!(made(&report)[1] <= 1, "{demonstration}: {report}");
         let expected = format!("no view is synthesised: {reason}");

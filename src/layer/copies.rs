@@ -107,7 +107,10 @@ impl Layer {
         };
         let (target, texture) = to;
         let own_call = &mut || call(texture);
-        if !differs || texture.is_zero() {
+        // Nothing is copied, and there may be nothing to copy to.
+        let split = self.targets.offscreen.has(Object::Texture(texture));
+        let empty = width == 0 && !split;
+        if !differs || texture.is_zero() || empty {
             return self.read(gl, x, width, own_call);
         }
         self.leave_mono(gl);
