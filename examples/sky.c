@@ -1,14 +1,15 @@
 /* Outdoors: a sky box that turns with the camera but never moves and writes no depth, a ground with pillars and smoke, balloons at the far end
  * of the depth range, a weapon in the viewer's hand at its near end, and over it a flat display. With --far-off the camera is far from the origin,
  * and the sky is moved to it by a second matrix, so that the two cancel but for what they round. With --cleared the sky is a small box that writes
- * depths, which are cleared for the ground. With --renamed the textures have other names, and with --repaint the program paints over that of the
+ * depths, which are cleared for the ground. With --mist something transparent follows the sky. With --renamed the textures have other names, and with --repaint the program paints over that of the
  * ground before the second frame. */
 #include "demo.h"
 #include <math.h>
 
-static int far_off, cleared, renamed, repaint;
+static int far_off, cleared, mist, renamed, repaint;
 const struct demo_option demo_options[] = {{"--far-off", "the camera and the sky are far from the origin", &far_off, 0},
                                            {"--cleared", "the sky writes depths, which are cleared after it", &cleared, 0},
+                                           {"--mist", "a mist before the sky is drawn before the ground", &mist, 0},
                                            {"--renamed", "the textures have other names", &renamed, 0},
                                            {"--repaint", "the ground is painted over before the second frame", &repaint, 0},
                                            {0}};
@@ -138,6 +139,22 @@ static void smoke(void)
     glEnable(GL_TEXTURE_2D);
 }
 
+/* Far behind the ground, but not infinitely far. */
+static void veil(void)
+{
+    glDisable(GL_TEXTURE_2D);
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    glColor4f(0.9f, 0.9f, 0.95f, 0.3f);
+    glBegin(GL_QUADS);
+    for (int c = 0; c < 4; c++)
+        glVertex3d(c == 1 || c == 2 ? 30.0 : -30.0, c >= 2 ? 6.0 : -2.0, -30.0);
+    glEnd();
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glEnable(GL_TEXTURE_2D);
+}
+
 /* Near the eye, in eye coordinates, and solid; it is always in front. */
 static void hand(void)
 {
@@ -191,6 +208,8 @@ void demo_frame(int frame)
     glPopMatrix();
     demo_perspective(50.0, aspect, 0.5, 60.0);
     glTranslated(0.5, -1.8, -9.0 + 2.0 * t);
+    if (mist)
+        veil();
     ground();
     balloons(aspect);
     smoke();

@@ -199,9 +199,9 @@ impl Layer {
 
     /// Synthesises the views of a scene, or copies the own one where the scene has no disparities. Changes the framebuffers that are bound.
     fn synthesise(&mut self, gl: &Gl, scene: &Scene, neutral: &Neutral) {
-        self.reading(gl, BACK, |layer| match scene.mapping {
-            Some(mapping) if layer.has_pyramid(gl) => {
-                layer.synthesise_from(gl, scene, &mapping, neutral)
+        self.reading(gl, BACK, |layer| match layer.disparities(scene) {
+            Some(disparities) if layer.has_pyramid(gl) => {
+                layer.synthesise_from(gl, scene, &disparities, neutral);
             }
             _ => layer.targets.atlas.share_own(gl),
         });
@@ -212,18 +212,19 @@ impl Layer {
         &mut self,
         gl: &Gl,
         scene: &Scene,
-        mapping: &DisparityMapping,
+        disparities: &Disparities,
         neutral: &Neutral,
     ) {
-        let disparities = self.disparities(scene, mapping);
         self.resolve_sources(gl);
-        self.take_samples(gl, neutral, scene, mapping);
+        if let Some(mapping) = &scene.mapping {
+            self.take_samples(gl, neutral, scene, mapping);
+        }
         let (sources, own) = (self.synthesis.sources, self.targets.atlas.tiles.own());
         match sources {
             Some(sources) => self.targets.atlas.copy_to_pyramid(gl, sources.iter()),
             None => self.targets.atlas.copy_to_pyramid(gl, [own].into_iter()),
         }
-        let Some(textures) = self.measure(gl, &disparities, true, neutral) else {
+        let Some(textures) = self.measure(gl, disparities, true, neutral) else {
             return self.targets.atlas.share_own(gl);
         };
         let Some(passes) = &self.synthesis.passes else {
@@ -240,13 +241,7 @@ impl Layer {
         if srgb {
             gl.enable_srgb(true);
         }
-        passes.views(
-            gl,
-            neutral,
-            &mut self.targets.atlas,
-            &disparities,
-            &textures,
-        );
+        passes.views(gl, neutral, &mut self.targets.atlas, disparities, &textures);
         self.diagnostics.report.synthesised(false);
         if srgb {
             gl.enable_srgb(false);
@@ -310,16 +305,17 @@ impl Layer {
         Some(textures)
     }
 
-    fn disparities(&self, scene: &Scene, mapping: &DisparityMapping) -> Disparities {
-        let far = mapping.far();
-        let [scale, offset] = mapping.line(mapping);
+    fn disparities(&self, scene: &Scene) -> Option<Disparities> {
+        let far = scene.motion()?;
+        let [scale, offset] = scene.line();
         let tiles = &self.targets.atlas.tiles;
         let own = self.known.rig.position(tiles.own());
         let baselines =
             [self.known.rig.position(ViewIndex(0)) - own, 1.0].map(|place| place * far.signum());
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
-        let before = scene.before.map(|(before, to)| {
-            let [scale, offset] = before.line(mapping);
+        let before = scene.before.zip(scene.mapping);
+        let before = before.map(|((before, to), mapping)| {
+            let [scale, offset] = before.line(&mapping);
             let side = if before.ramp.nearer_is_larger() {
                 1.0
             } else {
@@ -327,7 +323,12 @@ impl Layer {
             };
             [scale, offset, to, side].map(|v| v as f32)
         });
-        Disparities {
+        // A sky alone has the depth of what is cleared.
+        let nearer = match scene.mapping {
+            Some(_) => -scale.signum(),
+            None => 0.0,
+        };
+        Some(Disparities {
             before: before.unwrap_or_default(),
             scale: scale as f32,
             offset: offset as f32,
@@ -337,13 +338,13 @@ impl Layer {
                 sky: scene.sky,
             },
             baselines: baselines.map(|baseline| baseline as f32),
-            margin: (-scale.signum() * MARGIN * step) as f32,
+            margin: (nearer * MARGIN * step) as f32,
             aim: (0, 0),
             sources: self.synthesis.sources,
             places: Places::Tiles,
             marked: self.session.config.marks_holes,
             reach: REACH,
-        }
+        })
     }
 
     /// At the end of a frame: has the panel's picture synthesised straight from the views that are drawn, where that is possible, or else
@@ -362,9 +363,8 @@ impl Layer {
             && self.session.config.filter == Filter::Nearest
             && captured.is_none_or(|what| what == CaptureWhat::Output)
             && !self.targets.undrawn;
-        match scene.mapping {
-            Some(mapping) if straight && self.has_pyramid(gl) => {
-                let disparities = self.disparities(&scene, &mapping);
+        match self.disparities(&scene) {
+            Some(disparities) if straight && self.has_pyramid(gl) => {
                 self.resolve_sources(gl);
                 if let Some(textures) = self.measure(gl, &disparities, false, neutral) {
                     self.synthesis.pyramid = Some((textures, disparities));

@@ -14,6 +14,8 @@ pub struct Scene {
     pub before: Option<(DisparityMapping, f64)>,
     /// It has a sky, infinitely far behind it.
     pub sky: bool,
+    /// Shift of that sky, in pixels, for a camera one place further; none where it is the same in all views.
+    pub sky_motion: Option<f64>,
     /// Something has been drawn since the clear.
     pub begun: bool,
     /// The depth of pixels on which nothing is drawn.
@@ -43,7 +45,7 @@ impl DisparityMapping {
 
     /// Shift of an infinitely far point, in pixels, for a camera one place further.
     pub fn far(&self) -> f64 {
-        self.shear.separation(1.0) * f64::from(self.viewport[2]) / 2.0
+        far(&self.shear, self.viewport)
     }
 
     /// Disparity towards the viewer, from where an infinitely far point of the scene is shown, over window depth, in pixels for one place:
@@ -55,7 +57,31 @@ impl DisparityMapping {
     }
 }
 
+/// Shift of an infinitely far point, in pixels of a viewport, for a camera one place further.
+fn far(shear: &Shear, [_, _, width, _]: [i32; 4]) -> f64 {
+    shear.separation(1.0) * f64::from(width) / 2.0
+}
+
 impl Scene {
+    /// A sky is drawn, with this shift in this viewport.
+    pub(super) fn has_sky(&mut self, shear: Option<&Shear>, viewport: [i32; 4]) {
+        self.sky = true;
+        let motion = shear.map(|shear| far(shear, viewport));
+        self.sky_motion = self.sky_motion.or(motion);
+    }
+
+    /// Shift of an infinitely far point, in pixels, for a camera one place further; none where all views show the same.
+    pub fn motion(&self) -> Option<f64> {
+        self.mapping
+            .map_or(self.sky_motion, |mapping| Some(mapping.far()))
+    }
+
+    /// Disparity over window depth, in pixels for one place: slope and offset (see [`DisparityMapping::line`]). A sky alone has none.
+    pub fn line(&self) -> [f64; 2] {
+        self.mapping
+            .map_or([0.0; 2], |mapping| mapping.line(&mapping))
+    }
+
     /// Whether a sky has been drawn, and nothing that has a place.
     pub(super) fn is_sky_alone(&self) -> bool {
         self.sky && self.mapping.is_none()

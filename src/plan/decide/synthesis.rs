@@ -162,7 +162,7 @@ fn belongs(
             no(NotOfScene::SkyOverScene)
         }
         Class::Sky => {
-            scene.sky = true;
+            scene.has_sky(plan.shear.as_ref(), facts.rects.viewport);
             Ok(None)
         }
         Class::Flat if scene.mapping.is_some() => no(NotOfScene::Flat),
@@ -172,7 +172,7 @@ fn belongs(
         Class::Flat | Class::OffScreen => Ok(None),
         // A sky by the rays of its fragments. It may write depths: those of the far end, since the scene is drawn over it.
         Class::Scene if facts.unprojects() && scene.mapping.is_none() => {
-            scene.sky = true;
+            scene.has_sky(plan.shear.as_ref(), facts.rects.viewport);
             Ok(None)
         }
         Class::Scene if facts.unprojects() => no(NotOfScene::Rays),
