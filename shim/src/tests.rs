@@ -362,37 +362,56 @@ const CALLS_OF_OURS: [&str; 12] = [
     "glFlush",
 ];
 
-/// The calls of a hook with zeros that reach the driver, and whether the fault has struck.
-fn called(call: unsafe fn(), fault: Option<Stage>) -> (BTreeMap<&'static str, usize>, bool) {
+/// The calls of a hook with zeros that reach the driver.
+fn called(call: unsafe fn(), fault: Option<Stage>) -> BTreeMap<&'static str, usize> {
+    let program = drawing();
+    program.fake.forget();
+    strikes(call, fault);
+    reached(&program.fake.calls())
+}
+
+/// A program that has drawn.
+fn drawing() -> Program {
     let program = Program::new();
     draw();
-    program.fake.forget();
+    program
+}
+
+/// Makes a call of the program's. Whether the fault has struck.
+fn strikes(call: unsafe fn(), fault: Option<Stage>) -> bool {
     FAULT.set(fault);
     // SAFETY: the fake driver reads nothing through its arguments.
     unsafe { call() };
-    let struck = fault.is_some() && FAULT.take().is_none();
-    (reached(&program.fake.calls()), struck)
+    fault.is_some() && FAULT.take().is_none()
 }
 
 #[test]
 fn a_fault_in_any_hook_makes_the_programs_call_once() {
     let mut struck = 0;
     let mut wrong = Vec::new();
+    // It makes the calls of hooks that no fault strikes, most of all. A new program takes time.
+    let mut untouched = None;
     for (slot, call) in WITH_ZEROS.iter().enumerate() {
         let name = NAMES[slot].to_str().expect("ASCII");
         let Some(call) = call.filter(|_| takes_zeros(name)) else {
             continue;
         };
-        let (before, hit) = called(call, Some(Stage::Before));
-        if !hit {
+        untouched.get_or_insert_with(drawing);
+        if !strikes(call, Some(Stage::Before)) {
             continue;
         }
         struck += 1;
+        untouched = None;
+        let before = called(call, Some(Stage::Before));
         if before.values().any(|&times| times != 1) {
             wrong.push(format!("{name}: {before:?} after a fault before the work"));
         }
         // What the layer has sent for the views is not sent once more.
-        let ((whole, _), (after, _)) = (called(call, None), called(call, Some(Stage::After)));
+        let after = called(call, Some(Stage::After));
+        if after.values().all(|&times| times <= 1) {
+            continue;
+        }
+        let whole = called(call, None);
         let most = |name: &str| whole.get(name).copied().unwrap_or(0).max(1);
         if after.iter().any(|(name, &times)| times > most(name)) {
             wrong.push(format!(

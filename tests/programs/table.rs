@@ -34,6 +34,9 @@ pub(crate) struct Program {
     pub(crate) parallax: bool,
     /// Why it fails, if it does.
     pub(crate) known: Option<String>,
+    /// What it draws is another scene in each recording, so that it fails in some and passes in others.
+    #[serde(default)]
+    pub(crate) varies: bool,
 }
 
 impl Program {
