@@ -31,7 +31,7 @@ impl ImageSums {
 
 impl Layer {
     /// The checksum of a 2D texture's image: width, height and RGBA bytes of level 0. 0 where there is no image, where each view has its own,
-    /// where it has a side longer than [`LONGEST`], and on OpenGL ES, which does not give images back.
+    /// where it has a side longer than [`LONGEST`], while a display list is compiled, and on OpenGL ES, which does not give images back.
     pub(super) fn image_sum(&mut self, gl: &Gl, texture: TextureName) -> u64 {
         let own = self.targets.offscreen.has(Object::Texture(texture));
         if texture.is_zero() || own {
@@ -45,6 +45,10 @@ impl Layer {
         }
         if let Some(&sum) = self.cameras.image_sums.0.get(&texture) {
             return sum;
+        }
+        if self.state.list.is_some() {
+            // The list that is open would take the bindings.
+            return 0;
         }
         self.state.keep_errors(gl);
         let before = TextureName(gl.get_integer(c::TEXTURE_BINDING_2D) as u32);
