@@ -179,7 +179,6 @@ impl Layer {
             (!grid.is_full(), Hindrance::Scaled),
             (self.targets.atlas.depth.is_zero(), Hindrance::NoDepths),
             (!self.targets.back_alone(), Hindrance::Buffers),
-            (self.has_copies(), Hindrance::Images),
         ];
         let first = hindrances.into_iter().find(|(hinders, _)| *hinders);
         first.map(|(_, hindrance)| hindrance)

@@ -43,9 +43,6 @@ pub enum Hindrance {
     /// Depths are taken from the window alone.
     #[error("the scene is drawn to a framebuffer of the program's own")]
     Framebuffer,
-    /// Each view has to be drawn with its own images.
-    #[error("the views have textures or framebuffers of their own")]
-    Images,
     /// The front buffer and the accumulation buffer hold pictures that were shown or added before.
     #[error("the program uses the front buffer or the accumulation buffer")]
     Buffers,

@@ -83,7 +83,7 @@ fn other_clears_begin_none() {
     part.clear.unscissored = false;
     assert!(!begins(&part));
     let mut impossible = clear(ALL_BUFFERS);
-    impossible.synthesis.hindrance = Some(Hindrance::Images);
+    impossible.synthesis.hindrance = Some(Hindrance::Buffers);
     assert!(!begins(&impossible));
     // A view that is drawn for the first time has no earlier picture.
     let mut new_view = clear(c::DEPTH_BUFFER_BIT);
@@ -423,9 +423,9 @@ fn a_scene_that_each_view_gets_says_why() {
     late.synthesised = true;
     assert_eq!(hindered(&scene(), &late), None, "it was told before");
     let mut clear = clear(ALL_BUFFERS);
-    clear.synthesis.hindrance = Some(Hindrance::Images);
+    clear.synthesis.hindrance = Some(Hindrance::Buffers);
     let after = next(&clear, &known()).known;
-    assert_eq!(hindered(&scene(), &after), Some(Hindrance::Images));
+    assert_eq!(hindered(&scene(), &after), Some(Hindrance::Buffers));
     clear.synthesis.hindrance = Some(Hindrance::Unwanted);
     let after = next(&clear, &known()).known;
     assert_eq!(hindered(&scene(), &after), None);
