@@ -15,7 +15,7 @@ use crate::config::{CaptureWhat, Config, DisocclusionSource, Filter, Output, Tru
 use crate::gl::{Gl, ProgramName, consts as c};
 use crate::interleave::{Cleared, Disparities, Places, Sources};
 use crate::plan::Governor;
-use crate::plan::decide::{DisparityMapping, Scene};
+use crate::plan::decide::Scene;
 use crate::plan::reason::Hindrance;
 use crate::state::{BACK, Neutral};
 use crate::synthesis::Passes;
