@@ -122,37 +122,37 @@ static void balloons(double aspect)
     demo_perspective(50.0, aspect, 0.5, 60.0);
 }
 
+/* Begins and ends what is transparent: without a texture, and writing no depth. */
+static void transparent(int begins)
+{
+    (begins ? glDisable : glEnable)(GL_TEXTURE_2D);
+    (begins ? glEnable : glDisable)(GL_BLEND);
+    glDepthMask(!begins);
+}
+
 /* Drawn after the solid things without writing depth: not a sky, since it has a place. */
 static void smoke(void)
 {
-    glDisable(GL_TEXTURE_2D);
-    glEnable(GL_BLEND);
-    glDepthMask(GL_FALSE);
+    transparent(1);
     glColor4f(0.8f, 0.8f, 0.85f, 0.4f);
     glBegin(GL_QUADS);
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 4; c++)
             glVertex3d(-2.0 + 2.0 * i + (c == 1 || c == 2), 0.4 + 1.4 * (c >= 2), -1.0 - 2.0 * i);
     glEnd();
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
-    glEnable(GL_TEXTURE_2D);
+    transparent(0);
 }
 
 /* Far behind the ground, but not infinitely far. */
 static void veil(void)
 {
-    glDisable(GL_TEXTURE_2D);
-    glEnable(GL_BLEND);
-    glDepthMask(GL_FALSE);
+    transparent(1);
     glColor4f(0.9f, 0.9f, 0.95f, 0.3f);
     glBegin(GL_QUADS);
     for (int c = 0; c < 4; c++)
         glVertex3d(c == 1 || c == 2 ? 30.0 : -30.0, c >= 2 ? 6.0 : -2.0, -30.0);
     glEnd();
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
-    glEnable(GL_TEXTURE_2D);
+    transparent(0);
 }
 
 /* Near the eye, in eye coordinates, and solid; it is always in front. */

@@ -389,7 +389,7 @@ fn strikes(call: unsafe fn(), fault: Option<Stage>) -> bool {
 fn a_fault_in_any_hook_makes_the_programs_call_once() {
     let mut struck = 0;
     let mut wrong = Vec::new();
-    // It makes the calls of hooks that no fault strikes, most of all. A new program takes time.
+    // One program for all hooks that no fault strikes, because a new one takes time.
     let mut untouched = None;
     for (slot, call) in WITH_ZEROS.iter().enumerate() {
         let name = NAMES[slot].to_str().expect("ASCII");

@@ -37,14 +37,15 @@ impl Layer {
         if texture.is_zero() || own {
             return 0;
         }
+        if let Some(&sum) = self.cameras.image_sums.0.get(&texture) {
+            return sum;
+        }
         if gl.is_es() {
             if self.cameras.classifier.has_rules_for_images() {
                 self.diagnostics.report.note(UNREADABLE.to_owned());
             }
+            self.cameras.image_sums.0.insert(texture, 0);
             return 0;
-        }
-        if let Some(&sum) = self.cameras.image_sums.0.get(&texture) {
-            return sum;
         }
         if self.state.list.is_some() {
             // The list that is open would take the bindings.

@@ -137,7 +137,7 @@ fn a_second_draw_sends_nothing_that_is_there() {
 fn an_odd_state_comes_back() {
     let clips = [Clip::Distances, Clip::Discard, Clip::Both, Clip::Cut];
     let mut drawn_at_all = 0;
-    for seed in 0..60 {
+    for seed in 0..120 {
         let layout = [SideBySide, Layers][seed % 2];
         let mut stage = drawing(layout, Clip::Distances, false).stage;
         let seed = seed as u64;
@@ -194,7 +194,7 @@ fn near(a: f64, b: f64) -> bool {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 80,
+        cases: 200,
         rng_seed: RngSeed::Fixed(26),
         rng_algorithm: RngAlgorithm::ChaCha,
         failure_persistence: None,

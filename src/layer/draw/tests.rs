@@ -67,9 +67,14 @@ fn draws_are_counted_and_know_what_came_before_them() {
     bench.draw();
     let traits = bench.facts(TRIANGLES).traits;
     assert_eq!((traits.draw, traits.first), (2, false));
+    assert_eq!((traits.clear, traits.after_clear), (1, 2));
     // A clear is not counted, and begins anew.
     let traits = bench.facts(CLEAR).traits;
     assert_eq!((traits.draw, traits.first), (1, true));
+    bench.clear();
+    let traits = bench.facts(TRIANGLES).traits;
+    assert_eq!((traits.draw, traits.first), (2, true));
+    assert_eq!((traits.clear, traits.after_clear), (2, 1));
 }
 
 #[test]

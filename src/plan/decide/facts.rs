@@ -66,7 +66,7 @@ impl Facts {
             && (why == Why::Slanted || matches!(why, Why::Rule(_)))
     }
 
-    /// Whether it is a draw in perspective to the whole picture of the scene, and not to something in the viewer's hand.
+    /// Whether it is a draw of the scene, in perspective and to the main viewport, but nothing in the viewer's hand.
     pub fn is_main_scene(&self) -> bool {
         let traits = &self.traits;
         self.classed.class == Class::Scene

@@ -63,8 +63,8 @@ fn far(shear: &Shear, [_, _, width, _]: [i32; 4]) -> f64 {
 }
 
 impl Scene {
-    /// A sky is drawn, with this shift in this viewport.
-    pub(super) fn has_sky(&mut self, shear: Option<&Shear>, viewport: [i32; 4]) {
+    /// Adds a sky that is drawn with this shift in this viewport.
+    pub(super) fn add_sky(&mut self, shear: Option<&Shear>, viewport: [i32; 4]) {
         self.sky = true;
         let motion = shear.map(|shear| far(shear, viewport));
         self.sky_motion = self.sky_motion.or(motion);

@@ -18,7 +18,7 @@ pub(super) fn watch(
 ) {
     let drawn = plan.method != Method::Once && facts.destination.is_window();
     if settings.synthesises && plan.method != Method::Once {
-        hindered(facts, known, effects);
+        report_hindrance(facts, known, effects);
     }
     if !settings.synthesises || !drawn {
         return;
@@ -49,8 +49,8 @@ pub(super) fn watch(
     }
 }
 
-/// Tells of a draw of the scene that each view gets, although no draw before it was the end of a scene to synthesise from.
-fn hindered(facts: &Facts, known: &Known, effects: &mut Vec<Effect>) {
+/// Reports why a draw of the scene is made in each view, where no scene to synthesise from has begun in this frame.
+fn report_hindrance(facts: &Facts, known: &Known, effects: &mut Vec<Effect>) {
     let begun = known.scene.is_some() || known.synthesised;
     let hindrance = match facts.destination.is_window() {
         true if begun => return,
@@ -162,7 +162,7 @@ fn belongs(
             no(NotOfScene::SkyOverScene)
         }
         Class::Sky => {
-            scene.has_sky(plan.shear.as_ref(), facts.rects.viewport);
+            scene.add_sky(plan.shear.as_ref(), facts.rects.viewport);
             Ok(None)
         }
         Class::Flat if scene.mapping.is_some() => no(NotOfScene::Flat),
@@ -172,7 +172,7 @@ fn belongs(
         Class::Flat | Class::OffScreen => Ok(None),
         // A sky by the rays of its fragments. It may write depths: those of the far end, since the scene is drawn over it.
         Class::Scene if facts.unprojects() && scene.mapping.is_none() => {
-            scene.has_sky(plan.shear.as_ref(), facts.rects.viewport);
+            scene.add_sky(plan.shear.as_ref(), facts.rects.viewport);
             Ok(None)
         }
         Class::Scene if facts.unprojects() => no(NotOfScene::Rays),
