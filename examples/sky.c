@@ -1,14 +1,16 @@
 /* Outdoors: a sky box that turns with the camera but never moves and writes no depth, a ground with pillars and smoke, balloons at the far end
  * of the depth range, a weapon in the viewer's hand at its near end, and over it a flat display. With --far-off the camera is far from the origin,
  * and the sky is moved to it by a second matrix, so that the two cancel but for what they round. With --cleared the sky is a small box that writes
- * depths, which are cleared for the ground. With --mist something transparent follows the sky. With --renamed the textures have other names, and with --repaint the program paints over that of the
- * ground before the second frame. */
+ * depths, which are cleared for the ground; with --sun as well, a sun is drawn between the two, at a place of its own and without depths. With
+ * --mist something transparent follows the sky. With --renamed the textures have other names, and with --repaint the program paints over that of
+ * the ground before the second frame. */
 #include "demo.h"
 #include <math.h>
 
-static int far_off, cleared, mist, renamed, repaint;
+static int far_off, cleared, sun, mist, renamed, repaint;
 const struct demo_option demo_options[] = {{"--far-off", "the camera and the sky are far from the origin", &far_off, 0},
                                            {"--cleared", "the sky writes depths, which are cleared after it", &cleared, 0},
+                                           {"--sun", "a sun is drawn after the sky", &sun, 0},
                                            {"--mist", "a mist before the sky is drawn before the ground", &mist, 0},
                                            {"--renamed", "the textures have other names", &renamed, 0},
                                            {"--repaint", "the ground is painted over before the second frame", &repaint, 0},
@@ -42,6 +44,22 @@ static void move_to_eye(void)
     glTranslated(eye[0], eye[1], eye[2]);
 }
 
+/* Before the sky, and behind all that follows it. */
+static void shine(void)
+{
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_TEXTURE_2D);
+    glColor3f(1.0f, 0.95f, 0.6f);
+    glPushMatrix();
+    glTranslated(-4.0, 3.0, -20.0);
+    glBegin(GL_QUADS);
+    for (int c = 0; c < 4; c++)
+        glVertex2d(c == 1 || c == 2 ? 1.0 : -1.0, c >= 2 ? 1.0 : -1.0);
+    glEnd();
+    glPopMatrix();
+    glEnable(GL_TEXTURE_2D);
+}
+
 /* Six sides around the eye. Its size does not matter: it is drawn first, and none of its depths are left. */
 static void sky(void)
 {
@@ -64,6 +82,8 @@ static void sky(void)
         }
         glEnd();
     }
+    if (sun)
+        shine();
     glDepthMask(GL_TRUE);
     glEnable(GL_DEPTH_TEST);
     if (cleared)

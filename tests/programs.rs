@@ -16,6 +16,8 @@ mod judge;
 mod parallax;
 #[path = "programs/pictures.rs"]
 mod pictures;
+#[path = "support/play.rs"]
+mod play;
 #[path = "programs/repeat.rs"]
 mod repeat;
 #[path = "programs/row.rs"]

@@ -50,12 +50,23 @@ pub struct Traits {
     pub far_end: bool,
     /// Nothing in perspective has written depth since the frame began or was last cleared.
     pub first: bool,
-    /// The last frame began with draws around the eye whose depths were cleared for the scene, and this one may have begun so.
-    pub backdrop: bool,
+    /// The last frame began with draws around the eye whose depths were cleared for the scene; how far this one has come.
+    pub backdrop: Stage,
     /// Without perspective, and yet a part of a scene (see [`super::decide::OrthographicWatch`]).
     pub slants: bool,
     /// By the frames before, it comes before everything else ([`super::decide::Foreground`]).
     pub foreground: bool,
+}
+
+/// The backdrop of a frame ([`super::decide::Backdrop`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// None is expected, or it is over.
+    None,
+    /// The next draw may be the first of it.
+    Expected,
+    /// Nothing else has been drawn yet.
+    Begun,
 }
 
 /// Where a draw goes.
@@ -129,9 +140,9 @@ impl core::fmt::Display for Why {
             Why::TurnsAboutEye => {
                 f.write_str("turns about the eye, writes no depth, comes before the scene")
             }
-            Why::Backdrop => {
-                f.write_str("turns about the eye, and depths are cleared for the scene after it")
-            }
+            Why::Backdrop => f.write_str(
+                "turns about the eye or has no depths, and depths are cleared for the scene after it",
+            ),
             Why::FarRange => f.write_str("at the far end of the depth range, behind everything"),
             Why::FarEnd => f.write_str("at the far end of the depths by its shader, behind everything"),
             Why::Foreground => f.write_str(
@@ -205,8 +216,9 @@ impl Classifier {
         self.hud_depth = depth;
     }
 
-    /// The groups of state that a draw's class may depend on, beside those that every draw needs. `first` as in [`Traits`].
-    pub fn needs(&self, kind: Kind, projection: Projection, first: bool) -> Touch {
+    /// The groups of state that a draw's class may depend on, beside those that every draw needs. `before`: nothing in perspective has written depth,
+    /// or nothing but a backdrop has.
+    pub fn needs(&self, kind: Kind, projection: Projection, before: bool) -> Touch {
         if matches!(kind, Kind::Clear { .. } | Kind::Accum) {
             return Touch::NONE;
         }
@@ -223,7 +235,7 @@ impl Classifier {
         if rule(|rule| !rule.texture.is_empty() || !rule.image.is_empty()) {
             needs = needs | Touch::TEXTURE;
         }
-        if projection == Projection::Perspective && first {
+        if projection == Projection::Perspective && before {
             needs = needs | Touch::DEPTH;
         }
         needs
@@ -310,9 +322,7 @@ impl Classifier {
             }
             Projection::Perspective if facts.far_end => classed(Class::Sky, Why::FarEnd),
             Projection::Perspective if is_sky(facts) => classed(Class::Sky, Why::TurnsAboutEye),
-            Projection::Perspective if facts.backdrop && facts.is_around_eye() => {
-                classed(Class::Sky, Why::Backdrop)
-            }
+            Projection::Perspective if is_in_backdrop(facts) => classed(Class::Sky, Why::Backdrop),
             Projection::Perspective if facts.foreground => classed(Class::Scene, Why::Foreground),
             Projection::Perspective => classed(Class::Scene, Why::Perspective),
         }
@@ -323,6 +333,15 @@ impl Classifier {
 /// nothing is a sky: programs that transform vertices themselves draw everything with it.
 fn is_sky(facts: &Traits) -> bool {
     facts.first && facts.is_around_eye() && facts.depth_state != DepthState::On
+}
+
+/// A backdrop is around the eye. A sun that follows it stands at a place, and has no depths.
+fn is_in_backdrop(facts: &Traits) -> bool {
+    match facts.backdrop {
+        Stage::None => false,
+        Stage::Expected => facts.is_around_eye(),
+        Stage::Begun => facts.is_around_eye() || facts.depth_state == DepthState::Off,
+    }
 }
 
 fn matches(rule: &Rule, facts: &Traits) -> bool {
@@ -377,7 +396,7 @@ impl Traits {
             far_end: false,
             slants: false,
             first: false,
-            backdrop: false,
+            backdrop: Stage::None,
             foreground: false,
         }
     }

@@ -7,7 +7,7 @@
 //!
 //! Cameras that follow the depths of every frame would make the scene breathe. So they move only when the scene has changed by
 //! an eighth, slowly towards more depth and faster towards less. They move at once only where a disparity would come near the end of the
-//! budget, the convergence first, because it leaves the depth of the scene as it is.
+//! budget, the convergence first, because it leaves the depth of the scene as it is. What comes nearer is expected to do so in the next frame as well.
 
 use crate::config::Kept;
 
@@ -18,6 +18,8 @@ pub(super) const BEFORE: f64 = 0.25;
 /// Parts of the budget that the last measured depths never exceed.
 pub(super) const LIMIT_BEHIND: f64 = 0.9;
 pub(super) const LIMIT_BEFORE: f64 = 0.5;
+/// Part of the budget that the nearest point does not exceed in the next frame, if it comes nearer by as much again.
+const LIMIT_COMING: f64 = 0.7;
 /// Part of the budget that the nearest point of a foreground gets, before the panel.
 const FOREGROUND: f64 = 0.5;
 /// The largest separation, in budgets: the disparity of an infinitely far point. A scene of little depth gets more than one budget until
@@ -115,6 +117,8 @@ pub struct Comfort {
     /// Separation and convergence in force.
     cameras: Option<(f64, f64)>,
     moving: bool,
+    /// 1/w of the nearest point of the scene in the last frame.
+    near: Option<f64>,
     /// 1/w of the farthest and the nearest point of the foreground that its cameras stand for.
     foreground: Option<[f64; 2]>,
 }
@@ -126,6 +130,7 @@ impl Comfort {
             kept,
             cameras: None,
             moving: false,
+            near: None,
             foreground: None,
         }
     }
@@ -171,14 +176,24 @@ impl Comfort {
             if let Some([_, near]) = seen.scene
                 && !self.keeps_convergence()
             {
-                convergence = convergence.min((1.0 + LIMIT_BEFORE * budget / separation) / near);
+                let most = |part: f64, inverse: f64| (1.0 + part * budget / separation) / inverse;
+                convergence = convergence
+                    .min(most(LIMIT_BEFORE, near))
+                    .min(most(LIMIT_COMING, self.coming(near)));
             }
             separation = separation.min(most(seen.reach(convergence)));
         }
         if separation.is_finite() && convergence.is_finite() {
             self.cameras = Some((separation, convergence));
         }
+        self.near = seen.scene.map(|[_, near]| near);
         self.cameras
+    }
+
+    /// 1/w of the nearest point in the next frame if it comes nearer as it has since the last one, at most to half of its distance.
+    fn coming(&self, near: f64) -> f64 {
+        let last = self.near.unwrap_or(near);
+        near / (2.0 - near / last).clamp(0.5, 1.0)
     }
 
     /// Depth of a sky under these cameras, as a part of the separation; 1 is infinitely far.
@@ -338,6 +353,20 @@ mod tests {
         };
         let cameras = Comfort::new(None).track(&weapon, &LIMITS).expect("cameras");
         assert!(cameras.0 * 8.0 <= LIMITS.budget);
+    }
+
+    #[test]
+    fn what_comes_near_is_met_before_it_is_there() {
+        // A wall of gltron, 8 frames a second.
+        let walls = [8.2, 8.07, 6.26, 4.08, 2.09];
+        let mut comfort = Comfort::new(None);
+        for (now, next) in walls.into_iter().zip(&walls[1..]) {
+            let cameras = comfort.track(&scene(now, 100.0), &LIMITS).expect("cameras");
+            let nearest = disparity(cameras, *next);
+            assert!(nearest > -LIMITS.budget, "{now}: {nearest}");
+        }
+        assert_eq!(comfort.coming(2.0 / 4.08), 4.0 / 4.08, "half its distance");
+        assert_eq!(comfort.coming(1.0 / 9.0), 1.0 / 9.0, "it goes away");
     }
 
     #[test]

@@ -67,7 +67,7 @@ pub(crate) fn scene(name: &str) -> Scene {
         "sky_far_off" => scene("sky", &["--far-off"], 1),
         "sky_cleared" => Scene {
             from: 1,
-            ..scene("sky", &["--cleared"], 2)
+            ..scene("sky", &["--cleared", "--sun"], 2)
         },
         "field" => scene("field", &[], 1),
         "shade" => scene("shade", &[], 1),

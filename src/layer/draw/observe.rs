@@ -119,10 +119,10 @@ impl Layer {
         let mut turns_by_shader = false;
         if shown {
             let classifier = &self.cameras.classifier;
-            let needs = classifier.needs(kind, projection, first);
+            let backdrop = self.known.frame.backdrop.may_go_on();
+            let needs = classifier.needs(kind, projection, first || backdrop);
             self.state.read_classification(gl, needs);
             let depth = self.state.classification.depth;
-            let backdrop = self.known.frame.backdrop.may_go_on();
             if classifier.needs_modelview(projection, first, depth, backdrop) && !clear {
                 match shaders {
                     Shaders::Variant(variant) => {
@@ -167,7 +167,7 @@ impl Layer {
             list: self.frame.list(),
             raster: self.cameras.raster_placed(),
             first,
-            backdrop: self.known.frame.backdrop.is_expected(),
+            backdrop: self.known.frame.backdrop.stage(),
             foreground: shown
                 && by_state.viewport == Viewport::Main
                 && foreground.has(self.state.framebuffers.draw, by_state.range),

@@ -31,7 +31,7 @@ fn facts() -> Traits {
         far_end: false,
         slants: false,
         first: true,
-        backdrop: false,
+        backdrop: Stage::None,
         foreground: false,
     }
 }
@@ -164,7 +164,7 @@ fn the_state_tells_what_a_draw_is() {
         depth_state: DepthState::On,
         first: false,
         turns: true,
-        backdrop: true,
+        backdrop: Stage::Begun,
         ..facts()
     };
     assert_eq!(class(&c, backdrop), (Class::Sky, Why::Backdrop));
@@ -173,6 +173,17 @@ fn the_state_tells_what_a_draw_is() {
         ..backdrop
     };
     assert_eq!(class(&c, moved), (Class::Scene, Why::Perspective));
+    let sun = Traits {
+        depth_state: DepthState::Off,
+        ..moved
+    };
+    assert_eq!(class(&c, sun), (Class::Sky, Why::Backdrop));
+    let expected = |facts| Traits {
+        backdrop: Stage::Expected,
+        ..facts
+    };
+    assert_eq!(class(&c, expected(backdrop)), (Class::Sky, Why::Backdrop));
+    assert_eq!(class(&c, expected(sun)), (Class::Scene, Why::Perspective));
     // By its shader alone.
     let far = Traits {
         depth_state: DepthState::On,

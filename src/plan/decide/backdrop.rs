@@ -1,13 +1,13 @@
 //! The backdrop: what a program draws around the eye before it clears the depths once more for the scene.
 //!
-//! It writes depths, which the clear throws away, so it stands behind everything: a sky. Only the end of a frame tells, so a frame is drawn by
-//! what the frame before it was.
+//! It writes depths, which the clear throws away, so it stands behind everything: a sky. What follows it before the clear without depths, such as a
+//! sun, belongs to it wherever it stands. Only the end of a frame tells, so a frame is drawn by what the frame before it was.
 
 use super::{Facts, is_perspective, is_whole};
-use crate::config::Viewport;
+use crate::config::{DepthState, Viewport};
 use crate::gl::consts as c;
 use crate::plan::Kind;
-use crate::plan::class::Target;
+use crate::plan::class::{Stage, Target};
 
 /// A backdrop has so many draws at most. A program that moves its vertices to the eye itself draws its whole scene around the eye.
 const MOST: u32 = 32;
@@ -26,18 +26,22 @@ enum Progress {
     /// Nothing has been drawn in perspective.
     #[default]
     Nothing,
-    /// So many draws, all around the eye.
+    /// So many draws, the first around the eye, the others too or without depths.
     Around(u32),
-    /// So many draws around the eye; then the depths were cleared, and so many draws followed.
+    /// So many such draws; then the depths were cleared, and so many draws followed.
     Cleared(u32, u32),
     /// Something else came first.
     Scene,
 }
 
 impl Backdrop {
-    /// Whether what is drawn around the eye now stands behind everything, by the last frame.
-    pub fn is_expected(&self) -> bool {
-        self.expected && self.may_go_on()
+    /// Whether the next draw may stand behind everything, by the last frame.
+    pub fn stage(&self) -> Stage {
+        match self.progress {
+            Progress::Nothing if self.expected => Stage::Expected,
+            Progress::Around(_) if self.expected => Stage::Begun,
+            _ => Stage::None,
+        }
     }
 
     /// Whether nothing but a backdrop has been drawn in perspective, so that the next draw may belong to it.
@@ -77,7 +81,9 @@ impl Backdrop {
         }
         self.progress = match self.progress {
             Progress::Nothing if traits.is_around_eye() => Progress::Around(1),
-            Progress::Around(draws) if traits.is_around_eye() => {
+            Progress::Around(draws)
+                if traits.is_around_eye() || traits.depth_state == DepthState::Off =>
+            {
                 Progress::Around(draws.saturating_add(1))
             }
             Progress::Nothing | Progress::Around(_) | Progress::Scene => Progress::Scene,

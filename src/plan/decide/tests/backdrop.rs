@@ -12,7 +12,7 @@ fn expected(around: u32, clear: Option<Facts>, after: u32) -> bool {
     for _ in 0..after {
         frame.backdrop.observe(&scene());
     }
-    frame.next().backdrop.is_expected()
+    frame.next().backdrop.stage() == Stage::Expected
 }
 
 fn turned() -> Facts {
@@ -53,7 +53,7 @@ fn depths_that_are_cleared_after_draws_around_the_eye_make_a_backdrop() {
 fn a_backdrop_ends_with_the_first_draw_elsewhere() {
     let mut frame = Frame::default();
     frame.backdrop.observe(&turned());
-    assert!(frame.backdrop.may_go_on() && !frame.backdrop.is_expected());
+    assert!(frame.backdrop.may_go_on() && frame.backdrop.stage() == Stage::None);
     let mut flat = turned();
     flat.traits.projection = Projection::Orthographic;
     let mut elsewhere = scene();
@@ -64,12 +64,25 @@ fn a_backdrop_ends_with_the_first_draw_elsewhere() {
         frame.backdrop.observe(&other);
         assert!(frame.backdrop.may_go_on());
     }
+    let mut sun = scene();
+    sun.traits.depth_state = DepthState::Off;
+    frame.backdrop.observe(&sun);
+    assert!(frame.backdrop.may_go_on());
     frame.backdrop.observe(&scene());
     assert!(!frame.backdrop.may_go_on());
     // What comes around the eye later is not before the scene.
     frame.backdrop.observe(&turned());
     frame.backdrop.observe(&cleared(c::DEPTH_BUFFER_BIT));
-    assert!(!frame.next().backdrop.is_expected());
+    assert_eq!(frame.next().backdrop.stage(), Stage::None);
+}
+
+#[test]
+fn what_has_no_depths_begins_no_backdrop() {
+    let mut frame = Frame::default();
+    let mut sun = scene();
+    sun.traits.depth_state = DepthState::Off;
+    frame.backdrop.observe(&sun);
+    assert!(!frame.backdrop.may_go_on());
 }
 
 #[test]
@@ -77,12 +90,12 @@ fn a_frame_is_drawn_by_what_the_last_one_was() {
     let mut frame = Frame::default();
     for command in [turned(), cleared(c::DEPTH_BUFFER_BIT), scene(), scene()] {
         frame.backdrop.observe(&command);
-        assert!(!frame.backdrop.is_expected());
+        assert_eq!(frame.backdrop.stage(), Stage::None);
     }
     let mut next = frame.next();
-    assert!(next.backdrop.is_expected());
+    assert_eq!(next.backdrop.stage(), Stage::Expected);
     next.backdrop.observe(&turned());
-    assert!(next.backdrop.is_expected());
+    assert_eq!(next.backdrop.stage(), Stage::Begun);
     next.backdrop.observe(&cleared(c::DEPTH_BUFFER_BIT));
-    assert!(!next.backdrop.is_expected(), "this is the scene");
+    assert_eq!(next.backdrop.stage(), Stage::None, "this is the scene");
 }
