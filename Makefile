@@ -114,8 +114,8 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|programs|release|soak)_/)'; \
-	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip programs_ --skip release_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak)_/)'; \
+	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
 packages-32: packages ## install the i386 packages that are missing
@@ -135,8 +135,8 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|programs|release|soak)_/)'; \
-	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip programs_ --skip release_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak)_/)'; \
+	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
 	$(MAKE) check-shadow
@@ -160,6 +160,9 @@ test-drivers: packages build demos ## run the main tests on old versions and oth
 
 programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (two hours)
 	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture
+
+looks: packages build ## play games as a new user launches them, without an option; writes docs/looks.md with pictures (an hour)
+	$(CARGO) test --release --test looks looks_ -- --ignored --nocapture
 
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak
 	$(CARGO) test --release --test soak soak_ -- --ignored --nocapture

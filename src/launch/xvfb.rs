@@ -9,7 +9,8 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
-const SCREEN: &str = "1920x1200x24";
+/// Pixels of the screen, unless others are asked for.
+const SCREEN: (u16, u16) = (1920, 1200);
 const START_LIMIT: Duration = Duration::from_secs(30);
 const END_LIMIT: Duration = Duration::from_secs(2);
 
@@ -25,6 +26,11 @@ pub struct Xvfb {
 impl Xvfb {
     /// Starts a server on the first free display and waits until it accepts programs.
     pub fn start() -> Result<Self, LaunchError> {
+        Self::sized(SCREEN)
+    }
+
+    /// The same with a screen of this width and height, pixels.
+    pub fn sized((width, height): (u16, u16)) -> Result<Self, LaunchError> {
         let mut child = Command::new("Xvfb")
             // The server itself chooses a free number and writes it to descriptor 1, which is our pipe. So there is no race for a number.
             .args([
@@ -32,7 +38,7 @@ impl Xvfb {
                 "1",
                 "-screen",
                 "0",
-                SCREEN,
+                &format!("{width}x{height}x24"),
                 "-nolisten",
                 "tcp",
                 "-noreset",

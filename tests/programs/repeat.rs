@@ -1,106 +1,28 @@
 //! Records programs and repeats their traces.
 
+use crate::play::{Ended, mute, play, run};
 use crate::support::{Screen, bare, layered};
 use crate::table::Program;
-use rustix::process::{Pid, Signal, kill_process_group};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
+use std::time::Duration;
 
 /// A trace that takes longer hangs: the slowest programs of the table show 2 frames a second in 8 views.
 const PATIENCE: Duration = Duration::from_secs(1200);
 
-/// The end of a command.
-pub(crate) struct Ended {
-    /// The status in words; `None` after success.
-    pub(crate) wrong: Option<String>,
-    /// Its stderr.
-    pub(crate) said: String,
-}
-
-/// Runs a command in a process group of its own and ends the whole group after a time.
-///
-/// `endless`: the program is not expected to end by itself, so ending it is no failure. `meanwhile` is called some fifty times a second
-/// with the time since the start.
-fn run(
-    command: &mut Command,
-    limit: Duration,
-    log: &Path,
-    endless: bool,
-    mut meanwhile: impl FnMut(Duration),
-) -> Ended {
-    let failed = |wrong: String| Ended {
-        wrong: Some(wrong),
-        said: String::new(),
-    };
-    let file = File::create(log).expect("a log");
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(file)
-        .process_group(0);
-    let mut child = match command.spawn() {
-        Ok(child) => child,
-        Err(error) => return failed(format!("does not start: {error}")),
-    };
-    let group = Pid::from_child(&child);
-    let start = Instant::now();
-    let mut status = None;
-    while status.is_none() && start.elapsed() < limit {
-        std::thread::sleep(Duration::from_millis(20));
-        meanwhile(start.elapsed());
-        status = child.try_wait().expect("a child");
-    }
-    let wrong = match status {
-        Some(status) => match status.signal() {
-            Some(signal) => Some(format!("signal {signal}")),
-            None if status.success() => None,
-            None => Some(format!("status {}", status.code().unwrap_or_default())),
-        },
-        None if endless => None,
-        None => Some(format!("not done after {} s", limit.as_secs())),
-    };
-    if status.is_none() {
-        // Ask politely first: apitrace then writes the rest of its trace.
-        let _ = kill_process_group(group, Signal::INT);
-        let asked = Instant::now();
-        while asked.elapsed() < Duration::from_secs(3) && matches!(child.try_wait(), Ok(None)) {
-            std::thread::sleep(Duration::from_millis(20));
-        }
-    }
-    // Its children may still run, even where it does not.
-    let _ = kill_process_group(group, Signal::KILL);
-    let _ = child.wait();
-    let bytes = fs::read(log).unwrap_or_default();
-    Ended {
-        wrong,
-        said: String::from_utf8_lossy(&bytes).into_owned(),
-    }
-}
-
 /// A program, ready to start, with the variables of its entry in the table.
 fn prepared<'a>(command: &'a mut Command, program: &Program, screen: &Screen) -> &'a mut Command {
-    screen
-        .give(command)
-        // Games find no sound card and need none.
-        .env("SDL_AUDIODRIVER", "dummy")
-        .env("ALSOFT_DRIVERS", "null")
-        .envs(&program.env)
+    mute(screen.give(command)).envs(&program.env)
 }
 
-/// Sends the program its input at the given times. There is no window manager: the window under the pointer has the keys.
-fn play<'a>(program: &'a Program, screen: &'a Screen) -> impl FnMut(Duration) + 'a {
-    let mut inputs = program.input.iter().peekable();
+/// Gives the program its input while it runs.
+fn inputs<'a>(program: &'a Program, screen: &'a Screen) -> impl FnMut(Duration) -> bool + 'a {
+    let mut play = play(&program.input, screen);
     move |time| {
-        if let Some(input) = inputs.next_if(|input| time.as_secs_f64() >= input.after) {
-            let mut command = bare("xdotool");
-            screen.give(&mut command).args(input.xdotool.split(' '));
-            // Without the tool the program stays in its menu, as the pictures show.
-            let _ = command.stderr(Stdio::null()).status();
-        }
+        play(time);
+        true
     }
 }
 
@@ -122,7 +44,7 @@ pub(crate) fn record(program: &Program, screen: &Screen, folder: &Path) -> Resul
         limit,
         &folder.join("record.log"),
         true,
-        play(program, screen),
+        inputs(program, screen),
     );
     let result = trim(&full, &trace, program.frames);
     let _ = fs::remove_file(&full);
@@ -205,7 +127,7 @@ pub(crate) fn repeat(
         PATIENCE,
         &folder.join("log"),
         false,
-        |_| {},
+        |_| true,
     );
     let entries = fs::read_dir(&shots).expect("a folder").flatten();
     let pictures = entries
@@ -234,7 +156,7 @@ pub(crate) fn live(
         Duration::from_secs(seconds),
         &folder.join("live.log"),
         true,
-        play(program, screen),
+        inputs(program, screen),
     )
 }
 

@@ -1,5 +1,6 @@
 //! The programs of programs.toml.
 
+use crate::play::Input;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -61,16 +62,6 @@ impl Program {
             false => "geometry",
         }
     }
-}
-
-/// An input while the program runs.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Input {
-    /// Seconds since the start; in the order of the list.
-    pub(crate) after: f64,
-    /// Arguments of xdotool.
-    pub(crate) xdotool: String,
 }
 
 /// The API that the context comes from.

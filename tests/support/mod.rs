@@ -7,7 +7,7 @@ pub(crate) mod views;
 
 use image::{ImageBuffer, RgbImage, Rgba};
 use manyview::config::OPTIONS;
-use manyview::launch::Xvfb;
+use manyview::launch::{LaunchError, Xvfb};
 use manyview::model::{Corner, Surface, triangles};
 use manyview::volume::{Triangle, Vertex};
 use std::path::{Path, PathBuf};
@@ -165,11 +165,12 @@ pub(crate) fn screen() -> Screen {
 
 /// Adds a screen of its own: the picture of a window is undefined where another one covers it.
 pub(crate) fn own_screen() -> Screen {
-    let server = Xvfb::start().expect("Xvfb; `make packages` installs it");
-    Screen {
-        display: server.display().to_owned(),
-        own: Some(server),
-    }
+    Screen::own(Xvfb::start())
+}
+
+/// The same of this width and height, pixels.
+pub(crate) fn sized_screen(size: (u16, u16)) -> Screen {
+    Screen::own(Xvfb::sized(size))
 }
 
 static SHARED: Mutex<Shared> = Mutex::new(Shared {
@@ -189,6 +190,14 @@ pub(crate) struct Screen {
 }
 
 impl Screen {
+    fn own(server: Result<Xvfb, LaunchError>) -> Self {
+        let server = server.expect("Xvfb; `make packages` installs it");
+        Self {
+            display: server.display().to_owned(),
+            own: Some(server),
+        }
+    }
+
     /// The value of `DISPLAY`.
     pub(crate) fn display(&self) -> &str {
         &self.display

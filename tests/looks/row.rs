@@ -1,0 +1,123 @@
+//! The checks of one game, as a row of docs/looks.md.
+
+use crate::launch::{Launched, VIEWS};
+use crate::shift::shifts;
+use crate::table::{Game, Part, Place};
+use serde_json::Value;
+
+/// Largest distance of a part from its place, pixels.
+const TOLERANCE: f64 = 1.0;
+
+/// The row of a game.
+pub(crate) struct Row {
+    pub(crate) failed: bool,
+    /// The cells after the name.
+    pub(crate) cells: [String; 3],
+}
+
+/// A game that could not be launched.
+pub(crate) fn failed(reason: &str) -> Row {
+    Row {
+        failed: true,
+        cells: [format!("**{reason}**"), String::new(), String::new()],
+    }
+}
+
+/// Disparities of the frame of the views, pixels between neighbouring views: nearest, farthest, and infinity.
+struct Depths {
+    near: f64,
+    far: f64,
+    infinity: f64,
+}
+
+fn depths(launched: &Launched) -> Option<Depths> {
+    let frames = launched.report["disparity"]["last_frames"].as_array()?;
+    // The frame itself may have no scene, or be younger than the report.
+    let frame = frames.iter().rfind(|frame| {
+        frame["frame"]
+            .as_u64()
+            .is_some_and(|number| number <= launched.frame)
+    })?;
+    let width = f64::from(launched.views[0].width());
+    Some(Depths {
+        near: frame["px"][0].as_f64()?,
+        far: frame["px"][2].as_f64()?,
+        // A camera that moves by one unit of the panel's plane, whose half width is 1, sees infinity move by half of the picture.
+        infinity: frame["separation"].as_f64()? * width / 2.0,
+    })
+}
+
+pub(crate) fn row(game: &Game, launched: &Launched) -> Row {
+    let depths = depths(launched);
+    let mut failed = game.depths && depths.is_none();
+    let parts = game.part.iter().map(|part| {
+        let (good, text) = judged(part, launched, depths.as_ref());
+        failed |= !good;
+        text
+    });
+    let parts = parts.collect::<Vec<_>>().join(", ");
+    Row {
+        cells: [
+            disparities(game, &launched.report),
+            parts,
+            notes(&launched.report),
+        ],
+        failed,
+    }
+}
+
+/// The depths of all frames, against the budget.
+fn disparities(game: &Game, report: &Value) -> String {
+    let about = &report["disparity"];
+    let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+    let frames = about["frames"].as_f64().unwrap_or(0.0);
+    if frames == 0.0 {
+        let text = match game.depths {
+            true => "**no scene with depths**",
+            false => "it writes no depths",
+        };
+        return text.into();
+    }
+    let rate = 1000.0 / number(&report["frame_ms"]["median"]);
+    let over = 100.0 * number(&about["frames_over_budget"]) / frames;
+    format!(
+        "{:+.2} to {:+.2} of {:.2}; {over:.0} % of {frames} frames, {rate:.0} a second",
+        number(&about["px"]["min"]),
+        number(&about["px"]["max"]),
+        number(&about["budget_px"]),
+    )
+}
+
+/// Whether a part is where it belongs, and the sentence about it.
+fn judged(part: &Part, launched: &Launched, depths: Option<&Depths>) -> (bool, String) {
+    let name = &part.name;
+    let Some(found) = shifts(&launched.views, part.at) else {
+        return (false, format!("**{name}: not found again**"));
+    };
+    let step = found[VIEWS as usize - 1] / f64::from(VIEWS - 1);
+    let (expected, [least, most]) = match (part.is, depths) {
+        (Place::Flat, _) => ("on the panel".to_owned(), [0.0; 2]),
+        (Place::Sky, Some(d)) => (format!("infinity {:+.2}", d.infinity), [d.infinity; 2]),
+        (Place::Scene, Some(d)) => {
+            let text = format!("scene {:+.2} to {:+.2}", d.near, d.far);
+            (text, [d.near, d.far])
+        }
+        (_, None) => return (false, format!("**{name}: no scene with depth**")),
+    };
+    // In every view, from the leftmost on.
+    let good = found.iter().enumerate().all(|(view, shift)| {
+        let views = view as f64;
+        (least * views - TOLERANCE..=most * views + TOLERANCE).contains(shift)
+    });
+    let text = format!("{name} {step:+.2} ({expected})");
+    (good, if good { text } else { format!("**{text}**") })
+}
+
+/// What the layer has told, and what it could not do.
+fn notes(report: &Value) -> String {
+    let notes = report["notes"].as_array().into_iter().flatten();
+    let notes = notes
+        .filter_map(Value::as_str)
+        .map(|note| note.replace('|', "/"));
+    notes.collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,81 @@
+//! The games of games.toml.
+
+use crate::play::Input;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// One game.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Game {
+    /// Its name, and that of its pictures.
+    pub(crate) name: String,
+    /// Debian packages, separated by spaces.
+    pub(crate) package: String,
+    /// Program and arguments.
+    pub(crate) command: Vec<String>,
+    /// Width and height of the screen, pixels.
+    #[serde(default = "screen")]
+    pub(crate) screen: (u16, u16),
+    /// Seconds from the start to the pictures.
+    pub(crate) at: f64,
+    /// Input that leads from the menu into the game.
+    #[serde(default)]
+    pub(crate) input: Vec<Input>,
+    /// Files that it finds in its home, by path: what a person would click on before.
+    #[serde(default)]
+    pub(crate) home: BTreeMap<String, String>,
+    /// Whether it writes depths, so that the report has disparities.
+    #[serde(default = "yes")]
+    pub(crate) depths: bool,
+    /// Parts of the picture whose place in depth is known.
+    #[serde(default)]
+    pub(crate) part: Vec<Part>,
+    /// What a person saw who looked at all views.
+    #[serde(default)]
+    pub(crate) seen: String,
+    /// Why a check fails, if one does.
+    pub(crate) known: Option<String>,
+}
+
+/// A part of the picture.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Part {
+    /// What it shows, such as `mountains`.
+    pub(crate) name: String,
+    /// Left, top, width and height in the leftmost view, pixels from its upper left corner.
+    pub(crate) at: [u32; 4],
+    /// Where it belongs.
+    pub(crate) is: Place,
+}
+
+/// A place in depth.
+#[derive(Clone, Copy, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Place {
+    /// At infinity.
+    Sky,
+    /// On the panel.
+    Flat,
+    /// Between the nearest and the farthest point of the scene.
+    Scene,
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn screen() -> (u16, u16) {
+    (800, 600)
+}
+
+/// All of them, in the order of the file.
+pub(crate) fn read() -> Vec<Game> {
+    #[derive(Deserialize)]
+    struct Table {
+        game: Vec<Game>,
+    }
+    let table: Table = toml::from_str(include_str!("games.toml")).expect("games.toml");
+    table.game
+}
