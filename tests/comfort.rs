@@ -189,9 +189,13 @@ fn a_scene_without_depths_is_in_the_budget_at_infinity() {
         support::rgb(&out)
     };
     assert_ne!(view("view:0", &AUTO), view("view:7", &AUTO), "flat");
-    // Three quarters of the budget at infinity, and zero parallax at √(1·100).
+    // Three quarters of the budget at infinity, and zero parallax a third of the way from 1 to 100.
     let separation = (0.75 * BUDGET / (WIDTH / 2.0)).to_string();
-    let placed = [("SEPARATION", separation.as_str()), ("CONVERGENCE", "10")];
+    let convergence = 100f64.cbrt().to_string();
+    let placed = [
+        ("SEPARATION", separation.as_str()),
+        ("CONVERGENCE", convergence.as_str()),
+    ];
     assert_eq!(view("view:0", &AUTO), view("view:0", &placed));
 }
 

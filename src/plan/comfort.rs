@@ -83,10 +83,12 @@ pub struct Seen {
 
 impl Seen {
     /// For a scene whose depths cannot be read, from the w of the near and the far plane of its projection: something
-    /// may be infinitely far, and zero parallax lies at their geometric mean.
+    /// may be infinitely far, and zero parallax lies between the planes, a third of the way on a logarithmic scale. At their geometric mean what is
+    /// near in mu-cade, whose far plane is far beyond all that it draws, is twice as far before the panel.
     pub fn by_planes([near, far]: [f64; 2]) -> Self {
+        let zero = (near * near * far).cbrt();
         Seen {
-            scene: Some([0.0, (1.0 + BEFORE / BEHIND) / (near * far).sqrt()]),
+            scene: Some([0.0, (1.0 + BEFORE / BEHIND) / zero]),
             ..Seen::default()
         }
     }
@@ -491,12 +493,11 @@ mod tests {
 
     #[test]
     fn a_scene_without_depths_lies_between_the_planes_of_its_projection() {
-        let seen = Seen::by_planes([1.0, 100.0]);
+        let seen = Seen::by_planes([1.0, 1000.0]);
         let [far, near] = seen.scene.expect("a scene");
         assert_eq!(far, 0.0, "something may be infinitely far");
         assert!((near - (1.0 + BEFORE / BEHIND) / 10.0).abs() < 1e-12);
         let cameras = Comfort::new(None).track(&seen, &LIMITS);
-        // Zero parallax lies at the geometric mean of the planes.
         assert!((cameras.expect("cameras").1 - 10.0).abs() < 1e-9);
     }
 }

@@ -69,7 +69,9 @@ pub(crate) fn shifts(views: &[RgbImage], at: [u32; 4]) -> Option<Vec<f64>> {
 fn a_shift_is_found_to_a_part_of_a_pixel() {
     let view = |shift: f64| {
         RgbImage::from_fn(200, 60, |x, y| {
-            let wave = ((f64::from(x) - shift) * 0.4 + f64::from(y)).sin();
+            // Waves of lengths that no shift brings together again.
+            let at = f64::from(x) - shift + 0.3 * f64::from(y);
+            let wave = ((0.31 * at).sin() + (0.173 * at).sin() + (0.0617 * at).sin()) / 3.0;
             image::Rgb([(127.0 + 100.0 * wave) as u8, 9, (90.0 - 80.0 * wave) as u8])
         })
     };

@@ -173,17 +173,13 @@ fn the_state_tells_what_a_draw_is() {
         ..backdrop
     };
     assert_eq!(class(&c, moved), (Class::Scene, Why::Perspective));
-    let sun = Traits {
-        depth_state: DepthState::Off,
-        ..moved
-    };
+    let (mut begins, mut sun) = (backdrop, moved);
+    begins.backdrop = Stage::Expected;
+    assert_eq!(class(&c, begins), (Class::Sky, Why::Backdrop));
+    sun.depth_state = DepthState::Off;
     assert_eq!(class(&c, sun), (Class::Sky, Why::Backdrop));
-    let expected = |facts| Traits {
-        backdrop: Stage::Expected,
-        ..facts
-    };
-    assert_eq!(class(&c, expected(backdrop)), (Class::Sky, Why::Backdrop));
-    assert_eq!(class(&c, expected(sun)), (Class::Scene, Why::Perspective));
+    sun.backdrop = Stage::Expected;
+    assert_eq!(class(&c, sun), (Class::Scene, Why::Perspective));
     // By its shader alone.
     let far = Traits {
         depth_state: DepthState::On,
