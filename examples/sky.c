@@ -44,8 +44,8 @@ static void move_to_eye(void)
     glTranslated(eye[0], eye[1], eye[2]);
 }
 
-/* Before the sky, and behind all that follows it. */
-static void shine(void)
+/* In front of the sky, and behind all that follows: without depths, at a place of its own. */
+static void sun_disc(void)
 {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_TEXTURE_2D);
@@ -83,7 +83,7 @@ static void sky(void)
         glEnd();
     }
     if (sun)
-        shine();
+        sun_disc();
     glDepthMask(GL_TRUE);
     glEnable(GL_DEPTH_TEST);
     if (cleared)

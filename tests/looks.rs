@@ -1,6 +1,6 @@
 //! First launches: games are played without any option, and looked at; docs/looks.md is the result.
 //!
-//! `make looks` plays all of tests/looks/games.toml and takes about an hour. `MANYVIEW_LOOKS=torcs,etr` plays only these, `-` none; the
+//! `make looks` plays all of tests/looks/games.toml and takes about an hour. `MANYVIEW_LOOKS=torcs,neverball` plays only these, `-` none; the
 //! others keep what the page has. Views, report and log of each are kept in target/looks; with `MANYVIEW_LOOKS_KEPT=1` these are judged again and
 //! nothing is played, which helps to name parts.
 #![forbid(unsafe_code)]
@@ -22,10 +22,8 @@ mod shift;
 #[path = "looks/table.rs"]
 mod table;
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use support::scratch;
 use table::Game;
 
@@ -53,24 +51,8 @@ fn look(game: &Game) -> page::Entry {
 #[ignore = "an hour: make looks"]
 fn looks_of_games() {
     let games = table::read();
-    let wanted = std::env::var("MANYVIEW_LOOKS").unwrap_or_default();
-    let wanted: BTreeSet<_> = wanted.split(',').filter(|name| !name.is_empty()).collect();
-    let chosen = |game: &&Game| wanted.is_empty() || wanted.contains(game.name.as_str());
-    let chosen: Vec<_> = games.iter().filter(chosen).collect();
-    assert!(
-        !chosen.is_empty() || wanted.contains("-"),
-        "MANYVIEW_LOOKS names no game"
-    );
-    let packages: BTreeSet<_> = chosen
-        .iter()
-        .flat_map(|game| game.package.split(' '))
-        .chain(["xdotool"])
-        .collect();
-    let status = Command::new("sh")
-        .args(["scripts/packages.sh", "--optional"])
-        .args(packages)
-        .status();
-    status.expect("sh");
+    let chosen = play::chosen("MANYVIEW_LOOKS", &games, |game| &game.name);
+    play::install(chosen.iter().map(|game| game.package.as_str()));
     let kept = || page::entries(&fs::read_to_string(PAGE).unwrap_or_default());
     let write = |entries| fs::write(PAGE, page::page(&games, &entries)).expect("written");
     write(kept());
@@ -91,7 +73,7 @@ fn looks_of_games() {
     let expected = |game: &&Game| {
         entries
             .get(&game.name)
-            .is_none_or(|entry| entry.passes() == game.known.is_none())
+            .is_none_or(|entry| entry.passes() == (game.known.is_none() && game.wrong.is_none()))
     };
     let unexplained: Vec<_> = games
         .iter()

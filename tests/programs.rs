@@ -30,7 +30,6 @@ mod tally;
 use row::Row;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::process::Command;
 use std::sync::Mutex;
 use std::time::Instant;
 use support::{has, own_screen, scratch};
@@ -110,30 +109,8 @@ fn run(programs: Vec<&Program>, table: &[Program]) {
 fn programs_are_compatible() {
     assert!(has("apitrace") && has("glretrace"), "make packages");
     let table = table::read();
-    let wanted: Option<BTreeSet<String>> =
-        variable("MANYVIEW_PROGRAMS").map(|names| names.split(',').map(str::to_owned).collect());
-    let chosen = |program: &&Program| {
-        wanted
-            .as_ref()
-            .is_none_or(|names| names.contains(&program.name))
-    };
-    let programs: Vec<_> = table.iter().filter(chosen).collect();
-    let none = variable("MANYVIEW_PROGRAMS").is_some_and(|names| names == "-");
-    assert!(
-        none || !programs.is_empty(),
-        "MANYVIEW_PROGRAMS names no program"
-    );
-    let packages: BTreeSet<_> = programs
-        .iter()
-        .flat_map(|program| program.package.split(' '))
-        .chain(["xdotool"])
-        .collect();
-    let status = Command::new("sh")
-        .args(["scripts/packages.sh", "--optional"])
-        .args(packages)
-        .status();
-    // A package that cannot be had is a row of the table as well.
-    status.expect("sh");
+    let programs = play::chosen("MANYVIEW_PROGRAMS", &table, |program| &program.name);
+    play::install(programs.iter().map(|program| program.package.as_str()));
     run(programs, &table);
 
     let rows = kept(&table);

@@ -51,21 +51,21 @@ pub struct Traits {
     /// Nothing in perspective has written depth since the frame began or was last cleared.
     pub first: bool,
     /// The last frame began with draws around the eye whose depths were cleared for the scene; how far this one has come.
-    pub backdrop: Stage,
+    pub backdrop: BackdropStage,
     /// Without perspective, and yet a part of a scene (see [`super::decide::OrthographicWatch`]).
     pub slants: bool,
     /// By the frames before, it comes before everything else ([`super::decide::Foreground`]).
     pub foreground: bool,
 }
 
-/// The backdrop of a frame ([`super::decide::Backdrop`]).
+/// How far a frame has come with its backdrop ([`super::decide::Backdrop`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
+pub enum BackdropStage {
     /// None is expected, or it is over.
     None,
     /// The next draw may be the first of it.
     Expected,
-    /// Nothing else has been drawn yet.
+    /// It has begun, and nothing else has been drawn yet.
     Begun,
 }
 
@@ -338,9 +338,9 @@ fn is_sky(facts: &Traits) -> bool {
 /// A backdrop is around the eye. A sun that follows it stands at a place, and has no depths.
 fn is_in_backdrop(facts: &Traits) -> bool {
     match facts.backdrop {
-        Stage::None => false,
-        Stage::Expected => facts.is_around_eye(),
-        Stage::Begun => facts.is_around_eye() || facts.depth_state == DepthState::Off,
+        BackdropStage::None => false,
+        BackdropStage::Expected => facts.is_around_eye(),
+        BackdropStage::Begun => facts.is_around_eye() || facts.depth_state == DepthState::Off,
     }
 }
 
@@ -396,7 +396,7 @@ impl Traits {
             far_end: false,
             slants: false,
             first: false,
-            backdrop: Stage::None,
+            backdrop: BackdropStage::None,
             foreground: false,
         }
     }

@@ -144,6 +144,9 @@ impl Comfort {
 
     /// Separation and convergence after a frame in which `seen` was visible; none before the first scene.
     pub fn track(&mut self, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
+        let near = seen.scene.map(|[_, near]| near);
+        let coming = near.map(|near| coming(self.near.unwrap_or(near), near));
+        self.near = near;
         let Some(goal) = self.goal(seen, limits) else {
             return self.cameras;
         };
@@ -175,27 +178,20 @@ impl Comfort {
             };
             let [behind, _] = seen.reach(convergence);
             separation = separation.min(LIMIT_BEHIND * budget / behind);
-            if let Some([_, near]) = seen.scene
+            if let (Some(near), Some(coming)) = (near, coming)
                 && !self.keeps_convergence()
             {
                 let most = |part: f64, inverse: f64| (1.0 + part * budget / separation) / inverse;
                 convergence = convergence
                     .min(most(LIMIT_BEFORE, near))
-                    .min(most(LIMIT_COMING, self.coming(near)));
+                    .min(most(LIMIT_COMING, coming));
             }
             separation = separation.min(most(seen.reach(convergence)));
         }
         if separation.is_finite() && convergence.is_finite() {
             self.cameras = Some((separation, convergence));
         }
-        self.near = seen.scene.map(|[_, near]| near);
         self.cameras
-    }
-
-    /// 1/w of the nearest point in the next frame if it comes nearer as it has since the last one, at most to half of its distance.
-    fn coming(&self, near: f64) -> f64 {
-        let last = self.near.unwrap_or(near);
-        near / (2.0 - near / last).clamp(0.5, 1.0)
     }
 
     /// Depth of a sky under these cameras, as a part of the separation; 1 is infinitely far.
@@ -287,6 +283,12 @@ impl Comfort {
     }
 }
 
+/// 1/w of a point in the next frame if it comes nearer by as much as since the last one, at most to half of its distance. One that goes away is
+/// taken to stay. `last` and `now` are its 1/w.
+fn coming(last: f64, now: f64) -> f64 {
+    now / (2.0 - now / last).clamp(0.5, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -367,8 +369,12 @@ mod tests {
             let nearest = disparity(cameras, *next);
             assert!(nearest > -LIMITS.budget, "{now}: {nearest}");
         }
-        assert_eq!(comfort.coming(2.0 / 4.08), 4.0 / 4.08, "half its distance");
-        assert_eq!(comfort.coming(1.0 / 9.0), 1.0 / 9.0, "it goes away");
+        // From 9 to 8 and on to 7.
+        assert!((coming(1.0 / 9.0, 1.0 / 8.0) - 1.0 / 7.0).abs() < 1e-12);
+        assert_eq!(coming(1.0 / 9.0, 1.0 / 4.0), 1.0 / 2.0, "half its distance");
+        assert_eq!(coming(1.0 / 8.0, 1.0 / 9.0), 1.0 / 9.0, "it goes away");
+        comfort.track(&Seen::default(), &LIMITS);
+        assert_eq!(comfort.near, None, "nothing was seen that could come");
     }
 
     #[test]

@@ -120,14 +120,14 @@ pub(crate) fn kept(folder: &Path, frame: u64) -> Result<Launched, String> {
 /// Asks the game for its views, and returns the frame that they are of, or the largest number where it took so long that the answer was not waited
 /// for; `None` where there are none yet.
 fn captured(home: &Path, atlas: &Path) -> Option<u64> {
+    if atlas.is_file() {
+        return Some(u64::MAX);
+    }
     let mut command = manyview();
     new_user(&mut command, home);
     command
         .args(["ctl", "capture", "--what", "atlas"])
         .arg(atlas);
-    if atlas.is_file() {
-        return Some(u64::MAX);
-    }
     let output = command.output().expect("manyview");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     let frame = said.rsplit_once("(frame ")?.1;

@@ -10,13 +10,13 @@ const HEAD: &str = "\
 
 Games of Debian 12 under the layer as a new user launches them: `manyview run -- GAME`, without any option or profile of the user's.
 `make looks` makes this page; it is not edited by hand. [tests/looks/games.toml](../tests/looks/games.toml) has the commands, the keys that lead
-into the game, the parts that are looked at, and what a person saw in all views.
+into the game, the parts that are looked at, and what a person saw.
 
 Each picture shows the leftmost, the fifth and the rightmost of the 8 views, then an anaglyph of the outermost two (red and cyan), as deep as
 the panel shows it, and the disparities of the frames before it.
 
 - disparities: of the nearest and of the farthest point of the scene in all frames, in pixels between neighbouring views, positive behind the
-  panel; the budget of the display; the share of frames beyond it. The frames are drawn by the processor, so there are few in a second, and a
+  panel; the budget of the display; the share of frames beyond it, which is no failure (*italic*). The frames are drawn by the processor, so there are few in a second, and a
   camera moves far from one to the next.
 - parts: how far a part of the picture moves between neighbouring views, measured in the pixels, and where it belongs. In each of the 8 views it
   has to be there within one pixel.
@@ -59,6 +59,9 @@ pub(crate) fn entry(game: &Game, row: &Row, pictures: bool) -> Entry {
         }
     };
     paragraph(&format!("`{}`. {}", game.command.join(" "), game.seen));
+    if let Some(wrong) = &game.wrong {
+        paragraph(&format!("**Wrong**: {wrong}."));
+    }
     if let Some(known) = &game.known {
         paragraph(&format!("Why it fails: {known}."));
     }
@@ -102,8 +105,11 @@ pub(crate) fn page(games: &[Game], entries: &BTreeMap<String, Entry>) -> String 
             .filter_map(|game| Some((game, entries.get(&game.name)?)))
     };
     let passed = known().filter(|(_, entry)| entry.passes()).count();
+    let beyond = known()
+        .filter(|(_, entry)| entry.line.contains(" %* of "))
+        .count();
     let mut text = format!(
-        "{HEAD}{} games, {passed} pass. Failures are **bold**.\n\n",
+        "{HEAD}{} games, {passed} pass; in {beyond} some frames are beyond the budget. Failures are **bold**.\n\n",
         known().count()
     );
     text.push_str("| game | disparities | parts | verdict |\n|---|---|---|---|\n");

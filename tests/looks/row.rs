@@ -49,7 +49,7 @@ fn depths(launched: &Launched) -> Option<Depths> {
 
 pub(crate) fn row(game: &Game, launched: &Launched) -> Row {
     let depths = depths(launched);
-    let mut failed = game.depths && depths.is_none();
+    let mut failed = game.wrong.is_some() || game.depths && depths.is_none();
     let parts = game.part.iter().map(|part| {
         let (good, text) = judged(part, launched, depths.as_ref());
         failed |= !good;
@@ -80,8 +80,12 @@ fn disparities(game: &Game, report: &Value) -> String {
     }
     let rate = 1000.0 / number(&report["frame_ms"]["median"]);
     let over = 100.0 * number(&about["frames_over_budget"]) / frames;
+    let share = match over {
+        0.0 => format!("none of {frames} frames"),
+        _ => format!("*{over:.1} %* of {frames} frames"),
+    };
     format!(
-        "{:+.2} to {:+.2} of {:.2}; {over:.0} % of {frames} frames, {rate:.0} a second",
+        "{:+.2} to {:+.2} of {:.2}; {share}, {rate:.0} a second",
         number(&about["px"]["min"]),
         number(&about["px"]["max"]),
         number(&about["budget_px"]),

@@ -31,9 +31,11 @@ pub(crate) struct Game {
     /// Parts of the picture whose place in depth is known.
     #[serde(default)]
     pub(crate) part: Vec<Part>,
-    /// What a person saw who looked at all views.
+    /// What a person saw.
     #[serde(default)]
     pub(crate) seen: String,
+    /// What a person saw that is wrong. The game fails, although no check measures it.
+    pub(crate) wrong: Option<String>,
     /// Why a check fails, if one does.
     pub(crate) known: Option<String>,
 }

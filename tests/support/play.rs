@@ -4,6 +4,7 @@
 use crate::support::{Screen, bare};
 use rustix::process::{Pid, Signal, kill_process_group};
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::Path;
@@ -107,4 +108,30 @@ pub(crate) fn play<'a>(inputs: &'a [Input], screen: &'a Screen) -> impl FnMut(Du
             let _ = command.stderr(Stdio::null()).status();
         }
     }
+}
+
+/// What a variable names, with commas between: all where it is unset or empty, none for `-`.
+pub(crate) fn chosen<'a, T>(variable: &str, all: &'a [T], name: impl Fn(&T) -> &str) -> Vec<&'a T> {
+    let wanted = std::env::var(variable).unwrap_or_default();
+    let wanted: BTreeSet<_> = wanted.split(',').filter(|name| !name.is_empty()).collect();
+    let chosen = |one: &&T| wanted.is_empty() || wanted.contains(name(one));
+    let chosen: Vec<_> = all.iter().filter(chosen).collect();
+    assert!(
+        !chosen.is_empty() || wanted.contains("-"),
+        "{variable} names none of them"
+    );
+    chosen
+}
+
+/// Installs Debian packages, with spaces between, and what sends the input. One that cannot be had is a failure of its program.
+pub(crate) fn install<'a>(packages: impl Iterator<Item = &'a str>) {
+    let packages: BTreeSet<_> = packages
+        .flat_map(|packages| packages.split(' '))
+        .chain(["xdotool"])
+        .collect();
+    let status = Command::new("sh")
+        .args(["scripts/packages.sh", "--optional"])
+        .args(packages)
+        .status();
+    status.expect("sh");
 }

@@ -31,7 +31,7 @@ fn facts() -> Traits {
         far_end: false,
         slants: false,
         first: true,
-        backdrop: Stage::None,
+        backdrop: BackdropStage::None,
         foreground: false,
     }
 }
@@ -164,7 +164,7 @@ fn the_state_tells_what_a_draw_is() {
         depth_state: DepthState::On,
         first: false,
         turns: true,
-        backdrop: Stage::Begun,
+        backdrop: BackdropStage::Begun,
         ..facts()
     };
     assert_eq!(class(&c, backdrop), (Class::Sky, Why::Backdrop));
@@ -174,11 +174,11 @@ fn the_state_tells_what_a_draw_is() {
     };
     assert_eq!(class(&c, moved), (Class::Scene, Why::Perspective));
     let (mut begins, mut sun) = (backdrop, moved);
-    begins.backdrop = Stage::Expected;
+    begins.backdrop = BackdropStage::Expected;
     assert_eq!(class(&c, begins), (Class::Sky, Why::Backdrop));
     sun.depth_state = DepthState::Off;
     assert_eq!(class(&c, sun), (Class::Sky, Why::Backdrop));
-    sun.backdrop = Stage::Expected;
+    sun.backdrop = BackdropStage::Expected;
     assert_eq!(class(&c, sun), (Class::Scene, Why::Perspective));
     // By its shader alone.
     let far = Traits {

@@ -7,7 +7,7 @@ use super::{Facts, is_perspective, is_whole};
 use crate::config::{DepthState, Viewport};
 use crate::gl::consts as c;
 use crate::plan::Kind;
-use crate::plan::class::{Stage, Target};
+use crate::plan::class::{BackdropStage, Target};
 
 /// A backdrop has so many draws at most. A program that moves its vertices to the eye itself draws its whole scene around the eye.
 const MOST: u32 = 32;
@@ -36,11 +36,11 @@ enum Progress {
 
 impl Backdrop {
     /// Whether the next draw may stand behind everything, by the last frame.
-    pub fn stage(&self) -> Stage {
+    pub fn stage(&self) -> BackdropStage {
         match self.progress {
-            Progress::Nothing if self.expected => Stage::Expected,
-            Progress::Around(_) if self.expected => Stage::Begun,
-            _ => Stage::None,
+            Progress::Nothing if self.expected => BackdropStage::Expected,
+            Progress::Around(_) if self.expected => BackdropStage::Begun,
+            _ => BackdropStage::None,
         }
     }
 

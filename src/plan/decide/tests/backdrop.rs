@@ -12,7 +12,7 @@ fn expected(around: u32, clear: Option<Facts>, after: u32) -> bool {
     for _ in 0..after {
         frame.backdrop.observe(&scene());
     }
-    frame.next().backdrop.stage() == Stage::Expected
+    frame.next().backdrop.stage() == BackdropStage::Expected
 }
 
 fn turned() -> Facts {
@@ -53,7 +53,7 @@ fn depths_that_are_cleared_after_draws_around_the_eye_make_a_backdrop() {
 fn a_backdrop_ends_with_the_first_draw_elsewhere() {
     let mut frame = Frame::default();
     frame.backdrop.observe(&turned());
-    assert!(frame.backdrop.may_go_on() && frame.backdrop.stage() == Stage::None);
+    assert!(frame.backdrop.may_go_on() && frame.backdrop.stage() == BackdropStage::None);
     let mut flat = turned();
     flat.traits.projection = Projection::Orthographic;
     let mut elsewhere = scene();
@@ -73,7 +73,7 @@ fn a_backdrop_ends_with_the_first_draw_elsewhere() {
     // What comes around the eye later is not before the scene.
     frame.backdrop.observe(&turned());
     frame.backdrop.observe(&cleared(c::DEPTH_BUFFER_BIT));
-    assert_eq!(frame.next().backdrop.stage(), Stage::None);
+    assert_eq!(frame.next().backdrop.stage(), BackdropStage::None);
 }
 
 #[test]
@@ -90,12 +90,16 @@ fn a_frame_is_drawn_by_what_the_last_one_was() {
     let mut frame = Frame::default();
     for command in [turned(), cleared(c::DEPTH_BUFFER_BIT), scene(), scene()] {
         frame.backdrop.observe(&command);
-        assert_eq!(frame.backdrop.stage(), Stage::None);
+        assert_eq!(frame.backdrop.stage(), BackdropStage::None);
     }
     let mut next = frame.next();
-    assert_eq!(next.backdrop.stage(), Stage::Expected);
+    assert_eq!(next.backdrop.stage(), BackdropStage::Expected);
     next.backdrop.observe(&turned());
-    assert_eq!(next.backdrop.stage(), Stage::Begun);
+    assert_eq!(next.backdrop.stage(), BackdropStage::Begun);
     next.backdrop.observe(&cleared(c::DEPTH_BUFFER_BIT));
-    assert_eq!(next.backdrop.stage(), Stage::None, "this is the scene");
+    assert_eq!(
+        next.backdrop.stage(),
+        BackdropStage::None,
+        "this is the scene"
+    );
 }

@@ -5,7 +5,7 @@ use super::*;
 use crate::config::{Camera, DepthRange, DepthState, Viewport};
 use crate::gl::{FramebufferName, ProgramName, TextureName, consts as c};
 use crate::plan::Rig;
-use crate::plan::class::{Stage, Target, Traits, Why};
+use crate::plan::class::{BackdropStage, Target, Traits, Why};
 use crate::plan::reason::{Missing, Reason, Replayed, Unrepresentable};
 use crate::state::ClassificationState;
 
@@ -57,7 +57,7 @@ pub(super) fn scene() -> Facts {
             far_end: false,
             slants: false,
             first: true,
-            backdrop: Stage::None,
+            backdrop: BackdropStage::None,
             foreground: false,
         },
         classed: classed(Class::Scene),
