@@ -55,7 +55,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build release demos demo bench overhead pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
+.PHONY: help build release demos demo bench overhead pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -159,10 +159,13 @@ test-drivers: packages build demos ## run the main tests on old versions and oth
 	$(CARGO) test --release --test drivers drivers_ -- --ignored --nocapture
 
 programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (two hours)
-	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture
+	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture --test-threads=1
 
 looks: packages build ## play games as a new user launches them, without an option; writes docs/looks.md with pictures (an hour)
-	$(CARGO) test --release --test looks looks_ -- --ignored --nocapture
+	$(CARGO) test --release --test looks looks_of_games -- --ignored --nocapture
+
+looks-strategies: packages build ## play them under each strategy, the only option; writes docs/looks-strategies.md (two hours)
+	$(CARGO) test --release --test looks looks_agree -- --ignored --nocapture
 
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak
 	$(CARGO) test --release --test soak soak_ -- --ignored --nocapture

@@ -2,7 +2,7 @@
 //!
 //! `make looks` plays all of tests/looks/games.toml and takes about an hour. `MANYVIEW_LOOKS=torcs,neverball` plays only these, `-` none; the
 //! others keep what the page has. Views, report and log of each are kept in target/looks; with `MANYVIEW_LOOKS_KEPT=1` these are judged again and
-//! nothing is played, which helps to name parts.
+//! nothing is played, which helps to name parts. `make looks-strategies` plays them once more under each strategy; docs/looks-strategies.md.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -19,6 +19,8 @@ mod play;
 mod row;
 #[path = "looks/shift.rs"]
 mod shift;
+#[path = "looks/strategies.rs"]
+mod strategies;
 #[path = "looks/table.rs"]
 mod table;
 
@@ -29,6 +31,7 @@ use table::Game;
 
 const PAGE: &str = "docs/looks.md";
 const PICTURES: &str = "docs/looks";
+const STRATEGIES: &str = "docs/looks-strategies.md";
 
 /// Plays a game and writes its pictures.
 fn look(game: &Game) -> page::Entry {
@@ -36,7 +39,7 @@ fn look(game: &Game) -> page::Entry {
     fs::create_dir_all(&folder).expect("a folder");
     let launched = match std::env::var_os("MANYVIEW_LOOKS_KEPT") {
         Some(_) => launch::kept(&folder, u64::MAX),
-        None => launch::launch(game, &folder),
+        None => launch::launch(game, &folder, None),
     };
     let launched = match launched {
         Ok(launched) => launched,
@@ -84,5 +87,40 @@ fn looks_of_games() {
         unexplained.is_empty(),
         "fix what fails, or give it a `known` in games.toml with the cause; take out the `known` of what no longer fails: {}",
         unexplained.join(", ")
+    );
+}
+
+#[test]
+#[ignore = "two hours: make looks-strategies"]
+fn looks_agree_under_every_strategy() {
+    let games = table::read();
+    let chosen = play::chosen("MANYVIEW_LOOKS", &games, |game| &game.name);
+    let chosen: Vec<_> = chosen.into_iter().filter(|game| game.depths).collect();
+    play::install(chosen.iter().map(|game| game.package.as_str()));
+    let mut wrong = Vec::new();
+    for (at, game) in chosen.iter().enumerate() {
+        let cells = strategies::STRATEGIES.map(|strategy| {
+            let folder = scratch("looks-strategies").join(&game.name).join(strategy);
+            fs::create_dir_all(&folder).expect("a folder");
+            let cell = strategies::cell(game, &launch::launch(game, &folder, Some(strategy)));
+            eprintln!(
+                "{}/{} {} {strategy}: {cell}",
+                at + 1,
+                chosen.len(),
+                game.name
+            );
+            if cell.contains("**") {
+                wrong.push(format!("{} {strategy}", game.name));
+            }
+            cell
+        });
+        let mut all = strategies::cells(&fs::read_to_string(STRATEGIES).unwrap_or_default());
+        all.insert(game.name.clone(), cells.to_vec());
+        fs::write(STRATEGIES, strategies::page(&games, &all)).expect("written");
+    }
+    assert!(
+        wrong.is_empty(),
+        "parts are not where they belong: {}",
+        wrong.join(", ")
     );
 }

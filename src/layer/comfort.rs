@@ -223,12 +223,15 @@ impl Layer {
         }
         if measured
             && !self.cameras.comfort.has_found()
+            && !self.cameras.comfort.cameras.has_seen()
             && let Some(p) = self.known.depths.projection.filter(|p| !parallax::flat(p))
         {
             let (_, scale) = parallax::lens(&p);
             let planes = parallax::planes(&p).map(|distance| distance * scale);
+            let limits = self.reach().limits(parallax::lens(&p));
+            let comfort = &mut self.cameras.comfort;
             let seen = comfort::Seen::by_planes(planes);
-            self.find_cameras(&p, &seen);
+            comfort.next = comfort.cameras.assume(&seen, &limits);
         }
         self.set_measured_cameras();
         self.cameras.comfort.cuts.end_frame();

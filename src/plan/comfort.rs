@@ -33,6 +33,8 @@ const ARRIVED: f64 = 0.01;
 const INWARDS: f64 = 0.15;
 const OUTWARDS: f64 = 0.02;
 const ALONG: f64 = 0.03;
+/// The nearest point of two frames is at about the same distance where the logarithms differ by less: half as far, or twice.
+const ALIKE: f64 = std::f64::consts::LN_2;
 
 /// What a display can show between neighbouring views.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,6 +121,9 @@ pub struct Comfort {
     /// Separation and convergence in force.
     cameras: Option<(f64, f64)>,
     moving: bool,
+    /// The cameras jump to the scene once its nearest point is at about the same distance in two frames in a row. A world that is still being
+    /// loaded may show nothing but its clouds, or the player's hand.
+    jumps: bool,
     /// 1/w of the nearest point of the scene in the last frame.
     near: Option<f64>,
     /// 1/w of the farthest and the nearest point of the foreground that its cameras stand for.
@@ -132,9 +137,17 @@ impl Comfort {
             kept,
             cameras: None,
             moving: false,
+            jumps: true,
             near: None,
             foreground: None,
         }
+    }
+
+    /// Separation and convergence for `seen` alone.
+    pub fn alone(kept: Option<Kept>, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
+        let mut comfort = Comfort::new(kept);
+        comfort.jumps = false;
+        comfort.track(seen, limits)
     }
 
     /// What was measured says nothing of the next frame.
@@ -142,11 +155,19 @@ impl Comfort {
         *self = Comfort::new(self.kept);
     }
 
-    /// Separation and convergence after a frame in which `seen` was visible; none before the first scene.
+    /// Separation and convergence after a frame in which `seen` was visible; none before two frames with about the same scene.
     pub fn track(&mut self, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
         let near = seen.scene.map(|[_, near]| near);
-        let coming = near.map(|near| coming(self.near.unwrap_or(near), near));
-        self.near = near;
+        let last = std::mem::replace(&mut self.near, near);
+        let coming = near.map(|near| coming(last.unwrap_or(near), near));
+        if self.jumps {
+            let both = last.zip(near);
+            if both.is_some_and(|(last, near)| (near / last).ln().abs() < ALIKE) {
+                (self.cameras, self.moving, self.jumps) = (None, false, false);
+            } else if self.cameras.is_none() {
+                return None;
+            }
+        }
         let Some(goal) = self.goal(seen, limits) else {
             return self.cameras;
         };
@@ -202,20 +223,31 @@ impl Comfort {
         }
     }
 
-    /// A foreground is seen, with `range` as for [`Comfort::foreground`]. The first time the cameras jump to those of the scene alone: so far it counted as the nearest part of that.
+    /// Takes cameras for a scene that is not measured.
+    pub fn assume(&mut self, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
+        self.cameras = Comfort::alone(self.kept, seen, limits);
+        self.cameras
+    }
+
+    /// Whether a scene was visible in the last frame.
+    pub fn has_seen(&self) -> bool {
+        self.near.is_some()
+    }
+
+    /// A foreground is seen, with `range` as for [`Comfort::foreground`]. The first time the cameras are going to jump to those of the scene alone: so far it counted as the nearest part of that.
     pub fn see_foreground(&mut self, range: [f64; 2]) {
         if self.foreground.is_none() {
-            (self.cameras, self.moving) = (None, false);
+            self.jumps = true;
             self.foreground = Some(range);
         }
     }
 
     /// The cameras of what is drawn before everything else, such as the weapon in a player's hand: it stands between the nearest point of the
-    /// scene and its part of the budget. None where the cameras of the scene keep it within that, or the user has fixed the separation.
+    /// scene and its part of the budget. None where the cameras of the scene do that by themselves, or the user has fixed the separation.
     /// `near` is 1/w of the nearest point of the scene, `range` 1/w of the farthest and the nearest point of the foreground.
     ///
     /// Depths keep their order and get no more disparity than by the cameras of the scene. A weapon is as near as the near plane, so cameras that
-    /// kept both within the budget would leave nothing of it to the scene.
+    /// kept both within the budget would leave nothing of it to the scene. One that is farther than what it covers would stand behind it.
     pub fn foreground(&mut self, near: f64, range: [f64; 2], budget: f64) -> Option<(f64, f64)> {
         let (separation, convergence) = self.cameras?;
         if let Some(Kept::Separation(_) | Kept::EyeSpacing(_)) = self.kept {
@@ -229,15 +261,22 @@ impl Comfort {
         };
         let by_scene = |inverse: f64| separation * (1.0 - convergence * inverse);
         let end = -FOREGROUND * budget;
-        if by_scene(nearest) >= end {
+        if by_scene(nearest) >= end && far >= near {
             return None;
         }
         // Where its farthest point goes.
-        let begin = by_scene(near).clamp(end, 0.0);
-        // The disparity is own − slope/w. It is `end` at the nearest point.
+        let behind = far < near;
+        let begin = match behind {
+            true => by_scene(near).max(end),
+            false => by_scene(near).clamp(end, by_scene(far).max(0.0)),
+        };
+        // The disparity is own − slope/w. Where the slope would be more than that of the scene, one end keeps its place.
         let slope = (begin - end) / (nearest - far).max(f64::EPSILON);
         let slope = slope.min(separation * convergence);
-        let own = end + slope * nearest;
+        let own = match behind {
+            true => begin + slope * far,
+            false => end + slope * nearest,
+        };
         // A separation of 0 has no convergence.
         let own = match own.abs() < 1e-6 * budget {
             true => 1e-6 * budget,
@@ -290,220 +329,4 @@ fn coming(last: f64, now: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const LIMITS: Limits = Limits {
-        budget: 0.005,
-        orthoscopic: 0.05,
-        lens: (1.5, 1.0),
-    };
-
-    fn scene(near: f64, far: f64) -> Seen {
-        Seen {
-            scene: Some([1.0 / far, 1.0 / near]),
-            ..Seen::default()
-        }
-    }
-
-    fn disparity((separation, convergence): (f64, f64), w: f64) -> f64 {
-        separation * (1.0 - convergence / w)
-    }
-
-    #[test]
-    fn near_and_far_have_their_parts_of_the_budget() {
-        for (near, far) in [(1.0, 10.0), (4.0, 5000.0), (0.1, f64::INFINITY)] {
-            let cameras = Comfort::new(None).track(&scene(near, far), &LIMITS);
-            let cameras = cameras.expect("cameras");
-            let (front, back) = (disparity(cameras, near), disparity(cameras, far));
-            assert!((front + BEFORE * LIMITS.budget).abs() < 1e-12);
-            assert!((back - BEHIND * LIMITS.budget).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn a_flat_scene_is_not_made_deeper_than_it_is() {
-        let separation = |orthoscopic| {
-            let limits = Limits {
-                orthoscopic,
-                ..LIMITS
-            };
-            let cameras = Comfort::new(None).track(&scene(9.99, 10.01), &limits);
-            cameras.map(|c| c.0)
-        };
-        assert_eq!(separation(0.012), Some(0.012));
-        assert_eq!(separation(0.05), Some(MOST * LIMITS.budget));
-    }
-
-    #[test]
-    fn nothing_leaves_the_budget_when_something_comes_near() {
-        let mut comfort = Comfort::new(None);
-        comfort.track(&scene(5.0, 100.0), &LIMITS);
-        for step in 0..100 {
-            let near = 5.0 - 0.049 * f64::from(step);
-            let seen = scene(near, 100.0);
-            let cameras = comfort.track(&seen, &LIMITS).expect("cameras");
-            let [behind, before] = seen.reach(cameras.1).map(|r| cameras.0 * r / LIMITS.budget);
-            assert!(behind <= LIMIT_BEHIND + 1e-9 && before <= LIMIT_BEFORE + 1e-9);
-            // The scene keeps its depth.
-            assert!(
-                step < 90 || cameras.0 > 0.7 * LIMITS.budget,
-                "{step}: {cameras:?}"
-            );
-        }
-        let weapon = Seen {
-            others: Some([0.5, 9.0]),
-            ..scene(5.0, 100.0)
-        };
-        let cameras = Comfort::new(None).track(&weapon, &LIMITS).expect("cameras");
-        assert!(cameras.0 * 8.0 <= LIMITS.budget);
-    }
-
-    #[test]
-    fn what_comes_near_is_met_before_it_is_there() {
-        // A wall of gltron, 8 frames a second.
-        let walls = [8.2, 8.07, 6.26, 4.08, 2.09];
-        let mut comfort = Comfort::new(None);
-        for (now, next) in walls.into_iter().zip(&walls[1..]) {
-            let cameras = comfort.track(&scene(now, 100.0), &LIMITS).expect("cameras");
-            let nearest = disparity(cameras, *next);
-            assert!(nearest > -LIMITS.budget, "{now}: {nearest}");
-        }
-        // From 9 to 8 and on to 7.
-        assert!((coming(1.0 / 9.0, 1.0 / 8.0) - 1.0 / 7.0).abs() < 1e-12);
-        assert_eq!(coming(1.0 / 9.0, 1.0 / 4.0), 1.0 / 2.0, "half its distance");
-        assert_eq!(coming(1.0 / 8.0, 1.0 / 9.0), 1.0 / 9.0, "it goes away");
-        comfort.track(&Seen::default(), &LIMITS);
-        assert_eq!(comfort.near, None, "nothing was seen that could come");
-    }
-
-    #[test]
-    fn a_sky_that_appears_is_in_the_budget_before_the_cameras_are() {
-        let mut comfort = Comfort::new(None);
-        let before = comfort.track(&scene(5.0, 8.0), &LIMITS).expect("cameras");
-        assert!(before.0 > LIMITS.budget);
-        assert!(before.0 * comfort.farthest(before, LIMITS.budget) <= LIMITS.budget);
-        let sky = Seen {
-            sky: true,
-            ..scene(5.0, 8.0)
-        };
-        let mut now = before;
-        for _ in 0..100 {
-            now = comfort.track(&sky, &LIMITS).expect("cameras");
-        }
-        assert_eq!(comfort.farthest(now, LIMITS.budget), 1.0);
-        assert!(now.0 < LIMIT_BEHIND * LIMITS.budget);
-    }
-
-    #[test]
-    fn a_scene_that_trembles_does_not_move_the_cameras() {
-        let mut comfort = Comfort::new(None);
-        let first = comfort.track(&scene(5.0, 100.0), &LIMITS);
-        for step in 0..200 {
-            let near = 5.0 + 0.3 * (f64::from(step) * 0.7).sin();
-            assert_eq!(comfort.track(&scene(near, 100.0), &LIMITS), first);
-        }
-    }
-
-    #[test]
-    fn another_scene_is_reached_in_small_steps() {
-        let mut comfort = Comfort::new(None);
-        let mut before = comfort.track(&scene(1.0, 10.0), &LIMITS).expect("cameras");
-        let goal = Comfort::new(None).track(&scene(10.0, 1000.0), &LIMITS);
-        for _ in 0..400 {
-            let now = comfort
-                .track(&scene(10.0, 1000.0), &LIMITS)
-                .expect("cameras");
-            assert!((now.1 / before.1).ln().abs() < 0.08, "{before:?} {now:?}");
-            before = now;
-        }
-        let goal = goal.expect("cameras");
-        assert!((before.0 / goal.0).ln().abs() < SLACK && (before.1 / goal.1).ln().abs() < 0.02);
-    }
-
-    /// A weapon at a tenth of the scene's distance leaves the scene its budget, and stands before it.
-    #[test]
-    fn a_foreground_stands_between_the_scene_and_its_part_of_the_budget() {
-        for hand in [[1.0, 5.0], [0.01, 5.0], [0.5, 0.6], [4.9, 5.0]] {
-            let mut comfort = Comfort::new(None);
-            let scene = comfort.track(&scene(4.0, 100.0), &LIMITS).expect("cameras");
-            let own = comfort.foreground(0.25, hand, LIMITS.budget);
-            let near = disparity(scene, 4.0);
-            if disparity(scene, 1.0 / hand[1]) >= -FOREGROUND * LIMITS.budget {
-                assert_eq!(own, None);
-                continue;
-            }
-            let [far, nearest] =
-                hand.map(|inverse| disparity(own.expect("cameras"), 1.0 / inverse));
-            assert!((nearest + FOREGROUND * LIMITS.budget).abs() < 1e-12);
-            assert!(
-                nearest < far && far <= near + 1e-12,
-                "{hand:?}: {far} {near}"
-            );
-            let by_scene = hand.map(|inverse| disparity(scene, 1.0 / inverse));
-            assert!(far - nearest <= by_scene[0] - by_scene[1] + 1e-12);
-            // What trembles moves nothing.
-            let trembling = hand.map(|inverse| 1.05 * inverse);
-            assert_eq!(comfort.foreground(0.25, trembling, LIMITS.budget), own);
-        }
-        let mut comfort = Comfort::new(Some(Kept::Separation(0.1)));
-        comfort.track(&scene(4.0, 100.0), &LIMITS);
-        assert_eq!(comfort.foreground(0.25, [1.0, 5.0], LIMITS.budget), None);
-    }
-
-    #[test]
-    fn what_the_user_sets_stays() {
-        let seen = scene(2.0, 50.0);
-        let at = |kept| {
-            Comfort::new(Some(kept))
-                .track(&seen, &LIMITS)
-                .expect("cameras")
-        };
-        assert_eq!(at(Kept::Separation(0.7)).0, 0.7);
-        assert_eq!(at(Kept::Convergence(3.0)).1, 3.0);
-        assert_eq!(at(Kept::FocalDepth(3.0)).1, 3.0);
-        let (separation, convergence) = at(Kept::EyeSpacing(0.2));
-        assert!((separation * convergence - 1.5 * 0.2).abs() < 1e-12);
-        let (separation, convergence) = at(Kept::Convergence(3.0));
-        let [near, far] =
-            [2.0, 50.0].map(|w| disparity((separation, convergence), w) / LIMITS.budget);
-        assert!((near + BEFORE).abs() < 1e-12 || (far - BEHIND).abs() < 1e-12);
-        assert!(near >= -BEFORE - 1e-12 && far <= BEHIND + 1e-12);
-    }
-
-    #[test]
-    fn cameras_that_were_nothing_are_left_at_once() {
-        let mut comfort = Comfort::new(None);
-        let nothing = Limits {
-            orthoscopic: 0.0,
-            ..LIMITS
-        };
-        for _ in 0..3 {
-            let cameras = comfort.track(&scene(2.0, 50.0), &nothing);
-            assert_eq!(cameras.map(|c| c.0), Some(0.0));
-        }
-        let cameras = comfort.track(&scene(2.0, 50.0), &LIMITS);
-        assert_eq!(
-            cameras,
-            Comfort::new(None).track(&scene(2.0, 50.0), &LIMITS)
-        );
-    }
-
-    #[test]
-    fn without_a_scene_nothing_changes() {
-        let mut comfort = Comfort::new(None);
-        assert_eq!(comfort.track(&Seen::default(), &LIMITS), None);
-        let cameras = comfort.track(&scene(2.0, 50.0), &LIMITS);
-        assert_eq!(comfort.track(&Seen::default(), &LIMITS), cameras);
-    }
-
-    #[test]
-    fn a_scene_without_depths_lies_between_the_planes_of_its_projection() {
-        let seen = Seen::by_planes([1.0, 1000.0]);
-        let [far, near] = seen.scene.expect("a scene");
-        assert_eq!(far, 0.0, "something may be infinitely far");
-        assert!((near - (1.0 + BEFORE / BEHIND) / 10.0).abs() < 1e-12);
-        let cameras = Comfort::new(None).track(&seen, &LIMITS);
-        assert!((cameras.expect("cameras").1 - 10.0).abs() < 1e-9);
-    }
-}
+mod tests;

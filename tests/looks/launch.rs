@@ -53,8 +53,12 @@ fn new_user(command: &mut Command, home: &Path) {
     }
 }
 
-/// Plays the game in a home of its own within `folder`.
-pub(crate) fn launch(game: &Game, folder: &Path) -> Result<Launched, String> {
+/// Plays the game in a home of its own within `folder`; `strategy` is the only option.
+pub(crate) fn launch(
+    game: &Game,
+    folder: &Path,
+    strategy: Option<&str>,
+) -> Result<Launched, String> {
     library();
     let home = folder.join("home");
     let _ = fs::remove_dir_all(&home);
@@ -71,11 +75,11 @@ pub(crate) fn launch(game: &Game, folder: &Path) -> Result<Launched, String> {
     let screen = sized_screen(game.screen);
     let mut command = manyview();
     // Neither changes what is drawn.
-    command
-        .args(["run", "--control", "--report"])
-        .arg(&report)
-        .arg("--");
-    command.args(&game.command);
+    command.args(["run", "--control", "--report"]).arg(&report);
+    if let Some(strategy) = strategy {
+        command.args(["--strategy", strategy]);
+    }
+    command.arg("--").args(&game.command);
     new_user(mute(screen.give(&mut command)), &home);
     let mut frame = None;
     let mut play = play(&game.input, &screen);

@@ -48,22 +48,31 @@ fn depths(launched: &Launched) -> Option<Depths> {
 }
 
 pub(crate) fn row(game: &Game, launched: &Launched) -> Row {
-    let depths = depths(launched);
-    let mut failed = game.wrong.is_some() || game.depths && depths.is_none();
-    let parts = game.part.iter().map(|part| {
-        let (good, text) = judged(part, launched, depths.as_ref());
-        failed |= !good;
-        text
-    });
-    let parts = parts.collect::<Vec<_>>().join(", ");
+    let parts = parts(game, launched);
+    let wrong = parts.iter().any(Result::is_err) || game.depths && depths(launched).is_none();
+    let parts = parts
+        .into_iter()
+        .map(|part| part.unwrap_or_else(|wrong| format!("**{wrong}**")));
     Row {
         cells: [
             disparities(game, &launched.report),
-            parts,
+            parts.collect::<Vec<_>>().join(", "),
             notes(&launched.report),
         ],
-        failed,
+        failed: wrong || game.wrong.is_some(),
     }
+}
+
+/// A sentence about each part; an error where it is not where it belongs.
+pub(crate) fn parts(game: &Game, launched: &Launched) -> Vec<Result<String, String>> {
+    let depths = depths(launched);
+    let mut covered = None;
+    let parts = game.part.iter().map(|part| {
+        let judged = judged(part, launched, depths.as_ref(), covered);
+        covered = judged.as_ref().ok().map(|(step, _)| *step);
+        judged.map(|(_, text)| text)
+    });
+    parts.collect()
 }
 
 /// The depths of all frames, against the budget.
@@ -92,21 +101,32 @@ fn disparities(game: &Game, report: &Value) -> String {
     )
 }
 
-/// Whether a part is where it belongs, and the sentence about it.
-fn judged(part: &Part, launched: &Launched, depths: Option<&Depths>) -> (bool, String) {
+/// Shift of a part between neighbouring views, in pixels, and the sentence about it; an error where it is not where it belongs. `covered` is the
+/// shift of the part before it.
+fn judged(
+    part: &Part,
+    launched: &Launched,
+    depths: Option<&Depths>,
+    covered: Option<f64>,
+) -> Result<(f64, String), String> {
     let name = &part.name;
     let Some(found) = shifts(&launched.views, part.at) else {
-        return (false, format!("**{name}: not found again**"));
+        return Err(format!("{name}: not found again"));
     };
     let step = found[VIEWS as usize - 1] / f64::from(VIEWS - 1);
-    let (expected, [least, most]) = match (part.is, depths) {
-        (Place::Flat, _) => ("on the panel".to_owned(), [0.0; 2]),
-        (Place::Sky, Some(d)) => (format!("infinity {:+.2}", d.infinity), [d.infinity; 2]),
-        (Place::Scene, Some(d)) => {
+    let (expected, [least, most]) = match (part.is, depths, covered) {
+        (Place::Flat, ..) => ("on the panel".to_owned(), [0.0; 2]),
+        (Place::Sky, Some(d), _) => (format!("infinity {:+.2}", d.infinity), [d.infinity; 2]),
+        (Place::Scene, Some(d), _) => {
             let text = format!("scene {:+.2} to {:+.2}", d.near, d.far);
             (text, [d.near, d.far])
         }
-        (_, None) => return (false, format!("**{name}: no scene with depth**")),
+        (Place::Nearer, Some(d), Some(covered)) => {
+            let text = format!("before {covered:+.2}, to {:+.2}", d.near);
+            (text, [d.near, covered])
+        }
+        (Place::Nearer, _, None) => return Err(format!("{name}: what it covers is not found")),
+        (_, None, _) => return Err(format!("{name}: no scene with depth")),
     };
     // In every view, from the leftmost on.
     let good = found.iter().enumerate().all(|(view, shift)| {
@@ -114,7 +134,10 @@ fn judged(part: &Part, launched: &Launched, depths: Option<&Depths>) -> (bool, S
         (least * views - TOLERANCE..=most * views + TOLERANCE).contains(shift)
     });
     let text = format!("{name} {step:+.2} ({expected})");
-    (good, if good { text } else { format!("**{text}**") })
+    match good && (part.is != Place::Nearer || step < most) {
+        true => Ok((step, text)),
+        false => Err(text),
+    }
 }
 
 /// What the layer has told, and what it could not do.

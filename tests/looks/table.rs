@@ -62,6 +62,8 @@ pub(crate) enum Place {
     Flat,
     /// Between the nearest and the farthest point of the scene.
     Scene,
+    /// Nearer than the part that is listed before it, which it covers.
+    Nearer,
 }
 
 fn yes() -> bool {

@@ -42,13 +42,14 @@ pub(crate) fn judge(program: &Program, screen: &Screen) -> Option<String> {
         number(&about["frames"]),
         number(&about["frames_over_budget"]),
     );
-    eprintln!(
+    let told = format!(
         "{name}: {frames} frames, {over} over the budget of {:.2} px; disparities {}, change from frame to frame {}",
         number(&about["budget_px"]),
         about["px"],
         about["change_px"]
     );
+    eprintln!("{told}");
     // A run without frames or figures fails as well.
     let good = frames >= 300.0 && over == 0.0 && number(&about["change_px"]["p95"]) <= 0.1;
-    (!good).then(|| format!("{name}: {over} of {frames} frames, {about}"))
+    (!good).then_some(told)
 }
