@@ -58,12 +58,20 @@ static void without_textures(void)
     }
 }
 
+/* Mesa 22.3 writes a byte beyond the bits that it keeps in a list, if they begin within a byte: they begin with one. */
+void begin_bits_with_a_byte(void)
+{
+    if (R->list && bound(GL_UNPACK_SKIP_PIXELS) % 8 != 0)
+        CALL(glPixelStorei, GL_UNPACK_SKIP_PIXELS, 0);
+}
+
 static void drawn_pixels(void)
 {
     without_textures();
     int width = (int)below(18), height = R->list || chance(97) ? (int)below(14) : -1; /* no negative height in lists, for Mesa 22.3 */
     switch (below(8)) {
     case 0: case 1:
+        begin_bits_with_a_byte();
         CALL(glBitmap, width, height, within(-2, 4), within(-2, 4), within(-8, 8), within(-4, 4), (const GLubyte *)pixel_source());
         break;
     case 2: CALL(glBitmap, 0, 0, 0.0f, 0.0f, within(-8, 8), within(-4, 4), (const GLubyte *)pixel_source()); break;

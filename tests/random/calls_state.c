@@ -91,6 +91,7 @@ static void raster_state(void)
         GLint bound = 0;
         if (!R->begin)
             glGetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &bound);
+        begin_bits_with_a_byte();
         /* Pixel storage applies, so the source has to be long enough for it. */
         CALL(glPolygonStipple, bound || chance(50) ? (const GLubyte *)pixel_source() : stipple);
         break;
