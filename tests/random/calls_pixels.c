@@ -58,10 +58,10 @@ static void without_textures(void)
     }
 }
 
-/* Mesa 22.3 writes a byte beyond the bits that it keeps in a list, if they begin within a byte: they begin with one. */
+/* Mesa 22.3 writes a byte beyond the copy that it makes of bits for a list or a stipple, if they begin within a byte: they begin with one. */
 void begin_bits_with_a_byte(void)
 {
-    if (R->list && bound(GL_UNPACK_SKIP_PIXELS) % 8 != 0)
+    if (bound(GL_UNPACK_SKIP_PIXELS) % 8 != 0)
         CALL(glPixelStorei, GL_UNPACK_SKIP_PIXELS, 0);
 }
 

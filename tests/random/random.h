@@ -158,7 +158,7 @@ int framebuffer_bound(void);
 void array_pointers(void);  /* points every array at readable memory (calls_draw.c) */
 void prepare_data(void);    /* once per process (calls_draw.c) */
 void prepare_pixels(void);  /* once per process (calls_pixels.c) */
-void begin_bits_with_a_byte(void); /* before bits that a list may keep (calls_pixels.c) */
+void begin_bits_with_a_byte(void); /* before bits that the driver may copy (calls_pixels.c) */
 const void *pixel_source(void);
 void *pixel_target(void);
 
