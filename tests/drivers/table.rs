@@ -6,6 +6,7 @@ use super::{Driver, NEWEST, UPRIGHT};
 use crate::support::{bare, library, run, scratch, screen, target_folder};
 use manyview::metric::Gate;
 use serde_json::Value;
+use std::path::PathBuf;
 use std::process::Command;
 
 const PAGE: &str = "docs/drivers.md";
@@ -164,24 +165,27 @@ fn cargo(driver: &Driver, file: &str, names: &[String]) -> String {
 
 /// Cells of strategies that draw all views, from the figures of tests/oracle.rs.
 fn oracle(driver: &Driver, upright: bool, wrong: &mut Vec<String>) -> Vec<String> {
-    let parts = scratch("oracle/parts");
-    let file = |scene: &str| parts.join(format!("{scene}-glx-4.jsonl"));
     let scenes = FIXED.iter().chain(&SHADERS);
-    for scene in scenes.clone() {
-        let _ = std::fs::remove_file(file(scene));
+    for file in scenes.clone().flat_map(|scene| figures_of(scene)) {
+        let _ = std::fs::remove_file(file);
     }
     let names: Vec<String> = scenes.map(|scene| format!("glx::{scene}")).collect();
     cargo(driver, "oracle", &names);
     let mut cell = |(column, strategy, scenes): (&str, &str, &[&str])| {
-        let lines = scenes.iter().flat_map(|scene| {
-            let text = std::fs::read_to_string(file(scene)).unwrap_or_default();
+        let of_scene = |scene: &&str| {
+            let files = figures_of(scene).into_iter();
+            let text: String = files
+                .filter_map(|file| std::fs::read_to_string(file).ok())
+                .collect();
             let lines = text
                 .lines()
                 .map(|line| serde_json::from_str(line).expect("JSON"));
-            lines.collect::<Vec<Value>>()
-        });
-        let figures: Vec<Value> = lines.filter(|line| line["strategy"] == strategy).collect();
-        judged(&figures, strategy, 2 * scenes.len(), upright).unwrap_or_else(|failure| {
+            lines
+                .filter(|line: &Value| line["strategy"] == strategy)
+                .collect::<Vec<_>>()
+        };
+        let figures: Vec<_> = scenes.iter().map(of_scene).collect();
+        judged(&figures, strategy, upright).unwrap_or_else(|failure| {
             wrong.push(format!("{column}: {failure}"));
             failure
         })
@@ -189,19 +193,30 @@ fn oracle(driver: &Driver, upright: bool, wrong: &mut Vec<String>) -> Vec<String
     EXACT.map(&mut cell).into()
 }
 
-/// The worst of a strategy's figures, of which there are `count`.
-fn judged(
-    figures: &[Value],
-    strategy: &str,
-    count: usize,
-    upright: bool,
-) -> Result<String, String> {
-    if figures.len() != count {
+/// The files in which tests/oracle.rs leaves the figures of a scene, one for each choice of numbers of views.
+fn figures_of(scene: &str) -> Vec<PathBuf> {
+    let files = std::fs::read_dir(scratch("oracle/parts")).expect("a folder");
+    let start = format!("{scene}-glx-");
+    let of_scene = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with(&start)
+    };
+    files
+        .flatten()
+        .map(|file| file.path())
+        .filter(of_scene)
+        .collect()
+}
+
+/// The worst of a strategy's figures, of which there are some for each scene.
+fn judged(scenes: &[Vec<Value>], strategy: &str, upright: bool) -> Result<String, String> {
+    if scenes.iter().any(Vec::is_empty) {
         return Err("no figures".to_owned());
     }
+    let figures: Vec<_> = scenes.iter().flatten().collect();
     let worst = |what: &str| {
         let of = |f: &Value| f["same_offset"][what].as_u64().unwrap_or(u64::MAX);
-        figures.iter().map(of).max().unwrap_or(u64::MAX)
+        figures.iter().copied().map(of).max().unwrap_or(u64::MAX)
     };
     let [differing, outliers, coverage] = ["differing", "over_eight", "coverage"].map(worst);
     let pixels = figures[0]["pixels"].as_f64().unwrap_or(1.0);
@@ -218,7 +233,7 @@ fn judged(
         _ => return Err(format!("{share}, {outliers} pixels by much")),
     };
     let drawn = |f: &Value| f["draws"].as_str().is_some_and(|d| d.contains(strategy));
-    if !figures.iter().any(drawn) {
+    if !figures.iter().copied().any(drawn) {
         cell.push_str(", replayed");
     }
     Ok(cell)
