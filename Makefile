@@ -114,8 +114,8 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak)_/)'; \
-	else $(CARGO) test --release --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak)_/)'; \
+	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
 packages-32: packages ## install the i386 packages that are missing

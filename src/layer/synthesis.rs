@@ -261,7 +261,9 @@ impl Layer {
         let made = keep_bindings(gl, || {
             self.targets.atlas.make_pyramid(gl, names, window, layers)
         });
-        let made = made && gl.drop_errors() == 0;
+        // Dropped whatever has failed: the program must not see them.
+        let errors = gl.drop_errors();
+        let made = made && errors == 0;
         if !made {
             self.synthesis.passes = None;
             self.diagnostics.report.note(
