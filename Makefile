@@ -165,7 +165,7 @@ looks: packages build ## play games as a new user launches them, without an opti
 	$(CARGO) test --release --test looks looks_of_games -- --ignored --nocapture
 
 looks-strategies: packages build ## play them under each strategy, the only option; writes docs/looks-strategies.md (two hours)
-	$(CARGO) test --release --test looks looks_agree -- --ignored --nocapture
+	$(CARGO) test --release --test looks looks_are_right -- --ignored --nocapture
 
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak
 	$(CARGO) test --release --test soak soak_ -- --ignored --nocapture

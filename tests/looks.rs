@@ -92,7 +92,7 @@ fn looks_of_games() {
 
 #[test]
 #[ignore = "two hours: make looks-strategies"]
-fn looks_agree_under_every_strategy() {
+fn looks_are_right_under_every_strategy() {
     let games = table::read();
     let chosen = play::chosen("MANYVIEW_LOOKS", &games, |game| &game.name);
     let chosen: Vec<_> = chosen.into_iter().filter(|game| game.depths).collect();
@@ -102,7 +102,11 @@ fn looks_agree_under_every_strategy() {
         let cells = strategies::STRATEGIES.map(|strategy| {
             let folder = scratch("looks-strategies").join(&game.name).join(strategy);
             fs::create_dir_all(&folder).expect("a folder");
-            let cell = strategies::cell(game, &launch::launch(game, &folder, Some(strategy)));
+            let cell = strategies::cell(
+                game,
+                strategy,
+                &launch::launch(game, &folder, Some(strategy)),
+            );
             eprintln!(
                 "{}/{} {} {strategy}: {cell}",
                 at + 1,

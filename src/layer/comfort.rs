@@ -1,14 +1,12 @@
 //! Cameras that follow the depth buffer, and the disparities of the frames: which depths are read, and when.
 
 use super::{Layer, keep_bindings};
-use crate::config::{Camera, Class, Config, Kept};
+use crate::config::{Camera, Config, Kept};
 use crate::display::Budget;
-use crate::gl::{BufferName, FramebufferName, Gl, Recording, consts as c};
+use crate::gl::{BufferName, FramebufferName, Gl, consts as c};
 use crate::plan::decide::DepthWatch;
 use crate::plan::depths::{DepthMapping, Distances};
-use crate::plan::{
-    Cuts, DepthMappings, Plan, Shear, Slant, Slanting, Vertices, comfort, orthographic, parallax,
-};
+use crate::plan::{Cuts, DepthMappings, Shear, Slant, Slanting, comfort, orthographic, parallax};
 use crate::report::Disparity;
 use crate::state::Neutral;
 
@@ -27,8 +25,6 @@ pub(super) struct Comfort {
     /// Cameras of an orthographic scene that were found, in force from the next frame on.
     slant: Option<Slant>,
     pub(super) mappings: DepthMappings,
-    /// Vertices of the scene in this frame, as long as nothing of it writes depths.
-    vertices: Vertices,
     /// Depth pictures of this frame; `sent` has those of the previous one that were not read yet.
     taken: Vec<Taken>,
     sent: Vec<Taken>,
@@ -64,7 +60,6 @@ impl Comfort {
             slanting: Slanting::default(),
             slant: None,
             mappings: DepthMappings::default(),
-            vertices: Vertices::default(),
             taken: Vec::new(),
             sent: Vec::new(),
             stale: false,
@@ -104,7 +99,7 @@ impl Comfort {
     }
 
     /// Whether cameras were found, for a scene in perspective or an orthographic one.
-    fn has_found(&self) -> bool {
+    pub(super) fn has_found(&self) -> bool {
         self.next.is_some() || self.slant.is_some()
     }
 
@@ -181,22 +176,16 @@ impl Layer {
         if taken {
             let mappings = self.cameras.comfort.mappings.clone();
             let way = mappings.most().map(|way| way.projection);
-            let taken = self.taken(way, mappings, clear);
-            self.cameras.comfort.taken.push(taken);
-        }
-    }
-
-    /// What has to be known to use the depths of this frame, whose scene is drawn with this projection.
-    fn taken(&self, way: Option<[f32; 16]>, mappings: DepthMappings, clear: f32) -> Taken {
-        Taken {
-            frame: self.diagnostics.report.frames() + 1,
-            cameras: way.and_then(|p| self.cameras_in_force(&p)),
-            foreground: way.and_then(|p| numbers(self.known.rig.foreground(&p))),
-            sky: way
-                .and_then(|p| self.known.rig.sky(&p))
-                .map_or(0.0, |shear| shear.separation(1.0) * self.half_width()),
-            mappings,
-            clear,
+            self.cameras.comfort.taken.push(Taken {
+                frame: self.diagnostics.report.frames() + 1,
+                cameras: way.and_then(|p| self.cameras_in_force(&p)),
+                foreground: way.and_then(|p| numbers(self.known.rig.foreground(&p))),
+                sky: way
+                    .and_then(|p| self.known.rig.sky(&p))
+                    .map_or(0.0, |shear| shear.separation(1.0) * self.half_width()),
+                mappings,
+                clear,
+            });
         }
     }
 
@@ -226,64 +215,28 @@ impl Layer {
             self.read_depths(gl);
         }
         self.cameras.comfort.sent = std::mem::take(&mut self.cameras.comfort.taken);
-        let depths = !self.cameras.comfort.sent.is_empty();
         self.targets.atlas.send_depths(gl);
         let measured = matches!(self.session.live.camera, Camera::Measured(_));
         if measured && !self.cameras.comfort.has_found() {
-            // No cameras were found yet: it is better to wait once for the depths than to show another shallow frame.
+            // No cameras were found yet: it is better to wait for the depths than to show another shallow frame.
             self.read_depths(gl);
         }
-        let sky = self.cameras.comfort.mappings.sky;
-        let vertices = self.cameras.comfort.vertices.take(sky);
-        let projection = self.known.depths.projection;
-        if let Some(p) = projection.filter(|p| !depths && !parallax::flat(p)) {
-            self.track_without_depths(&p, vertices.as_ref());
+        if measured
+            && !self.cameras.comfort.has_found()
+            && !self.cameras.comfort.cameras.has_seen()
+            && let Some(p) = self.known.depths.projection.filter(|p| !parallax::flat(p))
+        {
+            let (_, scale) = parallax::lens(&p);
+            let planes = parallax::planes(&p).map(|distance| distance * scale);
+            let limits = self.reach().limits(parallax::lens(&p));
+            let comfort = &mut self.cameras.comfort;
+            let seen = comfort::Seen::by_planes(planes);
+            comfort.next = comfort.cameras.assume(&seen, &limits);
         }
         self.set_measured_cameras();
         self.cameras.comfort.cuts.end_frame();
         self.known.depths = DepthWatch::default();
         self.cameras.comfort.mappings = DepthMappings::default();
-    }
-
-    /// At the end of a frame whose scene has written no depths: goes by its vertices, or where it has none that are known, once by the planes of
-    /// its projection.
-    fn track_without_depths(&mut self, p: &[f32; 16], vertices: Option<&Distances>) {
-        if let Some(all) = vertices
-            && let Some(scene) = all.scene()
-        {
-            let taken = self.taken(Some(*p), DepthMappings::default(), 1.0);
-            return self.judge(&taken, p, scene, all);
-        }
-        let measured = matches!(self.session.live.camera, Camera::Measured(_));
-        let comfort = &mut self.cameras.comfort;
-        if measured && !comfort.has_found() && !comfort.cameras.has_seen() {
-            let (_, scale) = parallax::lens(p);
-            let planes = parallax::planes(p).map(|distance| distance * scale);
-            let limits = self.reach().limits(parallax::lens(p));
-            let seen = comfort::Seen::by_planes(planes);
-            let comfort = &mut self.cameras.comfort;
-            comfort.next = comfort.cameras.assume(&seen, &limits);
-        }
-    }
-
-    /// After a draw in immediate mode was decided: takes note of how far the vertices of the scene are.
-    pub(super) fn note_vertices(&mut self, gl: &Gl, plan: &Plan, recording: &Recording) {
-        let comfort = &self.cameras.comfort;
-        let fixed = self.state.in_use.program.is_zero() && self.state.in_use.pipeline == 0;
-        if !comfort.on
-            || plan.class != Class::Scene
-            || !fixed
-            || !comfort.mappings.is_empty()
-            || !comfort.vertices.looks()
-        {
-            return;
-        }
-        if let Some(m) = self.fixed_matrix(gl) {
-            let row = |row: usize| std::array::from_fn(|column| m[4 * column + row]);
-            let rows = [row(0), row(1), row(3)];
-            let vertices = &mut self.cameras.comfort.vertices;
-            recording.positions(&mut |position| vertices.add(&rows, position));
-        }
     }
 
     fn read_depths(&mut self, gl: &Gl) {

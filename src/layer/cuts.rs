@@ -20,10 +20,13 @@ impl Layer {
             Shaders::Variant(variant) => self.pose_by_shader(gl, variant.program),
             _ => self.fixed_matrix(gl).and_then(|all| Pose::of_clip(&all)),
         };
-        if let Some(pose) = pose
-            && self.cameras.comfort.cuts.observe(pose, cameras)
-        {
-            self.cameras.comfort.restart();
+        let Some(pose) = pose else { return };
+        let comfort = &mut self.cameras.comfort;
+        // Cameras that are safe for anything have their zero parallax at the near plane: by that, every step would be a cut.
+        if !comfort.has_found() {
+            comfort.cuts.note(pose);
+        } else if comfort.cuts.observe(pose, cameras) {
+            comfort.restart();
             self.known.rig.forget_measured();
         }
     }

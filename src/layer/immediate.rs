@@ -61,7 +61,6 @@ impl Layer {
         let Decided { plan, images } = self.decide(gl, &Request::of(Kind::Begin(mode)));
         let hazard = self.lists.hazard();
         let recording = self.lists.take();
-        self.note_vertices(gl, &plan, &recording);
         let (ends, whole) = (self.lists.ends(), self.lists.is_whole());
         let sets = self.lists.sets();
         let mut list = None;

@@ -35,6 +35,8 @@ const OUTWARDS: f64 = 0.02;
 const ALONG: f64 = 0.03;
 /// The nearest point of two frames is at about the same distance where the logarithms differ by less: half as far, or twice.
 const ALIKE: f64 = std::f64::consts::LN_2;
+/// Frames with a scene after which the cameras jump to it, whether or not two of them were alike: two windows in turn never are.
+const PATIENCE: u8 = 8;
 
 /// What a display can show between neighbouring views.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,9 +123,9 @@ pub struct Comfort {
     /// Separation and convergence in force.
     cameras: Option<(f64, f64)>,
     moving: bool,
-    /// The cameras jump to the scene once its nearest point is at about the same distance in two frames in a row. A world that is still being
-    /// loaded may show nothing but its clouds, or the player's hand.
-    jumps: bool,
+    /// The cameras wait for so many more frames with a scene, at most. Before that they jump to the scene once its nearest point is at about the
+    /// same distance in two frames in a row: a world that is still being loaded may show nothing but its clouds, or the player's hand.
+    waits: u8,
     /// 1/w of the nearest point of the scene in the last frame.
     near: Option<f64>,
     /// 1/w of the farthest and the nearest point of the foreground that its cameras stand for.
@@ -137,7 +139,7 @@ impl Comfort {
             kept,
             cameras: None,
             moving: false,
-            jumps: true,
+            waits: PATIENCE,
             near: None,
             foreground: None,
         }
@@ -146,7 +148,7 @@ impl Comfort {
     /// Separation and convergence for `seen` alone.
     pub fn alone(kept: Option<Kept>, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
         let mut comfort = Comfort::new(kept);
-        comfort.jumps = false;
+        comfort.waits = 0;
         comfort.track(seen, limits)
     }
 
@@ -160,10 +162,12 @@ impl Comfort {
         let near = seen.scene.map(|[_, near]| near);
         let last = std::mem::replace(&mut self.near, near);
         let coming = near.map(|near| coming(last.unwrap_or(near), near));
-        if self.jumps {
+        if self.waits > 0 {
+            self.waits -= u8::from(near.is_some());
             let both = last.zip(near);
-            if both.is_some_and(|(last, near)| (near / last).ln().abs() < ALIKE) {
-                (self.cameras, self.moving, self.jumps) = (None, false, false);
+            let alike = both.is_some_and(|(last, near)| (near / last).ln().abs() < ALIKE);
+            if alike || self.waits == 0 {
+                (self.cameras, self.moving, self.waits) = (None, false, 0);
             } else if self.cameras.is_none() {
                 return None;
             }
@@ -229,15 +233,15 @@ impl Comfort {
         self.cameras
     }
 
-    /// Whether a scene was visible in the last frame.
+    /// Whether a scene was visible in the last frame that was measured.
     pub fn has_seen(&self) -> bool {
         self.near.is_some()
     }
 
-    /// A foreground is seen, with `range` as for [`Comfort::foreground`]. The first time the cameras are going to jump to those of the scene alone: so far it counted as the nearest part of that.
+    /// A foreground is seen, with `range` as for [`Comfort::foreground`]. From the first time on the cameras wait to jump to those of the scene alone: so far it counted as the nearest part of that.
     pub fn see_foreground(&mut self, range: [f64; 2]) {
         if self.foreground.is_none() {
-            self.jumps = true;
+            self.waits = PATIENCE;
             self.foreground = Some(range);
         }
     }

@@ -75,6 +75,11 @@ impl Cuts {
         self.now.len() < MOST && self.useless <= USELESS + 2 * self.useful
     }
 
+    /// Takes note of a draw of the scene, in order, without looking for a cut: no cameras are in force that a cut could leave.
+    pub fn note(&mut self, pose: Pose) {
+        self.now.push(pose);
+    }
+
     /// Takes note of a draw of the scene, in order. `cameras` are separation and convergence in force. True for the first draw of a frame, if there
     /// was a cut.
     pub fn observe(&mut self, pose: Pose, cameras: (f64, f64)) -> bool {

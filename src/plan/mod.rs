@@ -13,7 +13,6 @@ pub mod orthographic;
 pub mod parallax;
 pub mod reason;
 pub mod trial;
-pub mod vertices;
 
 pub use class::{Classed, Classifier, Traits};
 pub use comfort::Comfort;
@@ -26,7 +25,6 @@ pub use orthographic::{Planes, Slant, Slanting};
 pub use parallax::{Along, Rig, Shear};
 pub use reason::{Reason, Unrepresentable};
 pub use trial::Trial;
-pub use vertices::Vertices;
 
 /// The kind of the program's command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

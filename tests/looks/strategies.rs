@@ -12,7 +12,7 @@ pub(crate) const STRATEGIES: [&str; 3] = ["replay", "depth-image", "hybrid"];
 const HEAD: &str = "\
 # Looks under each strategy
 
-The games of [What it looks like](looks.md), played with `--strategy` as the only option: sky, gauges and hand have to be in the same place
+Games of [What it looks like](looks.md), played with `--strategy` as the only option: sky, gauges and hand have to be in the same place
 whatever strategy draws the views. `make looks-strategies` makes this page; it is not edited by hand.
 
 A cell says how many of the parts are where they belong in each of the 8 views, which are out of place (**bold**, in pixels between neighbouring views), and in
@@ -24,7 +24,7 @@ how many frames views were synthesised. Each cell is a game of its own.
 pub(crate) type Cells = BTreeMap<String, Vec<String>>;
 
 /// The cell of one game under one strategy.
-pub(crate) fn cell(game: &Game, launched: &Result<Launched, String>) -> String {
+pub(crate) fn cell(game: &Game, strategy: &str, launched: &Result<Launched, String>) -> String {
     let launched = match launched {
         Ok(launched) => launched,
         Err(reason) => return format!("**{}**", reason.replace('|', "/")),
@@ -43,6 +43,9 @@ pub(crate) fn cell(game: &Game, launched: &Result<Launched, String>) -> String {
         let _ = write!(text, ", **{wrong}**");
     }
     let synthesised = launched.report["frames_synthesised"].as_object();
+    if synthesised.is_none() && strategy != "replay" {
+        text.push_str("; **no views were synthesised**");
+    }
     let frames = synthesised.map(|by| {
         by.values()
             .filter_map(serde_json::Value::as_u64)

@@ -16,7 +16,7 @@ fn scene(near: f64, far: f64) -> Seen {
 /// Cameras that jump to the first scene.
 fn ready(kept: Option<Kept>) -> Comfort {
     Comfort {
-        jumps: false,
+        waits: 0,
         ..Comfort::new(kept)
     }
 }
@@ -101,7 +101,18 @@ fn cameras_wait_for_two_frames_with_about_the_same_scene() {
     let found = comfort.track(&scene(34.0, 9e3), &LIMITS);
     assert_eq!(found, ready(None).track(&scene(34.0, 9e3), &LIMITS));
 
+    // Two windows in turn are never alike.
+    let mut comfort = Comfort::new(None);
+    let frames = (0..PATIENCE).map(|frame| {
+        let near = if frame % 2 == 0 { 1.0 } else { 100.0 };
+        comfort.track(&scene(near, 9e3), &LIMITS).is_some()
+    });
+    let found: Vec<_> = frames.collect();
+    assert_eq!(found.iter().position(|&found| found), Some(7));
+
     // What counted as the nearest of the scene turns out to be a hand: the cameras leave it for the scene once that stays.
+    let mut comfort = ready(None);
+    comfort.track(&scene(34.0, 9e3), &LIMITS);
     comfort.see_foreground([0.03, 0.05]);
     let clouds = comfort
         .track(&scene(2200.0, 9e3), &LIMITS)
