@@ -205,11 +205,12 @@ fn a_weapon_is_where_it_is_drawn_in_synthesised_views() {
 /// A program that draws in perspective but writes no depths gets cameras too.
 #[test]
 fn a_scene_without_depths_is_in_the_budget_at_infinity() {
-    let report = walls("nodepth", &AUTO);
-    assert_eq!(report["disparity"], Value::Null, "{report}");
+    let about = |how: &str| walls(how, &AUTO)["disparity"].clone();
+    assert_eq!(about("nodepth"), Value::Null);
+    assert_eq!(about("nodepth-later")["frames"], 1);
     let folder = tempfile::tempdir().expect("a folder");
     let program = compiled("depths", Compiled::Program, &["-lEGL", "-lGL"]);
-    let view = |view: &str, options: &[(&str, &str)]| {
+    let view = |how: &str, view: &str, options: &[(&str, &str)]| {
         let out = folder.path().join("view.png");
         let mut all = vec![
             ("VIEWS", "8"),
@@ -218,10 +219,9 @@ fn a_scene_without_depths_is_in_the_budget_at_infinity() {
             ("CAPTURE_WHAT", view),
         ];
         all.extend(options);
-        succeed(layered(&program, &all).arg("nodepth"));
+        succeed(layered(&program, &all).arg(how));
         support::rgb(&out)
     };
-    assert_ne!(view("view:0", &AUTO), view("view:7", &AUTO), "flat");
     // Three quarters of the budget at infinity, and zero parallax a third of the way from 1 to 100.
     let separation = (0.75 * BUDGET / (WIDTH / 2.0)).to_string();
     let convergence = 100f64.cbrt().to_string();
@@ -229,7 +229,11 @@ fn a_scene_without_depths_is_in_the_budget_at_infinity() {
         ("SEPARATION", separation.as_str()),
         ("CONVERGENCE", convergence.as_str()),
     ];
-    assert_eq!(view("view:0", &AUTO), view("view:0", &placed));
+    for how in ["nodepth", "nodepth-later"] {
+        let leftmost = view(how, "view:0", &AUTO);
+        assert_ne!(leftmost, view(how, "view:7", &AUTO), "{how}: flat");
+        assert_eq!(leftmost, view(how, "view:0", &placed), "{how}");
+    }
 }
 
 /// After a jump of the camera nothing leaves the budget, and from the second frame after it on the scene is deep.

@@ -215,6 +215,7 @@ impl Layer {
             self.read_depths(gl);
         }
         self.cameras.comfort.sent = std::mem::take(&mut self.cameras.comfort.taken);
+        let without_depths = self.cameras.comfort.sent.is_empty();
         self.targets.atlas.send_depths(gl);
         let measured = matches!(self.session.live.camera, Camera::Measured(_));
         if measured && !self.cameras.comfort.has_found() {
@@ -222,8 +223,8 @@ impl Layer {
             self.read_depths(gl);
         }
         if measured
+            && without_depths
             && !self.cameras.comfort.has_found()
-            && !self.cameras.comfort.cameras.has_seen()
             && let Some(p) = self.known.depths.projection.filter(|p| !parallax::flat(p))
         {
             let (_, scale) = parallax::lens(&p);

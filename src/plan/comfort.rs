@@ -145,8 +145,8 @@ impl Comfort {
         }
     }
 
-    /// Separation and convergence for `seen` alone.
-    pub fn alone(kept: Option<Kept>, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
+    /// Separation and convergence for `seen`, without waiting for a second frame.
+    pub fn at_once(kept: Option<Kept>, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
         let mut comfort = Comfort::new(kept);
         comfort.waits = 0;
         comfort.track(seen, limits)
@@ -229,13 +229,8 @@ impl Comfort {
 
     /// Takes cameras for a scene that is not measured.
     pub fn assume(&mut self, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
-        self.cameras = Comfort::alone(self.kept, seen, limits);
+        self.cameras = Comfort::at_once(self.kept, seen, limits);
         self.cameras
-    }
-
-    /// Whether a scene was visible in the last frame that was measured.
-    pub fn has_seen(&self) -> bool {
-        self.near.is_some()
     }
 
     /// A foreground is seen, with `range` as for [`Comfort::foreground`]. From the first time on the cameras wait to jump to those of the scene alone: so far it counted as the nearest part of that.

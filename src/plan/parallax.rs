@@ -177,7 +177,7 @@ impl Rig {
     /// The cameras that keep everything from the near plane on, in units of clip-space w, within the budget.
     fn within_reach(&self, p: &[f32; 16], near: f64, kept: Option<Kept>) -> Option<(f64, f64)> {
         let limits = self.reach?.limits(lens(p));
-        comfort::Comfort::alone(kept, &comfort::Seen::behind(near), &limits)
+        comfort::Comfort::at_once(kept, &comfort::Seen::behind(near), &limits)
     }
 
     /// Separation of neighbouring views with [`Camera::Auto`].

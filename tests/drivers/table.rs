@@ -208,9 +208,15 @@ fn figures_of(scene: &str) -> Vec<PathBuf> {
         .collect()
 }
 
-/// The worst of a strategy's figures, of which there are some for each scene.
+/// The worst of a strategy's figures, of which each scene has one for each layout of the atlas: replay draws both, the others layers alone.
 fn judged(scenes: &[Vec<Value>], strategy: &str, upright: bool) -> Result<String, String> {
-    if scenes.iter().any(Vec::is_empty) {
+    let layouts: &[&str] = match strategy {
+        "replay" => &["layers", "side-by-side"],
+        _ => &["layers"],
+    };
+    let has = |scene: &[Value], layout: &str| scene.iter().any(|line| line["atlas"] == layout);
+    let all = |scene: &Vec<Value>| layouts.iter().all(|layout| has(scene, layout));
+    if !scenes.iter().all(all) {
         return Err("no figures".to_owned());
     }
     let figures: Vec<_> = scenes.iter().flatten().collect();
@@ -308,4 +314,25 @@ fn tests(driver: &Driver, file: &str, names: &[&str], wrong: &mut Vec<String>) -
     }
     wrong.extend(failed.iter().map(|name| format!("{file}: {name} fails")));
     format!("{passed} of {count} tests")
+}
+
+#[test]
+fn a_scene_has_figures_of_each_layout() {
+    let line = |strategy: &str, atlas: &str| {
+        let none = serde_json::json!({"differing": 0, "over_eight": 0, "coverage": 0});
+        serde_json::json!({"atlas": atlas, "draws": strategy, "pixels": 100, "same_offset": none})
+    };
+    let both = vec![line("replay", "layers"), line("replay", "side-by-side")];
+    let [layers, beside] = [0, 1].map(|at| vec![both[at].clone()]);
+    let cell = |scenes: &[Vec<Value>], strategy: &str| judged(scenes, strategy, false);
+    assert_eq!(
+        cell(&[both.clone(), both.clone()], "replay"),
+        Ok("equal".into())
+    );
+    for lacking in [layers.clone(), beside.clone(), Vec::new()] {
+        assert!(cell(&[both.clone(), lacking], "replay").is_err());
+    }
+    let instanced = vec![line("instanced", "layers")];
+    assert_eq!(cell(&[instanced.clone()], "instanced"), Ok("equal".into()));
+    assert!(cell(&[instanced, beside], "instanced").is_err());
 }

@@ -68,9 +68,13 @@ pub(crate) fn parts(game: &Game, launched: &Launched) -> Vec<Result<String, Stri
     let depths = depths(launched);
     let mut covered = None;
     let parts = game.part.iter().map(|part| {
-        let judged = judged(part, launched, depths.as_ref(), covered);
-        covered = judged.as_ref().ok().map(|(step, _)| *step);
-        judged.map(|(_, text)| text)
+        let shifts = shifts(&launched.views, part.at);
+        let judged = match &shifts {
+            Some(shifts) => judged(part, shifts, depths.as_ref(), covered),
+            None => Err(format!("{}: not found again", part.name)),
+        };
+        covered = shifts.as_deref().map(step);
+        judged
     });
     parts.collect()
 }
@@ -104,19 +108,20 @@ fn disparities(game: &Game, report: &Value) -> String {
 /// By so much at least is a part nearer than what it covers, in pixels between neighbouring views.
 const MARGIN: f64 = 0.1;
 
-/// Shift of a part between neighbouring views, in pixels, and the sentence about it; an error where it is not where it belongs. `covered` is the
-/// shift of the part before it.
+/// The shift between neighbouring views of a part that has these in the views, in pixels.
+fn step(shifts: &[f64]) -> f64 {
+    shifts[VIEWS as usize - 1] / f64::from(VIEWS - 1)
+}
+
+/// The sentence about a part with these shifts in the views; an error where it is not where it belongs. `covered` is the shift of the part
+/// before it between neighbouring views.
 fn judged(
     part: &Part,
-    launched: &Launched,
+    found: &[f64],
     depths: Option<&Depths>,
     covered: Option<f64>,
-) -> Result<(f64, String), String> {
-    let name = &part.name;
-    let Some(found) = shifts(&launched.views, part.at) else {
-        return Err(format!("{name}: not found again"));
-    };
-    let step = found[VIEWS as usize - 1] / f64::from(VIEWS - 1);
+) -> Result<String, String> {
+    let (name, step) = (&part.name, step(found));
     let (expected, [least, most]) = match (part.is, depths, covered) {
         (Place::Flat, ..) => ("on the panel".to_owned(), [0.0; 2]),
         (Place::Sky, Some(d), _) => (format!("infinity {:+.2}", d.infinity), [d.infinity; 2]),
@@ -138,7 +143,7 @@ fn judged(
     });
     let text = format!("{name} {step:+.2} ({expected})");
     match good && (part.is != Place::Nearer || step < most - MARGIN) {
-        true => Ok((step, text)),
+        true => Ok(text),
         false => Err(text),
     }
 }
@@ -150,4 +155,30 @@ fn notes(report: &Value) -> String {
         .filter_map(Value::as_str)
         .map(|note| note.replace('|', "/"));
     notes.collect::<Vec<_>>().join("; ")
+}
+
+#[test]
+fn a_part_that_covers_another_is_nearer() {
+    let part = Part {
+        name: "arm".into(),
+        at: [0; 4],
+        is: Place::Nearer,
+    };
+    let depths = Depths {
+        near: -0.5,
+        far: 1.2,
+        infinity: 1.2,
+    };
+    let good = |step: f64, covered: Option<f64>| {
+        let shifts: Vec<_> = (0..VIEWS).map(|view| step * f64::from(view)).collect();
+        judged(&part, &shifts, Some(&depths), covered).is_ok()
+    };
+    assert!(good(-0.4, Some(0.85)));
+    assert!(!good(1.03, Some(0.94)), "behind it");
+    assert!(
+        !good(0.9, Some(0.94)),
+        "no nearer than the measurement is exact"
+    );
+    assert!(!good(-0.9, Some(0.85)), "nearer than all there is");
+    assert!(!good(-0.4, None));
 }

@@ -1,11 +1,11 @@
 /* Three walls at distances of 4 + frame/2, 10 and 40 units from the camera, in frames 1 to 10 of a surface without a window system.
  *
- * depths plain|reversed|inverted|overlay|weapon|cleared|covering|nodepth|shader|block|reversed-shader|pass-16|pass-24|pass-24-8|pass-32f|
+ * depths plain|reversed|inverted|overlay|weapon|cleared|covering|nodepth|nodepth-later|shader|block|reversed-shader|pass-16|pass-24|pass-24-8|pass-32f|
  *        pass-unsized|pass-samples|part|pass-part|isometric|isometric-reversed|isometric-front|cut|cut-moving|cut-shader|cut-view
  *
  * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: a flat picture that
  * writes depths over everything at the end; weapon: a surface at 1.5 in a depth range of its own; cleared: the same after a clear of the
- * depths; covering: that at 12, behind the nearest wall; nodepth: no depth test; shader, block: shaders, with the projection in a uniform or a uniform block; pass: to a framebuffer of
+ * depths; covering: that at 12, behind the nearest wall; nodepth: no depth test; nodepth-later: none from frame 2 on; shader, block: shaders, with the projection in a uniform or a uniform block; pass: to a framebuffer of
  * twice the window's size, with depths in a renderbuffer (16, samples) or a texture (the others), whose picture is then drawn over the
  * window; part: the lowest quarter has the nearest depths and is not drawn to, by the viewport
  * or the scissor test of a pass, as under a status bar; isometric: without perspective, 68 units wide and from 1 to 100 deep, with other
@@ -253,8 +253,10 @@ int main(int count, char **arguments)
             glDepthRange(1, 0);
         glClearDepth(reversed || inverted || turned ? 0 : 1);
         glDepthFunc(reversed || inverted || turned ? GL_GREATER : GL_LESS);
-        if (strcmp(how, "nodepth"))
+        if (strcmp(how, "nodepth") && (strcmp(how, "nodepth-later") || frame == 1))
             glEnable(GL_DEPTH_TEST);
+        else
+            glDisable(GL_DEPTH_TEST);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         if (strstr(how, "part")) {
             GLint whole[4];
