@@ -272,6 +272,23 @@ fn depths_of_16_bits_tell_as_much() {
     }
 }
 
+/// Views of OpenGL ES are synthesised as those of desktop OpenGL are, but for the hidden surfaces of `occlusion`.
+#[test]
+fn scenes_of_es_are_synthesised() {
+    for strategy in ["replay", "depth-image", "occlusion", "hybrid"] {
+        let same = if strategy == "occlusion" {
+            "depth-image"
+        } else {
+            strategy
+        };
+        let (desktop, _) = bars_shown("new", "atlas", same);
+        let (picture, report) = bars_shown("es", "atlas", strategy);
+        let made = &report["frames_synthesised"]["into_tiles"];
+        assert_eq!(made.as_u64() > Some(0), strategy != "replay", "{report}");
+        assert_eq!(pixels_over(&desktop, &picture, 0), 0, "{strategy}");
+    }
+}
+
 #[test]
 fn programs_with_other_stages_and_outputs_are_left_out() {
     for (way, why) in REFUSED {

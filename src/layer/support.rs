@@ -108,13 +108,17 @@ impl Support {
         self.instanced()
     }
 
-    /// The names for `--strategy` that this context supports.
+    /// The names for `--strategy` that this context supports; `es`: of OpenGL ES. Programs with shaders are synthesised where fixed function is.
     #[must_use]
-    pub fn strategies(&self) -> Vec<&'static str> {
+    pub fn strategies(&self, es: bool) -> Vec<&'static str> {
+        let synthesises = self.glsl >= 130;
         [
             ("replay", true),
             ("instanced", self.instanced() || self.layers()),
             ("geometry", self.geometry()),
+            ("depth-image", synthesises),
+            ("occlusion", self.glsl >= 150 && !es),
+            ("hybrid", synthesises),
         ]
         .into_iter()
         .filter_map(|(name, there)| there.then_some(name))
@@ -196,14 +200,22 @@ mod tests {
     #[test]
     fn what_is_missing_is_said() {
         let full = support(150, true, 8);
-        assert_eq!(full.strategies(), ["replay", "instanced", "geometry"]);
+        let synthesised = ["depth-image", "occlusion", "hybrid"];
+        let all = [&["replay", "instanced", "geometry"][..], &synthesised].concat();
+        assert_eq!(full.strategies(false), all);
         assert!(full.notes(false).is_empty());
-        for (less, word) in [
-            (support(120, true, 0), "GLSL 1.50"),
-            (support(150, true, 1), "clip distances"),
-            (support(450, false, 0), "core profile"),
+        for (less, synthesised, word) in [
+            (support(120, true, 0), &[][..], "GLSL 1.50"),
+            (
+                support(130, true, 0),
+                &["depth-image", "hybrid"],
+                "GLSL 1.50",
+            ),
+            (support(150, true, 1), &synthesised, "clip distances"),
+            (support(450, false, 0), &synthesised, "core profile"),
         ] {
-            assert_eq!(less.strategies(), ["replay"]);
+            let exact = &["replay"][..];
+            assert_eq!(less.strategies(false), [exact, synthesised].concat());
             assert!(
                 less.notes(false)[0].contains(word),
                 "{:?}",
@@ -211,7 +223,7 @@ mod tests {
             );
         }
         let es = support(320, false, 0);
-        assert_eq!(es.strategies(), ["replay"]);
+        assert_eq!(es.strategies(true), ["replay", "depth-image", "hybrid"]);
         assert!(
             es.notes(true)[0].contains("OpenGL ES"),
             "{:?}",
@@ -222,7 +234,8 @@ mod tests {
             vertex_layer: Some(VertexLayer::ArbShaderViewportLayerArray),
             ..support(450, false, 0)
         };
-        assert_eq!(core.strategies(), ["replay", "instanced"]);
+        let all = [&["replay", "instanced"][..], &synthesised].concat();
+        assert_eq!(core.strategies(false), all);
         assert!(core.notes(false).is_empty());
     }
 

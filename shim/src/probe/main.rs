@@ -77,7 +77,10 @@ unsafe fn ask(context: &Context) -> Probe {
     };
     match Support::ask(&gl) {
         Ok(support) => {
-            let names = support.strategies().into_iter().map(str::to_owned);
+            let names = support
+                .strategies(gl.is_es())
+                .into_iter()
+                .map(str::to_owned);
             probe.strategies = names.collect();
             probe.notes = support.notes(gl.is_es());
             let interleaver = Interleaver::new(&gl, &mut Default::default(), support.glsl, None);

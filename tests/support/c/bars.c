@@ -11,7 +11,8 @@
  *   cyan       the same as strips, without writing red
  *   list       fixed function, in a display list
  *   several    GLSL 1.20, with two colour outputs
- *   geometry   GLSL 1.50, with a geometry shader */
+ *   geometry   GLSL 1.50, with a geometry shader
+ *   es         GLSL ES 3.00 in a context of OpenGL ES */
 #define SURFACE_SIZE
 enum { WIDTH = 400, HEIGHT = 300 };
 #include "shaders.h"
@@ -109,6 +110,11 @@ static const char *const new_vertex =
     "void main() { mv_displacement = paint; gl_Position = camera * vec4(place, 1.0); }\n";
 static const char *const new_fragment =
     "#version 330 core\nin vec3 mv_displacement;\nout vec4 shown;\nvoid main() { shown = vec4(mv_displacement, 1.0); }\n";
+static const char *const es_vertex =
+    "#version 300 es\nuniform mat4 camera;\nin vec3 place, paint;\nout vec3 colour;\n"
+    "void main() { colour = paint; gl_Position = camera * vec4(place, 1.0); }\n";
+static const char *const es_fragment =
+    "#version 300 es\nprecision highp float;\nin vec3 colour;\nout vec4 shown;\nvoid main() { shown = vec4(colour, 1.0); }\n";
 static const char *const several_fragment =
     "#version 120\nvarying vec3 colour;\nvoid main() { gl_FragData[0] = vec4(colour, 1.0); gl_FragData[1] = vec4(1.0); }\n";
 static const char *const geometry_vertex =
@@ -128,11 +134,11 @@ static GLuint made(int core)
 {
     GLuint program = glCreateProgram();
     int matrix = is("matrix") || is("begin"), geometry = is("geometry");
-    attached(program, GL_VERTEX_SHADER, core ? new_vertex : matrix ? matrix_vertex : geometry ? geometry_vertex : old_vertex);
+    attached(program, GL_VERTEX_SHADER, is("es") ? es_vertex : core ? new_vertex : matrix ? matrix_vertex : geometry ? geometry_vertex : old_vertex);
     if (geometry)
         attached(program, GL_GEOMETRY_SHADER, geometry_between);
     attached(program, GL_FRAGMENT_SHADER,
-             core ? new_fragment : matrix ? matrix_fragment : geometry ? geometry_fragment : is("several") ? several_fragment
+             is("es") ? es_fragment : core ? new_fragment : matrix ? matrix_fragment : geometry ? geometry_fragment : is("several") ? several_fragment
              : is("coord") ? coord_fragment : old_fragment);
     glBindAttribLocation(program, 0, "place");
     glBindAttribLocation(program, 3, "paint");
@@ -193,12 +199,13 @@ static void tell(int frame, GLuint program, const GLuint *unit)
 int main(int argc, char **argv)
 {
     const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3, EGL_NONE};
+    const EGLint es_attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
     const GLfloat camera[16] = {1 / 0.8f, 0, 0, 0, 0, 1 / 0.6f, 0, 0, 0, 0, -101.0f / 99.0f, -1, 0, 0, -200.0f / 99.0f, 0};
     way = argc > 1 ? argv[1] : "";
     int core = is("new") || is("instanced");
-    if (!open_surface())
+    if (!open_surface() || (is("es") && !eglBindAPI(EGL_OPENGL_ES_API)))
         return 2;
-    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, core ? attributes : NULL);
+    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, core ? attributes : is("es") ? es_attributes : NULL);
     if (!context || !eglMakeCurrent(display, surface, surface, context))
         return 2;
     if (in_squares())
