@@ -1,7 +1,7 @@
 //! docs/looks.md: a table of the games, and a section with the pictures of each.
 
 use crate::row::Row;
-use crate::table::Game;
+use crate::table::{ELEMENTS, Game};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -23,6 +23,16 @@ the panel shows it, and the disparities of the frames before it.
 
 ";
 
+const ELEMENTS_HEAD: &str = "
+## Elements
+
+What often looks wrong in several views. Parts of the games that show it, and the [demos](../examples/README.md) whose views the tests compare with what
+the demos themselves draw.
+
+| element | parts | demos |
+|---|---|---|
+";
+
 /// What the page holds of a game.
 pub(crate) struct Entry {
     /// Its line in the table.
@@ -34,6 +44,15 @@ pub(crate) struct Entry {
 impl Entry {
     pub(crate) fn passes(&self) -> bool {
         self.line.ends_with("| passes |")
+    }
+
+    /// What the table says of a part.
+    fn part(&self, name: &str) -> Option<&str> {
+        let cell = self.line.split(" | ").nth(2)?;
+        let start = format!("{name} ");
+        let parts = cell.split_inclusive(')');
+        let mut parts = parts.map(|part| part.trim_start_matches(['*', ',', ' ']));
+        parts.find(|part| part.starts_with(&start))
     }
 
     /// For a line of progress.
@@ -97,6 +116,27 @@ pub(crate) fn entries(page: &str) -> BTreeMap<String, Entry> {
     sections.filter_map(entry).collect()
 }
 
+/// The table of elements: the parts that show each, and the demos that the tests compare.
+fn elements(known: &[(&Game, &Entry)]) -> String {
+    let mut text = String::from(ELEMENTS_HEAD);
+    for (element, demos) in ELEMENTS {
+        let cell = |(game, entry): &(&Game, &Entry)| {
+            let parts = game.part.iter();
+            let shown: Vec<_> = parts
+                .filter(|part| part.element.as_deref() == Some(element))
+                .filter_map(|part| entry.part(&part.name))
+                .collect();
+            (!shown.is_empty())
+                .then(|| format!("[{name}](#{name}): {}", shown.join(", "), name = game.name))
+        };
+        let cells: Vec<_> = known.iter().filter_map(cell).collect();
+        let demos = demos.unwrap_or("none: [on the panel](limits.md)");
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "| {element} | {} | {demos} |", cells.join("; "));
+    }
+    text
+}
+
 /// The page of these games, in their order.
 pub(crate) fn page(games: &[Game], entries: &BTreeMap<String, Entry>) -> String {
     let known = || {
@@ -117,12 +157,34 @@ pub(crate) fn page(games: &[Game], entries: &BTreeMap<String, Entry>) -> String 
         text.push_str(&entry.line);
         text.push('\n');
     }
+    text.push_str(&elements(&known().collect::<Vec<_>>()));
     for (game, entry) in known() {
         // Writing to a string cannot fail.
         let _ = write!(text, "\n## {}\n\n{}", game.name, entry.section.trim_end());
         text.push('\n');
     }
     text
+}
+
+#[test]
+fn elements_are_known_and_their_parts_are_found() {
+    let games = crate::table::read();
+    for part in games.iter().flat_map(|game| &game.part) {
+        let element = part.element.as_deref();
+        let known = |name| ELEMENTS.iter().any(|(element, _)| *element == name);
+        assert!(element.is_none_or(known), "{}: {element:?}", part.name);
+    }
+    let entry = Entry {
+        line: "| [a](#a) | -1 to +1 of 2 | far car +1.00 (scene -0.41 to +1.22), **car: not found (sky)**, map +0.01 (on the panel) | passes |"
+            .to_owned(),
+        section: String::new(),
+    };
+    assert_eq!(entry.part("map"), Some("map +0.01 (on the panel)"));
+    assert_eq!(
+        entry.part("far car"),
+        Some("far car +1.00 (scene -0.41 to +1.22)")
+    );
+    assert_eq!(entry.part("car"), None);
 }
 
 #[test]

@@ -163,6 +163,7 @@ fn a_part_that_covers_another_is_nearer() {
         name: "arm".into(),
         at: [0; 4],
         is: Place::Nearer,
+        element: None,
     };
     let depths = Depths {
         near: -0.5,

@@ -50,7 +50,26 @@ pub(crate) struct Part {
     pub(crate) at: [u32; 4],
     /// Where it belongs.
     pub(crate) is: Place,
+    /// The element of pictures that it is an example of, one of [`ELEMENTS`].
+    pub(crate) element: Option<String>,
 }
+
+/// Elements that often look wrong in several views, and the demos that have each. Tests compare the views of those with what the demos themselves
+/// draw. `None`: the layer leaves such things on the panel (docs/limits.md).
+pub(crate) const ELEMENTS: [(&str, Option<&str>); 12] = [
+    ("reflection", Some("`mirror`, `fogtexgen`")),
+    ("water", Some("`relief`")),
+    ("shadow", Some("`mirror`, `crowd`, `passes`")),
+    ("particles", Some("`sky`, `points`")),
+    ("decal", Some("`mirror`, `hard`")),
+    ("weapon", Some("`sky`")),
+    ("crosshair", Some("`shade`, `menu`")),
+    ("map", Some("`crowd`")),
+    ("name tag", None),
+    ("lens flare", None),
+    ("bloom", Some("`passes`")),
+    ("fog", Some("`fogtexgen`")),
+];
 
 /// A place in depth.
 #[derive(Clone, Copy, Deserialize, PartialEq, Eq)]
