@@ -425,6 +425,7 @@ pub const MISSES: &[Miss] = &[
         strategies: &[
             "replay",
             "replay-layers",
+            "replay-auto-depth",
             "instanced-distances",
             "geometry-distances",
             "instanced-discard",
