@@ -201,6 +201,11 @@ fn bars_shown(way: &str, what: &str, strategy: &str) -> (RgbImage, Value) {
 }
 
 fn bars_of(bars: &Path, way: &str, what: &str, strategy: &str) -> (RgbImage, Value) {
+    shown_of(bars, &[way], what, strategy)
+}
+
+/// The third frame of a program with these arguments, in five views, and the report.
+fn shown_of(program: &Path, arguments: &[&str], what: &str, strategy: &str) -> (RgbImage, Value) {
     let folder = tempfile::tempdir().expect("a folder");
     let (out, report) = (folder.path().join("a.png"), folder.path().join("a.json"));
     let mut command = manyview();
@@ -208,8 +213,8 @@ fn bars_of(bars: &Path, way: &str, what: &str, strategy: &str) -> (RgbImage, Val
     command.args(["--strategy", strategy, "--out"]).arg(&out);
     let (separation, convergence) = (WIDE.to_string(), CONVERGENCE.to_string());
     command.args(["--separation", &separation, "--convergence", &convergence]);
-    command.arg("--report").arg(&report).arg("--").arg(bars);
-    succeed(screen().give(command.arg(way)));
+    command.arg("--report").arg(&report).arg("--").arg(program);
+    succeed(screen().give(command.args(arguments)));
     (rgb(&out), read(&report))
 }
 
@@ -269,6 +274,29 @@ fn depths_of_16_bits_tell_as_much() {
             off * 500 <= u64::from(fine.width() * fine.height()),
             "{strategy}: {off}"
         );
+    }
+}
+
+/// A line one pixel wide is in every synthesised view, as long as it is in the drawn ones.
+#[test]
+fn lines_stay_in_every_view() {
+    let thin = compiled("thin", Compiled::Program, &["-lEGL", "-lGL"]);
+    let yellow = |pixel: &&Rgb<u8>| pixel[0] > 128;
+    for ground in [&[][..], &["nothing"]] {
+        let count = |strategy| {
+            let (all, report) = shown_of(&thin, ground, "atlas", strategy);
+            let made = report["frames_synthesised"]["into_tiles"].as_u64();
+            assert_eq!(made > Some(0), strategy != "replay", "{report}");
+            let width = all.width() / 5;
+            let view = |i| all.view(i * width, 0, width, all.height()).to_image();
+            let lit = |i| view(i).pixels().filter(yellow).count();
+            (0..5).map(lit).collect::<Vec<_>>()
+        };
+        let drawn = count("replay");
+        assert!(drawn.iter().all(|lit| *lit > 2000), "{drawn:?}");
+        for strategy in ["depth-image", "occlusion", "hybrid"] {
+            assert_eq!(count(strategy), drawn, "{ground:?}, {strategy}");
+        }
     }
 }
 
