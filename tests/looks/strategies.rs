@@ -44,7 +44,16 @@ pub(crate) fn cell(game: &Game, strategy: &str, launched: &Result<Launched, Stri
     }
     let synthesised = launched.report["frames_synthesised"].as_object();
     if synthesised.is_none() && strategy != "replay" {
-        text.push_str("; **no views were synthesised**");
+        let reasons = launched.report["fallbacks"].as_object();
+        let mut reasons = reasons.into_iter().flatten().map(|(reason, _)| reason);
+        let told = reasons.find_map(|reason| reason.strip_prefix("no view is synthesised: "));
+        let _ = match told {
+            Some(reason) => write!(text, "; all views drawn: {reason}"),
+            None => write!(
+                text,
+                "; **no views were synthesised, and no reason is told**"
+            ),
+        };
     }
     let frames = synthesised.map(|by| {
         by.values()
