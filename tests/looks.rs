@@ -24,6 +24,7 @@ mod strategies;
 #[path = "looks/table.rs"]
 mod table;
 
+use launch::Launched;
 use std::fs;
 use std::path::Path;
 use support::scratch;
@@ -33,15 +34,19 @@ const PAGE: &str = "docs/looks.md";
 const PICTURES: &str = "docs/looks";
 const STRATEGIES: &str = "docs/looks-strategies.md";
 
+/// A game that is played now, or was played before.
+fn launched(game: &Game, folder: &Path, strategy: Option<&str>) -> Result<Launched, String> {
+    match std::env::var_os("MANYVIEW_LOOKS_KEPT") {
+        Some(_) => launch::kept(folder, u64::MAX),
+        None => launch::launch(game, folder, strategy),
+    }
+}
+
 /// Plays a game and writes its pictures.
 fn look(game: &Game) -> page::Entry {
     let folder = scratch("looks").join(&game.name);
     fs::create_dir_all(&folder).expect("a folder");
-    let launched = match std::env::var_os("MANYVIEW_LOOKS_KEPT") {
-        Some(_) => launch::kept(&folder, u64::MAX),
-        None => launch::launch(game, &folder, None),
-    };
-    let launched = match launched {
+    let launched = match launched(game, &folder, None) {
         Ok(launched) => launched,
         Err(reason) => return page::entry(game, &row::failed(&reason), false),
     };
@@ -102,11 +107,7 @@ fn looks_are_right_under_every_strategy() {
         let cells = strategies::STRATEGIES.map(|strategy| {
             let folder = scratch("looks-strategies").join(&game.name).join(strategy);
             fs::create_dir_all(&folder).expect("a folder");
-            let cell = strategies::cell(
-                game,
-                strategy,
-                &launch::launch(game, &folder, Some(strategy)),
-            );
+            let cell = strategies::cell(game, strategy, &launched(game, &folder, Some(strategy)));
             eprintln!(
                 "{}/{} {} {strategy}: {cell}",
                 at + 1,

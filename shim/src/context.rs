@@ -10,6 +10,7 @@ use crate::geometry::Seen;
 use crate::keys;
 use crate::live;
 use crate::messages::{self, Receiver};
+use crate::panel;
 use crate::provider::Provider;
 use crate::record::{Context, Key, Work};
 use crate::registry;
@@ -445,6 +446,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
             if let Some(l) = &mut work.layer {
                 control::before(l);
                 keys::before(l);
+                panel::before(l);
                 let kept = drawable.is_none() || !l.has_back_buffer();
                 if let Some(draw) = c.draws_to() {
                     follow_window(l, draw, &mut work.seen);
@@ -453,6 +455,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
                     }
                 }
                 l.show(gl, drawable.is_some());
+                panel::after(l);
             }
             if let Some(f) = &mut work.frames {
                 f.show(gl);

@@ -20,6 +20,7 @@ mod hooks;
 mod keys;
 mod live;
 mod messages;
+mod panel;
 mod provider;
 mod record;
 mod registry;

@@ -15,6 +15,14 @@ impl ViewSet {
         let word = self.0.get(view.0 as usize / 64).copied().unwrap_or(0);
         word >> (view.0 % 64) & 1 != 0
     }
+
+    /// The views of both sets.
+    #[must_use]
+    pub fn and(mut self, other: ViewSet) -> ViewSet {
+        let words = self.0.iter_mut().zip(other.0);
+        words.for_each(|(word, other)| *word |= other);
+        self
+    }
 }
 
 impl FromIterator<ViewIndex> for ViewSet {

@@ -9,6 +9,7 @@ use manyview::bench::proof;
 use manyview::config::{OptionId, Origin, Settings, Status};
 use manyview::launch::Launch;
 use manyview::report::Summary;
+use manyview::window::PanelServer;
 use std::ffi::OsString;
 use std::io::Write;
 use std::os::unix::fs::MetadataExt;
@@ -31,10 +32,24 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Some(_) => Some(StatusFile::new(&mut settings)?),
         None => None,
     };
+    if settings.get(OptionId::Panel).is_some() {
+        let socket = PanelServer::place();
+        settings.set(
+            OptionId::PanelSocket,
+            socket.to_string_lossy(),
+            Origin::Default,
+        );
+    }
     let launch = Launch::prepare(&arguments.command, &settings)?;
+    let screen = launch.config.display.facts.screen;
+    let panel = launch.config.panel.as_ref();
+    let panel = panel
+        .map(|panel| PanelServer::open(panel, screen))
+        .transpose()?;
     let explanation = launch.config.explain.as_ref();
     let before = explanation.map(|explain| stamps(&explain.files()));
     let ended = launch.run()?;
+    drop(panel);
     if let (Some(explain), Some(before)) = (explanation, before) {
         let files = explain.files();
         if stamps(&files)

@@ -28,7 +28,7 @@ pub(super) fn choice<T: Copy>(
 pub(super) fn choices(id: OptionId) -> String {
     let listed = id.spec().listed("and");
     match id {
-        OptionId::Output => format!(
+        OptionId::Output | OptionId::WindowOutput => format!(
             "{listed}, with KIND red-cyan, green-magenta or amber-blue, and -half or -grey after it"
         ),
         OptionId::Disable => format!("{listed}, several of them with commas between"),

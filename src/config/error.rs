@@ -78,6 +78,32 @@ pub enum ConfigError {
         /// Its value.
         value: String,
     },
+    /// An option of the panel's own window without that.
+    #[error(
+        "{field} is for a window of the panel's own; give {panel} as a monitor or auto with it, or leave it out"
+    )]
+    NoPanelWindow {
+        /// The option.
+        field: Field,
+        /// The option that opens the window.
+        panel: Field,
+    },
+    /// Two buffers for one window.
+    #[error(
+        "{field} is 'quad', for a stereo window of the program's own; give another output with {panel}"
+    )]
+    QuadPanel {
+        /// The output.
+        field: Field,
+        /// The option that opens the window.
+        panel: Field,
+    },
+    /// No name of a monitor.
+    #[error("{field} is empty; give the name or the number of a monitor, or auto")]
+    NoMonitor {
+        /// The option.
+        field: Field,
+    },
     /// A view that does not exist.
     #[error("{field} asks for view {view} of {views}; views count from 0, so the last is view:{last}", last = views - 1)]
     ViewOutOfRange {

@@ -12,6 +12,7 @@ mod live;
 mod options;
 mod output;
 pub mod panel;
+mod panel_window;
 mod parse;
 pub mod profile;
 #[cfg(test)]
@@ -33,6 +34,7 @@ pub use field::{Field, Origin, Renaming};
 pub use live::{Knob, Live};
 pub use options::{DISABLE, Former, LIBRARY, OPTIONS, OptionId, OptionSpec, PathKind, Scope};
 pub use output::{Anaglyph, Glasses, Interlace, Mixture, Output};
+pub use panel_window::{AUTO, PanelWindow};
 pub use profile::{Profile, Rule};
 pub use replace::{replace, replace_by};
 pub use settings::{Setting, Settings};
@@ -99,6 +101,8 @@ pub struct Config {
     pub status: Option<PathBuf>,
     /// The folder in which the programs of one launch claim paths, if the launcher has made one; see [`crate::claim`].
     pub launch: Option<PathBuf>,
+    /// The panel's own window, if the user wants one.
+    pub panel: Option<PanelWindow>,
     /// Former names that somebody used, to be told.
     pub renamings: Vec<Renaming>,
 }

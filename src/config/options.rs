@@ -19,6 +19,12 @@ pub enum OptionId {
     Views,
     /// The picture that is shown.
     Output,
+    /// The monitor of the panel's own window.
+    Panel,
+    /// How the picture is fitted to the panel.
+    Fit,
+    /// What the program's window shows while the panel has one of its own.
+    WindowOutput,
     /// How a subpixel that lies between two views is coloured.
     Filter,
     /// κ
@@ -77,6 +83,8 @@ pub enum OptionId {
     Status,
     /// Where the programs of a launch claim paths.
     Launch,
+    /// The socket of the panel's own window.
+    PanelSocket,
 }
 
 /// How a value that may be a path is made absolute.
@@ -303,6 +311,15 @@ pub const OPTIONS: &[OptionSpec] = &[
         "What the window shows")
         .choices(&output::WORDS)
         .default("panel").manual("See [Outputs](outputs.md)."),
+    OptionSpec::new(OptionId::Panel, "panel", "MANYVIEW_PANEL", "MONITOR|auto",
+        "Show the output in a window of its own over this monitor, by name or number; the program keeps its window (`run`, X11)")
+        .manual("`auto` takes the monitor that has the panel's size. See [A window of the panel's own](outputs.md#a-window-of-the-panels-own)."),
+    OptionSpec::new(OptionId::Fit, "fit", "MANYVIEW_FIT", "",
+        "How the picture is fitted to a panel of another aspect, with --panel: whole with black bars, cut off at its sides, or distorted")
+        .choices(&["contain", "cover", "stretch"]).default("contain"),
+    OptionSpec::new(OptionId::WindowOutput, "window-output", "MANYVIEW_WINDOW_OUTPUT", "OUTPUT",
+        "What the program's window shows, with --panel")
+        .choices(&output::WINDOW_WORDS).default("own"),
     OptionSpec::new(OptionId::Filter, "filter", "MANYVIEW_FILTER", "FILTER",
         "How a subpixel that lies between two views is coloured")
         .choices(&["nearest", "blend", "gaussian"])
@@ -392,6 +409,9 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::variable(OptionId::Launch, "MANYVIEW_LAUNCH", "FOLDER",
         "Folder in which the programs of one launch agree which of them writes to a path; set by the commands that start programs")
         .path(PathKind::File),
+    OptionSpec::variable(OptionId::PanelSocket, "MANYVIEW_PANEL_SOCKET", "PATH",
+        "Socket of the panel's window; set by `run`")
+        .path(PathKind::File),
     OptionSpec::variable(OptionId::Profiles, "MANYVIEW_PROFILES", "FOLDER",
         "Folder in which profiles are found by name and by program, after `manyview/profiles` in `XDG_CONFIG_HOME` or `~/.config`")
         .path(PathKind::File).default("`profiles` beside `libmanyview.so`"),
@@ -478,6 +498,9 @@ mod tests {
                 let mut settings = Settings::default();
                 settings.set(row.id, value, Origin::CommandLine);
                 settings.set(OptionId::CaptureOut, "a.png", Origin::CommandLine);
+                if matches!(row.id, OptionId::Fit | OptionId::WindowOutput) {
+                    settings.set(OptionId::Panel, "auto", Origin::CommandLine);
+                }
                 if *choice == "reference" || *choice == "samples" {
                     settings.set(OptionId::Strategy, "occlusion", Origin::CommandLine);
                 }
@@ -515,6 +538,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 33, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 37, "a new option needs a row");
     }
 }

@@ -123,6 +123,20 @@ pub(super) const GLASSES: [(&str, Glasses); 3] = [
 /// How outputs are written, for a message.
 pub(super) const WORDS: [&str; OUTPUTS.len() + 2] = words(OUTPUTS, &["anaglyph[:KIND]", "view:I"]);
 
+/// What the program's window shows beside the panel's: `None` is its own view. An anaglyph and a view have a second part.
+pub(super) const WINDOW_OUTPUTS: &[(&str, Option<Output>)] = &[
+    ("own", None),
+    ("quilt", Some(Output::Quilt)),
+    ("sbs", Some(Output::SideBySide { half: false })),
+    ("half-sbs", Some(Output::SideBySide { half: true })),
+    ("tb", Some(Output::TopBottom { half: false })),
+    ("half-tb", Some(Output::TopBottom { half: true })),
+];
+
+/// How these are written, for a message.
+pub(super) const WINDOW_WORDS: [&str; WINDOW_OUTPUTS.len() + 2] =
+    words(WINDOW_OUTPUTS, &["anaglyph[:KIND]", "view:I"]);
+
 impl fmt::Display for Output {
     /// As the option is written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

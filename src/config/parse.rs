@@ -10,8 +10,8 @@ use super::settings::Settings;
 use super::strategy::STRATEGIES;
 use super::{
     Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter,
-    Kept, MAX_VIEWS, Mixture, Optimisation, OrthographicDraws, Output, Profile, Strategy,
-    TrueViews, ViewScale, panel, profile,
+    Kept, MAX_VIEWS, Mixture, Optimisation, OrthographicDraws, Output, PanelWindow, Profile,
+    Strategy, TrueViews, ViewScale, panel, profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::path::PathBuf;
@@ -24,7 +24,7 @@ impl Config {
         let display = display(settings)?;
         let output = output(settings, &display)?;
         let views = views(settings, &display, output)?;
-        check_output(settings, output, views)?;
+        check_output(settings, OptionId::Output, output, views)?;
         let strategy = strategy(settings)?;
         Ok(Self {
             views,
@@ -51,6 +51,7 @@ impl Config {
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
             launch: path(settings, OptionId::Launch),
+            panel: PanelWindow::from_settings(settings, views)?,
             renamings: settings.renamings().to_vec(),
             display,
         })
@@ -150,7 +151,7 @@ pub(super) fn output_of(
         panel::check_views(display, views)
             .map_err(|reason| ConfigError::Display { field, reason })?;
     }
-    check_output(settings, output, views)?;
+    check_output(settings, OptionId::Output, output, views)?;
     Ok(output)
 }
 
@@ -179,7 +180,7 @@ fn output(settings: &Settings, display: &Display) -> Result<Output, ConfigError>
 }
 
 /// `anaglyph`, `anaglyph:GLASSES` or `anaglyph:GLASSES-MIXTURE`.
-fn anaglyph(value: &str) -> Option<Anaglyph> {
+pub(super) fn anaglyph(value: &str) -> Option<Anaglyph> {
     let kind = match value.strip_prefix("anaglyph")? {
         "" => GLASSES[0].0,
         kind => kind.strip_prefix(':')?,
@@ -196,8 +197,13 @@ fn anaglyph(value: &str) -> Option<Anaglyph> {
 }
 
 /// Refuses a single view that is not there, and two eyes where there is one view.
-fn check_output(settings: &Settings, output: Output, views: u32) -> Result<(), ConfigError> {
-    let Some((field, value)) = settings.field(OptionId::Output) else {
+pub(super) fn check_output(
+    settings: &Settings,
+    id: OptionId,
+    output: Output,
+    views: u32,
+) -> Result<(), ConfigError> {
+    let Some((field, value)) = settings.field(id) else {
         return Ok(());
     };
     match output {
@@ -223,7 +229,7 @@ fn filter(settings: &Settings, views: u32) -> Result<Filter, ConfigError> {
 }
 
 /// The I of `view:I`.
-fn one_view(field: &Field, value: &str, views: u32) -> Result<u32, ConfigError> {
+pub(super) fn one_view(field: &Field, value: &str, views: u32) -> Result<u32, ConfigError> {
     let Some(view) = value
         .strip_prefix("view:")
         .and_then(|index| index.parse().ok())
@@ -466,7 +472,7 @@ fn switch(settings: &Settings, id: OptionId) -> Result<bool, ConfigError> {
     }
 }
 
-fn path(settings: &Settings, id: OptionId) -> Option<PathBuf> {
+pub(super) fn path(settings: &Settings, id: OptionId) -> Option<PathBuf> {
     settings
         .get(id)
         .map(|setting| PathBuf::from(&setting.value))

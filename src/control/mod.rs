@@ -6,6 +6,7 @@
 mod error;
 pub mod keys;
 mod lines;
+pub mod panel;
 pub mod place;
 
 pub use error::ControlError;

@@ -27,6 +27,24 @@ impl Gl {
         out
     }
 
+    /// glReadPixels of four bytes a pixel into `out`, rows bottom up: blue, green, red and anything, or on OpenGL ES red first. `out` has w·h times
+    /// four bytes, or nothing is read.
+    pub fn read_bgra(&self, _: &PixelStore, [x, y]: [i32; 2], [w, h]: [u32; 2], out: &mut [u8]) {
+        if out.len() != w as usize * h as usize * 4 {
+            return;
+        }
+        let format = if self.is_es() { c::RGBA } else { c::BGRA };
+        let p = out.as_mut_ptr().cast();
+        // SAFETY: w·h texels of four bytes, as many as `out` has; without gaps, in no buffer (`PixelStore`).
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w as i32, h as i32, format, c::UNSIGNED_BYTE, p)
+        };
+        if self.is_es() {
+            out.chunks_exact_mut(4).for_each(|texel| texel.swap(0, 2));
+        }
+    }
+
     /// glReadPixels of the red channel of floats, rows bottom up.
     pub fn read_red(&self, _: &PixelStore, x: i32, y: i32, w: u32, h: u32) -> Vec<f32> {
         // OpenGL ES reads four or none.

@@ -71,7 +71,10 @@ pub(super) fn fit_first(
         session.config,
         session.display(),
         session.live.output,
-        &Placement::full_screen(window.width, window.height),
+        (
+            [window.width, window.height],
+            &Placement::full_screen(window.width, window.height),
+        ),
         detail,
         on_gpu,
     );

@@ -161,6 +161,7 @@ impl Layer {
             gl.read_buffer(c::FRONT);
         }
         let exact = self.exact_picture(gl, image, neutral);
+        self.draw_panel(gl, image, depth.as_ref(), neutral);
         self.draw_picture(gl, image, depth.as_ref(), neutral);
         self.judge_proof(gl, neutral, exact);
         let source = self.source(image, depth.as_ref());
@@ -202,7 +203,7 @@ impl Layer {
         }
     }
 
-    /// Draws the picture of the atlas into the framebuffer that is bound, the true 0.
+    /// Draws the picture of the atlas for the program's window into the framebuffer that is bound, the true 0.
     pub(super) fn draw_picture(
         &mut self,
         gl: &Gl,
@@ -210,7 +211,26 @@ impl Layer {
         depth: Option<&Depth>,
         neutral: &Neutral,
     ) {
-        let output = self.output();
+        let output = match self.session.panel {
+            Some(_) => self
+                .window_output()
+                .unwrap_or(Output::View(self.targets.atlas.tiles.own().0)),
+            None => self.output(),
+        };
+        let placement = self.session.window_placement(self.size());
+        self.draw_output(gl, image, depth, neutral, (output, placement));
+    }
+
+    /// Draws a picture of the atlas over a rectangle of the framebuffer that is bound, from its lower left corner on, of the size that the placement
+    /// has.
+    pub(super) fn draw_output(
+        &mut self,
+        gl: &Gl,
+        image: u32,
+        depth: Option<&Depth>,
+        neutral: &Neutral,
+        (output, placement): (Output, Placement),
+    ) {
         let source = self.source(image, depth);
         let pictures = match self.is_mono() {
             true => vec![(None, Output::View(self.targets.atlas.tiles.own().0))],
@@ -218,7 +238,7 @@ impl Layer {
         };
         let panel = PanelPlacement {
             display: self.session.display(),
-            placement: self.placement(),
+            placement,
         };
         for (buffer, output) in pictures {
             if let Some(buffer) = buffer {
@@ -292,8 +312,8 @@ impl Layer {
         })
     }
 
-    /// Place of the window's picture on the screen, in pixels. Where the window system does not report it, the picture is taken to be the
-    /// whole screen.
+    /// Place of the picture on the panel, in pixels. Where the window system does not report the window's, the picture is taken to be the whole
+    /// screen.
     pub(super) fn placement(&self) -> Placement {
         self.session.placement(self.size())
     }

@@ -32,6 +32,7 @@ mod occlusion;
 mod orphans;
 mod orthographic;
 mod own_variants;
+mod panel;
 mod passes;
 mod programs;
 mod prove;
@@ -61,6 +62,7 @@ pub use draw::Primitives;
 pub use feedback::FeedbackCommand;
 pub use frames::Frames;
 pub use lists::is_scaled;
+pub use panel::PanelPicture;
 pub use queries::{Answer, ResultPlace};
 pub use reading::DrawableId;
 pub use tracked::Primitive;
@@ -221,10 +223,11 @@ impl Layer {
 
     /// Whether the picture depends on where the window lies. If so, [`Layer::moved`] has to be called before each frame is shown.
     pub fn follows_window(&self) -> bool {
-        matches!(
-            self.output(),
-            crate::config::Output::Panel | crate::config::Output::Interlaced(_)
-        )
+        self.session.panel.is_none()
+            && matches!(
+                self.output(),
+                crate::config::Output::Panel | crate::config::Output::Interlaced(_)
+            )
     }
 
     /// Sets the position of the window; none where the window system does not report it.
@@ -323,6 +326,10 @@ impl Layer {
         };
         self.diagnostics.report.note(note.into());
         self.targets.interleaver.rename(gl, &mut self.targets.names);
+        // The next frame makes it anew.
+        if let Some(panel) = self.targets.panel.take() {
+            panel.delete(gl);
+        }
     }
 
     fn rename_accumulation(&mut self, gl: &Gl) {

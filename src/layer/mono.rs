@@ -74,6 +74,7 @@ impl Layer {
             && self.session.config.prove.is_none()
             && captured.is_none_or(|what| what == CaptureWhat::Output)
             && self.shows_one_view()
+            && self.window_output().is_none()
     }
 
     /// Whether the picture of views that are all the same is the same as any of them: each subpixel shows one view, without a filter.

@@ -30,6 +30,10 @@ impl Layer {
             .orphans
             .buffers
             .extend(self.write_bindings.take_buffers());
+        if let Some(panel) = &self.targets.panel {
+            lists.orphans.framebuffers.push(panel.framebuffer());
+            lists.orphans.textures.push(panel.texture());
+        }
         let programs = self
             .targets
             .interleaver

@@ -11,29 +11,31 @@ use crate::plan::Unrepresentable;
 use crate::plan::decide::{Demand, Detail, retreat};
 use crate::view::ViewIndex;
 
-/// The grid of the views. `shader`: the output is made on the GPU, which can sample tiles that are aligned with the panel's lenses.
+/// The grid of the views of a window of this size. `shader`: the output is made on the GPU, and covers the window, so that it can sample tiles that
+/// are aligned with the panel's lenses.
 pub(super) fn grid(
     config: &Config,
     display: &Display,
     output: Output,
-    placement: &Placement,
+    ([width, height], placement): ([u32; 2], &Placement),
     detail: Detail,
     shader: bool,
 ) -> Grid {
-    let window = [placement.width, placement.height];
-    let scaled = |share: [f64; 2]| {
-        let tile = [0, 1].map(|i| ((f64::from(window[i]) * share[i]).round() as u32).max(1));
+    let (window, picture) = ([width, height], [placement.width, placement.height]);
+    let scaled = |share: [f64; 2], of: [u32; 2]| {
+        let side = |i: usize| (f64::from(of[i]) * share[i]).round() as u32;
+        let tile = [0, 1].map(|i| side(i).clamp(1, window[i]));
         Grid::scaled(tile, window)
     };
     match (config.view_scale, detail) {
         (_, Detail::Full) => Grid::FULL,
-        (ViewScale::Fixed(scale), _) => scaled([scale; 2]),
+        (ViewScale::Fixed(scale), _) => scaled([scale; 2], window),
         (ViewScale::Auto, detail) => {
             let form = Form::of(config, display, output);
             (detail == Detail::SampleAligned && shader)
                 .then(|| form.sample_aligned(placement, config.views))
                 .flatten()
-                .unwrap_or_else(|| scaled(form.share(config.views)))
+                .unwrap_or_else(|| scaled(form.share(config.views), picture))
         }
     }
 }
@@ -49,9 +51,9 @@ impl Layer {
             self.session.config,
             self.session.display(),
             self.output(),
-            &self.placement(),
+            (self.size().into(), &self.placement()),
             self.targets.detail,
-            self.targets.interleaver.on_gpu(),
+            self.targets.interleaver.on_gpu() && self.session.panel.is_none(),
         )
     }
 
@@ -126,8 +128,15 @@ impl Layer {
 
     /// The views that are in the picture.
     fn seen(&self) -> ViewSet {
+        let panel = self.seen_in(self.output());
+        let window = self.window_output().map(|output| self.seen_in(output));
+        window.map_or(panel, |window| panel.and(window))
+    }
+
+    /// The views that are in the picture of an output.
+    fn seen_in(&self, output: Output) -> ViewSet {
         let last = self.session.config.views - 1;
-        match self.output() {
+        match output {
             Output::Panel if self.session.config.filter == Filter::Nearest => {
                 self.targets.interleaver.shown()
             }

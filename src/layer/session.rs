@@ -1,7 +1,7 @@
 //! A context's settings and capabilities, and the group that shares its objects: all that holds for as long as the context is under the
 //! layer.
 
-use super::{Member, OnScreen, Support, auto};
+use super::{Member, OnScreen, PanelPicture, Support, auto};
 use crate::config::{Config, Live, Profile, Strategy};
 use crate::display::{Display, Placement};
 use crate::gl::Gl;
@@ -22,6 +22,11 @@ pub(super) struct Session {
     pub(super) profile: Arc<Profile>,
     /// Position of the window; none where the window system does not report it.
     pub(super) on_screen: Option<OnScreen>,
+    /// Width and height of the panel's own window, in pixels; none where the program's window is on the panel.
+    pub(super) panel: Option<(u32, u32)>,
+    /// The picture for that window, until it is taken; and the memory of the one before.
+    pub(super) panel_picture: Option<PanelPicture>,
+    pub(super) panel_pixels: Vec<u8>,
     /// The display with other numbers of its lens sheet, once they have been changed.
     fitted: Option<Display>,
     pub(super) auto: Option<auto::Auto>,
@@ -53,6 +58,9 @@ impl Session {
             live: Live::new(config),
             profile: Arc::new(config.profile.clone()),
             on_screen: None,
+            panel: None,
+            panel_picture: None,
+            panel_pixels: Vec::new(),
             fitted: None,
             auto,
         }
@@ -86,9 +94,17 @@ impl Session {
         self.on_screen = on_screen;
     }
 
+    /// Place on the panel of the picture of a window of this size, all in pixels.
+    pub(super) fn placement(&self, window: (u32, u32)) -> Placement {
+        match (self.panel, &self.config.panel) {
+            (Some(panel), Some(config)) => config.fit.place(window, panel),
+            _ => self.window_placement(window),
+        }
+    }
+
     /// Place of the picture of a window of this size on the screen, all in pixels. Where the window system does not report it, the picture is
     /// taken to be the whole screen.
-    pub(super) fn placement(&self, (width, height): (u32, u32)) -> Placement {
+    pub(super) fn window_placement(&self, (width, height): (u32, u32)) -> Placement {
         let whole = Placement::full_screen(width, height);
         let at = self.on_screen.map(|on_screen| Placement {
             screen_width: on_screen.screen.0,

@@ -361,6 +361,7 @@ impl Layer {
             .as_ref()
             .map(|capture| capture.what);
         let straight = self.output() == Output::Panel
+            && self.window_output().is_none()
             && self.session.config.filter == Filter::Nearest
             && captured.is_none_or(|what| what == CaptureWhat::Output)
             && !self.targets.undrawn;

@@ -4,7 +4,7 @@ use super::fit::{Fitted, fit_first};
 use super::session::Session;
 use super::support::Support;
 use super::{LayerError, accumulate, framebuffer};
-use crate::atlas::{Atlas, Names};
+use crate::atlas::{Atlas, Names, PanelImage};
 use crate::config::{Config, ViewScale};
 use crate::gl::shadow::are_textures_taken;
 use crate::gl::{FramebufferName, Gl, TextureName};
@@ -21,6 +21,8 @@ pub(super) struct Targets {
     pub(super) names: Names,
     pub(super) offscreen: Offscreen,
     pub(super) accumulated: accumulate::Accumulated,
+    /// The picture for the panel's own window, once one was drawn.
+    pub(super) panel: Option<PanelImage>,
     pub(super) interleaver: Interleaver,
     pub(super) detail: Detail,
     /// The driver has made no other atlas, so this one stays.
@@ -76,6 +78,7 @@ impl Targets {
             names,
             offscreen: Offscreen::new(gl, config.views, support.compatibility, images),
             accumulated: accumulate::Accumulated::default(),
+            panel: None,
             interleaver,
             detail,
             stuck: told.is_some(),
@@ -90,6 +93,10 @@ impl Targets {
         let accumulation = self.accumulated.buffer.as_ref();
         self.atlas.owns(name)
             || self.interleaver.texture() == name
+            || self
+                .panel
+                .as_ref()
+                .is_some_and(|panel| panel.texture() == name)
             || self.offscreen.owns_texture(name)
             || accumulation.is_some_and(|buffer| buffer.owns(name))
     }
@@ -99,6 +106,10 @@ impl Targets {
         let accumulation = self.accumulated.buffer.as_ref();
         self.atlas.framebuffers().any(|own| own == name)
             || self.offscreen.owns_framebuffer(name)
+            || self
+                .panel
+                .as_ref()
+                .is_some_and(|panel| panel.framebuffer() == name)
             || accumulation.is_some_and(|buffer| buffer.framebuffer() == name)
     }
 

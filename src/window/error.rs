@@ -17,9 +17,14 @@ pub enum WindowError {
         "the X screen has no 24-bit true colour; use one that has, as the panel shows nothing right without"
     )]
     Colours,
+    /// The layer cannot reach the window.
+    #[error("the panel's window has no socket: {0}; free its place in XDG_RUNTIME_DIR or /tmp")]
+    Socket(String),
     /// There is no such monitor.
-    #[error("--monitor '{wanted}': there is no such monitor; give one of {known}")]
+    #[error("{option} '{wanted}': there is no such monitor; give one of {known}")]
     Monitor {
+        /// The option that names it.
+        option: &'static str,
         /// As the user wrote it.
         wanted: String,
         /// Numbers, names and sizes of the monitors that exist.
@@ -45,7 +50,7 @@ impl WindowError {
     #[must_use]
     pub fn exit_status(&self) -> u8 {
         match self {
-            Self::Connect(_) | Self::Server(_) | Self::Colours => 3,
+            Self::Connect(_) | Self::Server(_) | Self::Socket(_) | Self::Colours => 3,
             Self::Monitor { .. } | Self::TooLarge { .. } => 2,
         }
     }

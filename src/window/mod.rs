@@ -6,9 +6,11 @@
 
 mod error;
 mod monitor;
+mod panel;
 
 pub use error::WindowError;
 pub use monitor::Monitor;
+pub use panel::PanelServer;
 
 use image::RgbImage;
 use std::borrow::Cow;
@@ -35,6 +37,7 @@ x11rb::atom_manager! {
         _MOTIF_WM_HINTS,
         UTF8_STRING,
         _NET_WM_NAME,
+        _NET_WM_USER_TIME,
     }
 }
 
@@ -58,6 +61,7 @@ pub struct Window {
     atoms: Atoms,
     layout: PixelLayout,
     monitor: Monitor,
+    root: Id,
     keys: GetKeyboardMappingReply,
 }
 
@@ -66,6 +70,38 @@ impl Window {
     pub fn open(
         title: &str,
         wanted: Option<&str>,
+        panel: Option<(u32, u32)>,
+    ) -> Result<Self, WindowError> {
+        let window = Self::make(title, ("--monitor", wanted), panel)?;
+        window.connection.map_window(window.id)?;
+        window.focus()?;
+        Ok(window)
+    }
+
+    /// The same without the keyboard's focus, named by `--panel`.
+    fn passive(
+        title: &str,
+        wanted: Option<&str>,
+        panel: Option<(u32, u32)>,
+    ) -> Result<Self, WindowError> {
+        let window = Self::make(title, ("--panel", wanted), panel)?;
+        let (c, id) = (&window.connection, window.id);
+        // The flag says that the field for input is given: the window takes none.
+        let mut hints = vec![0_u32; 9];
+        hints[0] = 1;
+        let kind = u32::from(AtomEnum::WM_HINTS);
+        c.change_property32(PropMode::REPLACE, id, kind, AtomEnum::WM_HINTS, &hints)?;
+        let (time, cardinal) = (window.atoms._NET_WM_USER_TIME, AtomEnum::CARDINAL);
+        c.change_property32(PropMode::REPLACE, id, time, cardinal, &[0])?;
+        c.map_window(id)?;
+        c.flush()?;
+        Ok(window)
+    }
+
+    /// Makes a window over a monitor, which is not on the screen yet.
+    fn make(
+        title: &str,
+        wanted: (&'static str, Option<&str>),
         panel: Option<(u32, u32)>,
     ) -> Result<Self, WindowError> {
         let (connection, number) = RustConnection::connect(None)?;
@@ -98,7 +134,9 @@ impl Window {
             screen.root_visual,
             &CreateWindowAux::new()
                 .background_pixel(screen.black_pixel)
-                .event_mask(EventMask::KEY_PRESS | EventMask::STRUCTURE_NOTIFY),
+                .event_mask(
+                    EventMask::KEY_PRESS | EventMask::STRUCTURE_NOTIFY | EventMask::EXPOSURE,
+                ),
         )?;
         connection.create_gc(gc, id, &CreateGCAux::new())?;
         let window = Self {
@@ -109,10 +147,9 @@ impl Window {
             atoms,
             layout,
             monitor,
+            root: screen.root,
         };
         window.introduce(title)?;
-        window.connection.map_window(id)?;
-        window.focus(screen.root)?;
         Ok(window)
     }
 
@@ -169,8 +206,8 @@ impl Window {
     }
 
     /// Takes the keyboard focus where there is no window manager to give it.
-    fn focus(&self, root: Id) -> Result<(), WindowError> {
-        let c = &self.connection;
+    fn focus(&self) -> Result<(), WindowError> {
+        let (c, root) = (&self.connection, self.root);
         let check = self.atoms._NET_SUPPORTING_WM_CHECK;
         let managed = c.get_property(false, root, check, AtomEnum::WINDOW, 0, 1)?;
         if managed.reply()?.value_len == 0 {
@@ -234,6 +271,50 @@ impl Window {
         Ok(())
     }
 
+    /// Whether the user or the server has closed the window.
+    fn is_close(&self, event: &XEvent) -> bool {
+        match event {
+            XEvent::ClientMessage(message) => {
+                message.data.as_data32()[0] == self.atoms.WM_DELETE_WINDOW
+            }
+            XEvent::DestroyNotify(_) => true,
+            _ => false,
+        }
+    }
+
+    /// Whether a pixel of the screen is blue, green, red and a byte without meaning.
+    fn is_bgrx(&self) -> bool {
+        let shown = [(0x1234, 0, 0), (0, 0x1234, 0), (0, 0, 0x1234)].map(|c| self.layout.encode(c));
+        shown == [0x12 << 16, 0x12 << 8, 0x12]
+    }
+
+    /// Makes the window black.
+    fn clear(&self) -> Result<(), WindowError> {
+        self.connection.clear_area(false, self.id, 0, 0, 0, 0)?;
+        Ok(())
+    }
+
+    /// Puts pixels of four bytes (blue, green, red, one without meaning) into the window, at left and top.
+    fn put(
+        &self,
+        mut pixels: Vec<u8>,
+        (width, height): (u16, u16),
+        (x, y): (i16, i16),
+    ) -> Result<(), WindowError> {
+        for pixel in pixels.chunks_exact_mut(4) {
+            let [b, g, r] = [pixel[0], pixel[1], pixel[2]].map(|v| u16::from(v) * 0x101);
+            pixel.copy_from_slice(&self.layout.encode((r, g, b)).to_le_bytes());
+        }
+        let (c, pad) = (&self.connection, ScanlinePad::Pad32);
+        let (bits, order) = (BitsPerPixel::B32, ImageOrder::LsbFirst);
+        let image = Image::new(width, height, pad, DEPTH, bits, order, Cow::Owned(pixels));
+        // This fails on a screen whose pixels are not four bytes each.
+        let image = image.map_err(|_| WindowError::Colours)?;
+        let image = image.native(c.setup()).map_err(|_| WindowError::Colours)?;
+        image.put(c, self.id, self.gc, x, y)?;
+        Ok(())
+    }
+
     /// Waits for the next event.
     pub fn wait(&mut self) -> Result<Event, WindowError> {
         loop {
@@ -250,12 +331,7 @@ impl Window {
                     }
                 }
                 XEvent::MappingNotify(_) => self.keys = mapping(&self.connection)?,
-                XEvent::ClientMessage(message)
-                    if message.data.as_data32()[0] == self.atoms.WM_DELETE_WINDOW =>
-                {
-                    return Ok(Event::Close);
-                }
-                XEvent::DestroyNotify(_) => return Ok(Event::Close),
+                event if self.is_close(&event) => return Ok(Event::Close),
                 _ => {}
             }
         }

@@ -58,7 +58,7 @@ pub(super) fn all(
 /// The monitor with the `wanted` name or number from 0. Without `wanted`, the first of the panel's size, else the primary one, else the first.
 pub(super) fn choose(
     mut monitors: Vec<Monitor>,
-    wanted: Option<&str>,
+    (option, wanted): (&'static str, Option<&str>),
     panel: Option<(u32, u32)>,
 ) -> Result<Monitor, WindowError> {
     let at = match wanted {
@@ -67,6 +67,7 @@ pub(super) fn choose(
             .position(|monitor| monitor.name == wanted)
             .or_else(|| wanted.parse().ok().filter(|&at| at < monitors.len()))
             .ok_or_else(|| WindowError::Monitor {
+                option,
                 wanted: wanted.to_owned(),
                 known: list(&monitors),
             })?,
@@ -110,7 +111,7 @@ mod tests {
 
     #[test]
     fn the_panel_is_found_by_name_number_size_or_rank() {
-        let name = |wanted, panel| choose(two(), wanted, panel).unwrap().name;
+        let name = |wanted, panel| choose(two(), ("--monitor", wanted), panel).unwrap().name;
         assert_eq!(name(Some("DP-1"), Some((3840, 2160))), "DP-1");
         assert_eq!(name(Some("2"), None), "HDMI-1");
         assert_eq!(name(None, Some((3840, 2160))), "HDMI-1");
@@ -118,13 +119,18 @@ mod tests {
         assert_eq!(name(None, None), "eDP-1");
         let mut equals = two();
         equals[1].primary = false;
-        assert_eq!(choose(equals, None, None).unwrap().name, "DP-1");
+        assert_eq!(
+            choose(equals, ("--monitor", None), None).unwrap().name,
+            "DP-1"
+        );
     }
 
     #[test]
     fn another_monitor_is_refused_with_those_that_are_there() {
         for wanted in ["DP-2", "3", "-1", ""] {
-            let error = choose(two(), Some(wanted), None).unwrap_err().to_string();
+            let error = choose(two(), ("--monitor", Some(wanted)), None)
+                .unwrap_err()
+                .to_string();
             assert_eq!(
                 error,
                 format!(

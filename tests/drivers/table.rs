@@ -333,6 +333,9 @@ fn a_scene_has_figures_of_each_layout() {
         assert!(cell(&[both.clone(), lacking], "replay").is_err());
     }
     let instanced = vec![line("instanced", "layers")];
-    assert_eq!(cell(&[instanced.clone()], "instanced"), Ok("equal".into()));
+    assert_eq!(
+        cell(std::slice::from_ref(&instanced), "instanced"),
+        Ok("equal".into())
+    );
     assert!(cell(&[instanced, beside], "instanced").is_err());
 }

@@ -45,11 +45,16 @@ pub(crate) fn cell(game: &Game, strategy: &str, launched: &Result<Launched, Stri
     let synthesised = launched.report["frames_synthesised"].as_object();
     if synthesised.is_none() && strategy != "replay" {
         let reasons = launched.report["fallbacks"].as_object();
-        let mut reasons = reasons.into_iter().flatten().map(|(reason, _)| reason);
-        let told = reasons.find_map(|reason| reason.strip_prefix("no view is synthesised: "));
-        let _ = match told {
-            Some(reason) => write!(text, "; all views drawn: {reason}"),
-            None => write!(
+        let told = |start: &str| {
+            let mut reasons = reasons.into_iter().flatten();
+            reasons.find_map(|(reason, _)| reason.strip_prefix(start))
+        };
+        let whole = told("no view is synthesised: ");
+        let part = told("views are synthesised before ");
+        let _ = match (part, whole) {
+            (Some(what), _) => write!(text, "; synthesised before {what}"),
+            (None, Some(reason)) => write!(text, "; all views drawn: {reason}"),
+            (None, None) => write!(
                 text,
                 "; **no views were synthesised, and no reason is told**"
             ),

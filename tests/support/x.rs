@@ -4,6 +4,7 @@
 
 use image::{Rgb, RgbImage};
 use x11rb::connection::Connection;
+use x11rb::protocol::randr::{ConnectionExt as _, MonitorInfo};
 use x11rb::protocol::xproto::{
     AtomEnum, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus, KEY_PRESS_EVENT,
     KEY_RELEASE_EVENT, Window, WindowClass,
@@ -90,6 +91,37 @@ impl User {
         given.expect("sent").check().expect("focus");
     }
 
+    /// Adds a monitor to the screen: a name, left, top, width and height.
+    pub(crate) fn add_monitor(&self, name: &str, [x, y, width, height]: [i16; 4]) {
+        let atom = self.connection.intern_atom(false, name.as_bytes());
+        let monitor = MonitorInfo {
+            name: atom.expect("sent").reply().expect("a name").atom,
+            primary: false,
+            automatic: false,
+            x,
+            y,
+            width: width.unsigned_abs(),
+            height: height.unsigned_abs(),
+            width_in_millimeters: 300,
+            height_in_millimeters: 200,
+            outputs: Vec::new(),
+        };
+        let added = self.connection.randr_set_monitor(self.root, monitor);
+        added.expect("sent").check().expect("a monitor");
+    }
+
+    /// The window with the keyboard focus.
+    pub(crate) fn focused(&self) -> Window {
+        let asked = self.connection.get_input_focus().expect("sent");
+        asked.reply().expect("a focus").focus
+    }
+
+    /// Destroys another program's window, as a server does that takes it away.
+    pub(crate) fn destroy(&self, window: Window) {
+        let destroyed = self.connection.destroy_window(window).expect("sent");
+        destroyed.check().expect("destroyed");
+    }
+
     /// The child of the root window with this name.
     pub(crate) fn window(&self, name: &str) -> Option<Window> {
         let named = |window: &Window| {
@@ -101,6 +133,13 @@ impl User {
             value.is_ok_and(|found| found.value == name.as_bytes())
         };
         self.windows().into_iter().find(named)
+    }
+
+    /// Left and top of a child of the root window, in pixels of the screen.
+    pub(crate) fn place(&self, window: Window) -> [i16; 2] {
+        let asked = self.connection.get_geometry(window).expect("sent");
+        let about = asked.reply().expect("a window");
+        [about.x, about.y]
     }
 
     /// The pixels of a window.

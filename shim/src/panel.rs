@@ -1,0 +1,165 @@
+//! The panel's own window, which the launcher has opened. Pictures go to it once per frame, on the thread that shows the frame. Nothing here waits, but
+//! for the greeting of the window.
+//!
+//! The descriptors live in the program's table; see [`crate::socket`].
+
+use crate::live::free;
+use crate::socket::{self, Checked};
+use crate::switch::{config, say_once};
+use manyview_core::control::panel::{Frame, Hello, SLOTS, slot_bytes};
+use manyview_core::layer::{Layer, PanelPicture};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read};
+use std::os::unix::fs::FileExt;
+use std::os::unix::net::UnixStream;
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::Duration;
+
+/// How long the window's greeting may take.
+const GREETING: Duration = Duration::from_secs(2);
+
+enum State {
+    Unopened,
+    Open(Link),
+    /// The window is gone, or was never there.
+    Closed,
+}
+
+struct Link {
+    stream: Checked<UnixStream>,
+    file: Checked<File>,
+    size: (u32, u32),
+    free: [bool; SLOTS as usize],
+    /// The process that opened the link. After fork, a child has our memory and our descriptors.
+    pid: u32,
+}
+
+static STATE: Mutex<State> = Mutex::new(State::Unopened);
+
+/// Before a frame is shown: has the layer draw for the panel's window, if that takes a picture now.
+pub(crate) fn before(layer: &mut Layer) {
+    let Some(panel) = config().and_then(|config| config.panel.as_ref()) else {
+        return;
+    };
+    let Some(mut state) = free(&STATE) else {
+        return;
+    };
+    if let State::Unopened = *state {
+        let opened = panel.socket.as_deref().map(Link::open);
+        *state = match opened {
+            Some(Ok(link)) => State::Open(link),
+            Some(Err(error)) => closed(&format!(
+                "the panel's window cannot be reached ({error}); the picture is shown in the program's window"
+            )),
+            None => closed(
+                "the panel's window is opened by manyview run, which did not start this program; the picture is shown in the program's window",
+            ),
+        };
+    }
+    let size = match &mut *state {
+        State::Open(link) if link.pid == std::process::id() => match link.listen() {
+            Ok(()) => Some(link.size),
+            Err(_) => {
+                *state = closed(
+                    "the panel's window is closed; the picture is shown in the program's window",
+                );
+                None
+            }
+        },
+        _ => None,
+    };
+    layer.set_panel(size);
+}
+
+/// After a frame was shown: gives its picture to the panel's window.
+pub(crate) fn after(layer: &mut Layer) {
+    let Some(picture) = layer.take_panel_picture() else {
+        return;
+    };
+    if let Some(mut state) = free(&STATE)
+        && let State::Open(link) = &mut *state
+        && link.pid == std::process::id()
+        && link.send(&picture).is_err()
+    {
+        *state =
+            closed("the panel's window is closed; the picture is shown in the program's window");
+    }
+    layer.recycle_panel_picture(picture);
+}
+
+fn closed(why: &str) -> State {
+    say_once(why);
+    State::Closed
+}
+
+impl Link {
+    fn open(path: &Path) -> io::Result<Link> {
+        let stream = UnixStream::connect(path)?;
+        stream.set_read_timeout(Some(GREETING))?;
+        let mut line = String::new();
+        BufReader::new(&stream).take(4096).read_line(&mut line)?;
+        let other = || io::Error::other("it is of another version");
+        let hello = Hello::of(line.trim_end_matches('\n')).ok_or_else(other)?;
+        stream.set_nonblocking(true)?;
+        let file = OpenOptions::new().write(true).open(&hello.file)?;
+        Ok(Link {
+            stream: Checked::new(stream)?,
+            file: Checked::new(file)?,
+            size: hello.size,
+            free: [true; SLOTS as usize],
+            pid: std::process::id(),
+        })
+    }
+
+    /// Learns which slots are free again.
+    fn listen(&mut self) -> io::Result<()> {
+        let mut freed = [0; 64];
+        loop {
+            let Some(mut stream) = self.stream.get() else {
+                return Err(io::ErrorKind::NotConnected.into());
+            };
+            match stream.read(&mut freed) {
+                Ok(0) => return Err(io::ErrorKind::UnexpectedEof.into()),
+                Ok(count) => {
+                    for &slot in freed.iter().take(count) {
+                        if let Some(free) = self.free.get_mut(usize::from(slot)) {
+                            *free = true;
+                        }
+                    }
+                }
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => return Ok(()),
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Writes a picture to a free slot, and tells the window. Where none is free, the window is behind, and this picture is left out.
+    fn send(&mut self, picture: &PanelPicture) -> io::Result<()> {
+        let Some(slot) = self.free.iter().position(|free| *free) else {
+            return Ok(());
+        };
+        let gone = || io::Error::from(io::ErrorKind::NotConnected);
+        let file = self.file.get().ok_or_else(gone)?;
+        let mut at = slot as u64 * slot_bytes(self.size);
+        for row in picture.rows() {
+            file.write_all_at(row, at)?;
+            at += row.len() as u64;
+        }
+        let frame = Frame {
+            slot: slot as u8,
+            at: picture.at.map(|v| v as u16),
+            size: picture.size.map(|v| v as u16),
+        };
+        let stream = self.stream.get().ok_or_else(gone)?;
+        match socket::send(stream, &frame.bytes()) {
+            Ok(Frame::BYTES) => {
+                self.free[slot] = false;
+                Ok(())
+            }
+            Ok(_) => Err(gone()),
+            Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! The panel's own window, beside that of the program.
+#![forbid(unsafe_code)]
+
+use super::choice::choice;
+use super::error::ConfigError;
+use super::options::OptionId;
+use super::output::WINDOW_OUTPUTS;
+use super::parse::{check_output, one_view, path};
+use super::settings::Settings;
+use super::{Output, parse};
+use crate::display::Fit;
+use std::path::PathBuf;
+
+/// The monitor that `--panel auto` takes is chosen by its size.
+pub const AUTO: &str = "auto";
+
+const FITS: &[(&str, Fit)] = &[
+    ("contain", Fit::Contain),
+    ("cover", Fit::Cover),
+    ("stretch", Fit::Stretch),
+];
+
+/// A window that covers the panel's monitor and shows the output; the program keeps its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PanelWindow {
+    /// Name or number of the monitor; none: the one of the panel's size.
+    pub monitor: Option<String>,
+    /// How the picture is fitted to the panel.
+    pub fit: Fit,
+    /// What the program's window shows; none: the program's own view.
+    pub output: Option<Output>,
+    /// The socket of the window, once it is open.
+    pub socket: Option<PathBuf>,
+}
+
+impl PanelWindow {
+    pub(super) fn from_settings(
+        settings: &Settings,
+        views: u32,
+    ) -> Result<Option<Self>, ConfigError> {
+        let Some((field, monitor)) = settings.field(OptionId::Panel) else {
+            for id in [OptionId::Fit, OptionId::WindowOutput] {
+                if let Some((field, _)) = settings.field(id) {
+                    let panel = field.sibling(OptionId::Panel);
+                    return Err(ConfigError::NoPanelWindow { field, panel });
+                }
+            }
+            return Ok(None);
+        };
+        if monitor.is_empty() {
+            return Err(ConfigError::NoMonitor { field });
+        }
+        if let Some((output, "quad")) = settings.field(OptionId::Output) {
+            return Err(ConfigError::QuadPanel {
+                field: output,
+                panel: field,
+            });
+        }
+        Ok(Some(Self {
+            monitor: (monitor != AUTO).then(|| monitor.to_owned()),
+            fit: choice(settings, OptionId::Fit, FITS)?.unwrap_or_default(),
+            output: output(settings, views)?,
+            socket: path(settings, OptionId::PanelSocket),
+        }))
+    }
+}
+
+fn output(settings: &Settings, views: u32) -> Result<Option<Output>, ConfigError> {
+    let id = OptionId::WindowOutput;
+    let Some((field, value)) = settings.field(id) else {
+        return Ok(None);
+    };
+    let output = match WINDOW_OUTPUTS.iter().find(|(name, _)| *name == value) {
+        Some((_, output)) => *output,
+        None => Some(match parse::anaglyph(value) {
+            Some(anaglyph) => Output::Anaglyph(anaglyph),
+            None => Output::View(one_view(&field, value, views)?),
+        }),
+    };
+    if let Some(output) = output {
+        check_output(settings, id, output, views)?;
+    }
+    Ok(output)
+}

@@ -1,0 +1,363 @@
+//! The panel's own window: covers a monitor and shows the pictures that the layer in a program sends ([`crate::control::panel`]).
+//!
+//! It belongs to the launcher, so the program never sees its connection to the X server, and neither waits for the other. The X server reads the
+//! pictures from the file that they are written to, where it can.
+
+use super::{Window, WindowError};
+use crate::config::PanelWindow;
+use crate::control::panel::{Frame, Hello, PIXEL, SLOTS, slot_bytes};
+use crate::control::place;
+use rustix::event::{PollFd, PollFlags, poll};
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::os::fd::AsFd;
+use std::os::unix::fs::{FileExt, OpenOptionsExt};
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::path::PathBuf;
+use std::thread::JoinHandle;
+use x11rb::connection::Connection;
+use x11rb::protocol::Event as XEvent;
+use x11rb::protocol::shm::{ConnectionExt as _, Seg};
+use x11rb::protocol::xproto::ImageFormat;
+use x11rb::wrapper::ConnectionExt as _;
+
+const TITLE: &str = "manyview";
+/// Permissions of the files.
+const MODE: u32 = 0o600;
+
+/// The open window, which shows pictures until it is dropped.
+#[derive(Debug)]
+pub struct PanelServer {
+    socket: PathBuf,
+    /// Its end ends the thread.
+    stop: Option<UnixStream>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl PanelServer {
+    /// Opens a black window over the monitor that the user has named, or over the one that has the panel's size, and the socket to which the
+    /// layer connects. `panel`: width and height of the display in pixels, where they are known.
+    ///
+    /// # Errors
+    /// There is no X server, no such monitor, or no place for the socket.
+    pub fn open(wanted: &PanelWindow, panel: Option<(u32, u32)>) -> Result<Self, WindowError> {
+        let socket = Self::place();
+        let window = Window::passive(TITLE, wanted.monitor.as_deref(), panel)?;
+        let user = rustix::process::geteuid().as_raw();
+        let folder = folder();
+        let no = |error: &dyn std::fmt::Display| WindowError::Socket(error.to_string());
+        place::prepare(&folder, user).map_err(|error| no(&error))?;
+        let _ = std::fs::remove_file(&socket);
+        let listener = UnixListener::bind(&socket).map_err(|error| no(&error))?;
+        place::close_to_others(&socket).map_err(|error| no(&error))?;
+        let (stop, stopped) = UnixStream::pair().map_err(|error| no(&error))?;
+        let served = Served {
+            window,
+            listener,
+            stopped,
+            folder,
+            clients: Vec::new(),
+            count: 0,
+            shown: None,
+        };
+        // Its failure is the end of the window, of which the layer tells.
+        let thread = std::thread::spawn(move || drop(served.run()));
+        Ok(Self {
+            socket,
+            stop: Some(stop),
+            thread: Some(thread),
+        })
+    }
+
+    /// The socket to which the layer connects, of the window that this process opens.
+    #[must_use]
+    pub fn place() -> PathBuf {
+        folder().join(format!("panel-{}.sock", std::process::id()))
+    }
+}
+
+impl Drop for PanelServer {
+    fn drop(&mut self) {
+        drop(self.stop.take());
+        if let Some(thread) = self.thread.take() {
+            // A panic there has been told already.
+            let _ = thread.join();
+        }
+        let _ = std::fs::remove_file(&self.socket);
+    }
+}
+
+fn folder() -> PathBuf {
+    let user = rustix::process::geteuid().as_raw();
+    place::folder(std::env::var_os(place::RUNTIME).as_deref(), user)
+}
+
+/// What the thread works with.
+struct Served {
+    window: Window,
+    listener: UnixListener,
+    stopped: UnixStream,
+    folder: PathBuf,
+    clients: Vec<Client>,
+    /// Programs that have connected.
+    count: u32,
+    /// The picture that is shown, and the number of the program that it is of.
+    shown: Option<(u32, Frame)>,
+}
+
+/// A program whose pictures are shown.
+struct Client {
+    number: u32,
+    stream: UnixStream,
+    file: File,
+    path: PathBuf,
+    /// The file as the X server knows it; none where it cannot read files.
+    segment: Option<Seg>,
+    /// Bytes of a frame that are not complete.
+    pending: Vec<u8>,
+}
+
+impl Drop for Client {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+impl Served {
+    /// Shows pictures until it is stopped, or the window is closed.
+    fn run(mut self) -> Result<(), WindowError> {
+        loop {
+            if self.handle_events()? {
+                return Ok(());
+            }
+            self.window.connection.flush()?;
+            let ready = self
+                .wait()
+                .map_err(|e| WindowError::Socket(e.to_string()))?;
+            if ready.stopped {
+                return Ok(());
+            }
+            if ready.listener
+                && let Ok((stream, _)) = self.listener.accept()
+            {
+                // A program that is gone already is none.
+                let _ = self.welcome(stream);
+            }
+            for number in ready.clients {
+                if !self.receive(number)? {
+                    self.dismiss(number)?;
+                }
+            }
+        }
+    }
+
+    /// Handles the events of the window. Returns whether it was closed.
+    fn handle_events(&mut self) -> Result<bool, WindowError> {
+        while let Some(event) = self.window.connection.poll_for_event()? {
+            match event {
+                XEvent::Expose(_) => self.show_again()?,
+                event if self.window.is_close(&event) => return Ok(true),
+                _ => {}
+            }
+        }
+        Ok(false)
+    }
+
+    /// Waits until something can be read.
+    fn wait(&self) -> io::Result<Ready> {
+        let input = PollFlags::IN;
+        let x = self.window.connection.stream();
+        let mut all = vec![
+            PollFd::new(x, input),
+            PollFd::new(&self.stopped, input),
+            PollFd::new(&self.listener, input),
+        ];
+        let clients = self.clients.iter();
+        all.extend(clients.map(|client| PollFd::new(&client.stream, input)));
+        match poll(&mut all, None) {
+            Ok(_) | Err(rustix::io::Errno::INTR) => {}
+            Err(error) => return Err(error.into()),
+        }
+        let ready = |fd: &PollFd<'_>| !fd.revents().is_empty();
+        let clients = self.clients.iter().zip(&all[3..]);
+        Ok(Ready {
+            stopped: ready(&all[1]),
+            listener: ready(&all[2]),
+            clients: clients
+                .filter(|(_, fd)| ready(fd))
+                .map(|(client, _)| client.number)
+                .collect(),
+        })
+    }
+
+    /// Greets a program and makes the file of its pictures.
+    fn welcome(&mut self, mut stream: UnixStream) -> io::Result<()> {
+        self.count += 1;
+        let name = format!("panel-{}-{}.pictures", std::process::id(), self.count);
+        let path = self.folder.join(name);
+        let _ = std::fs::remove_file(&path);
+        let mut options = OpenOptions::new();
+        let file = options
+            .read(true)
+            .write(true)
+            .create_new(true)
+            .mode(MODE)
+            .open(&path)?;
+        let size = self.window.monitor().size;
+        let hello = Hello {
+            size,
+            file: path.clone(),
+        };
+        let mut client = Client {
+            number: self.count,
+            stream: stream.try_clone()?,
+            segment: None,
+            pending: Vec::new(),
+            path,
+            file,
+        };
+        client.file.set_len(slot_bytes(size) * u64::from(SLOTS))?;
+        client.segment = self.attach(&client.file);
+        stream.write_all(hello.line().as_bytes())?;
+        stream.set_nonblocking(true)?;
+        self.clients.push(client);
+        Ok(())
+    }
+
+    /// Lets the X server read a file. None where it cannot, as over a network.
+    fn attach(&self, file: &File) -> Option<Seg> {
+        let c = &self.window.connection;
+        let known = c.shm_query_version().ok()?.reply().ok()?;
+        if (known.major_version, known.minor_version) < (1, 2) || !self.window.is_bgrx() {
+            return None;
+        }
+        let segment = c.generate_id().ok()?;
+        let file = file.as_fd().try_clone_to_owned().ok()?;
+        c.shm_attach_fd(segment, file, false).ok()?.check().ok()?;
+        Some(segment)
+    }
+
+    /// Receives frames of a program, and shows the last one. Returns false where it has ended.
+    fn receive(&mut self, number: u32) -> Result<bool, WindowError> {
+        let size = self.window.monitor().size;
+        let Some(client) = self
+            .clients
+            .iter_mut()
+            .find(|client| client.number == number)
+        else {
+            return Ok(false);
+        };
+        let mut bytes = [0; 64 * Frame::BYTES];
+        let open = match client.stream.read(&mut bytes) {
+            Ok(0) => false,
+            Ok(count) => {
+                client.pending.extend(&bytes[..count]);
+                true
+            }
+            Err(error) => error.kind() == io::ErrorKind::WouldBlock,
+        };
+        let whole = client.pending.len() / Frame::BYTES * Frame::BYTES;
+        let all: Vec<u8> = client.pending.drain(..whole).collect();
+        let frames = all.as_chunks::<{ Frame::BYTES }>().0;
+        let frames: Vec<_> = frames
+            .iter()
+            .filter_map(|bytes| Frame::of(*bytes, size))
+            .collect();
+        if let Some((last, passed)) = frames.split_last() {
+            // The program has opened the file, so nothing of it has to be left where this process is killed.
+            let _ = std::fs::remove_file(&client.path);
+            for frame in passed {
+                free(client, frame.slot);
+            }
+            let before = self.shown.replace((number, *last));
+            self.show(before)?;
+        }
+        Ok(open)
+    }
+
+    /// A program has ended.
+    fn dismiss(&mut self, number: u32) -> Result<(), WindowError> {
+        let ended = self
+            .clients
+            .extract_if(.., |client| client.number == number);
+        for segment in ended.filter_map(|client| client.segment) {
+            self.window.connection.shm_detach(segment)?;
+        }
+        Ok(())
+    }
+
+    /// Shows the picture anew.
+    fn show_again(&mut self) -> Result<(), WindowError> {
+        let before = self.shown;
+        self.show(before)
+    }
+
+    /// Shows the picture in place of the one `before`, whose slot is free afterwards.
+    fn show(&mut self, before: Option<(u32, Frame)>) -> Result<(), WindowError> {
+        let Some((number, frame)) = self.shown else {
+            return Ok(());
+        };
+        let place = |(_, frame): (u32, Frame)| (frame.at, frame.size);
+        if before.map(place) != Some((frame.at, frame.size)) {
+            self.window.clear()?;
+        }
+        if let Some(client) = self.clients.iter().find(|client| client.number == number) {
+            put(&self.window, client, frame)?;
+        }
+        // The server has read the picture when it answers.
+        self.window.connection.sync()?;
+        if let Some((number, passed)) = before.filter(|before| Some(*before) != self.shown)
+            && let Some(client) = self.clients.iter().find(|client| client.number == number)
+        {
+            free(client, passed.slot);
+        }
+        Ok(())
+    }
+}
+
+/// What can be read.
+struct Ready {
+    stopped: bool,
+    listener: bool,
+    clients: Vec<u32>,
+}
+
+/// Tells a program that a slot is free.
+fn free(client: &Client, slot: u8) {
+    // A program that does not read has no use for the slot.
+    let _ = (&client.stream).write(&[slot]);
+}
+
+/// Puts a picture into the window.
+fn put(window: &Window, client: &Client, frame: Frame) -> Result<(), WindowError> {
+    let ([x, y], [width, height]) = (frame.at.map(|v| v as i16), frame.size);
+    if width == 0 || height == 0 {
+        return Ok(());
+    }
+    let offset = slot_bytes(window.monitor().size) * u64::from(frame.slot);
+    let c = &window.connection;
+    if let Some(segment) = client.segment {
+        c.shm_put_image(
+            window.id,
+            window.gc,
+            width,
+            height,
+            0,
+            0,
+            width,
+            height,
+            x,
+            y,
+            super::DEPTH,
+            ImageFormat::Z_PIXMAP.into(),
+            false,
+            segment,
+            offset as u32,
+        )?;
+        return Ok(());
+    }
+    let mut pixels = vec![0; usize::from(width) * usize::from(height) * PIXEL];
+    let read = client.file.read_exact_at(&mut pixels, offset);
+    read.map_err(|error| WindowError::Socket(error.to_string()))?;
+    window.put(pixels, (width, height), (x, y))
+}

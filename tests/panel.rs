@@ -1,0 +1,366 @@
+//! The panel's own window: its picture is, subpixel for subpixel, what the CPU interleaves of the same views at the panel's size.
+#![forbid(unsafe_code)]
+
+mod support;
+#[path = "support/x.rs"]
+mod x;
+
+use image::{GenericImageView, RgbImage};
+use manyview::config::panel::load;
+use manyview::display::{Display, Fit};
+use manyview::interleave::reference;
+use serde_json::Value;
+use std::io::Read;
+use std::path::PathBuf;
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+use support::{Compiled, Screen, compiled, manyview, refused, rgb, sized_screen, succeed};
+use x::User;
+
+const LIMIT: Duration = Duration::from_secs(20);
+const CAMERAS: [&str; 4] = ["--separation", "0.02", "--convergence", "8"];
+
+/// Views are resampled to the panel's pixels: the driver's floats may round the other way than the CPU's integers.
+const STEP: u8 = 1;
+
+/// One way to show the program.
+#[derive(Clone, Copy)]
+struct Case {
+    display: &'static str,
+    views: u32,
+    /// Width and height of the program's surface, and how many times as large it becomes.
+    window: (u32, u32),
+    grows: u32,
+    panel: (u16, u16),
+    fit: Fit,
+}
+
+const CASE: Case = Case {
+    display: "huebner8",
+    views: 8,
+    window: (320, 240),
+    grows: 1,
+    panel: (800, 600),
+    fit: Fit::Contain,
+};
+
+fn word(fit: Fit) -> &'static str {
+    match fit {
+        Fit::Contain => "contain",
+        Fit::Cover => "cover",
+        Fit::Stretch => "stretch",
+    }
+}
+
+fn still() -> PathBuf {
+    compiled("still", Compiled::Program, &["-lEGL", "-lGL"])
+}
+
+impl Case {
+    /// The program's size in the end.
+    fn size(&self) -> (u32, u32) {
+        (self.window.0 * self.grows, self.window.1 * self.grows)
+    }
+
+    /// The views, as the program's window would show them.
+    fn views(&self) -> Vec<RgbImage> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let out = folder.path().join("atlas.png");
+        let (width, height) = self.size();
+        let mut command = manyview();
+        command
+            .args(["capture", "--frame", "3", "--what", "atlas", "--views"])
+            .arg(self.views.to_string())
+            .args(["--display", self.display])
+            .args(CAMERAS)
+            .arg("--out")
+            .arg(&out)
+            .arg("--")
+            .arg(still())
+            .args([width.to_string(), height.to_string()]);
+        succeed(&mut command);
+        let all = rgb(&out);
+        let view = |i| all.view(i * width, 0, width, height).to_image();
+        (0..self.views).map(view).collect()
+    }
+
+    /// What the panel has to show.
+    fn expected(&self) -> RgbImage {
+        let panel = (self.panel.0.into(), self.panel.1.into());
+        let place = self.fit.place(self.size(), panel);
+        let display: Display = load(self.display).expect("a display");
+        let mask = display.mask(&place, self.views).expect("a mask");
+        let picture = reference::interleave(&self.views(), &mask).expect("a picture");
+        let mut whole = RgbImage::new(panel.0, panel.1);
+        image::imageops::replace(&mut whole, &picture, place.x.into(), place.y.into());
+        whole
+    }
+
+    fn start(&self, screen: &Screen, more: &[&str]) -> Child {
+        self.start_on("auto", screen, more)
+    }
+
+    fn start_on(&self, monitor: &str, screen: &Screen, more: &[&str]) -> Child {
+        let (width, height) = self.window;
+        let mut command = manyview();
+        command
+            .args([
+                "run",
+                "--panel",
+                monitor,
+                "--fit",
+                word(self.fit),
+                "--views",
+            ])
+            .arg(self.views.to_string())
+            .args(["--display", self.display])
+            .args(CAMERAS)
+            .args(more)
+            .arg("--")
+            .arg(still())
+            .args([width.to_string(), height.to_string()])
+            .args((self.grows > 1).then(|| self.grows.to_string()))
+            .stdin(Stdio::piped())
+            .stderr(Stdio::piped());
+        screen.give(&mut command).spawn().expect("it starts")
+    }
+
+    /// Checks the pixels of the panel's window.
+    fn check(&self, what: &str) {
+        let expected = self.expected();
+        let screen = sized_screen(self.panel);
+        let child = self.start(&screen, &[]);
+        let shown = wait_for(&screen, &expected);
+        let off = worst(&shown, &expected);
+        end(child, what);
+        assert!(off <= STEP, "{what}: off by {off}");
+        assert!(expected.pixels().any(|p| p.0 != [0; 3]), "{what}");
+    }
+}
+
+/// The largest difference of two pictures; they have the same size.
+fn worst(a: &RgbImage, b: &RgbImage) -> u8 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let off = a.iter().zip(b.iter()).map(|(a, b)| a.abs_diff(*b));
+    off.max().unwrap_or(0)
+}
+
+/// The picture of the panel's window, once it is the expected one, or at last.
+fn wait_for(screen: &Screen, expected: &RgbImage) -> RgbImage {
+    let user = User::at(screen.display());
+    let limit = Instant::now() + LIMIT;
+    loop {
+        let window = user.window("manyview");
+        let shown = window.map(|window| user.picture(window));
+        match shown {
+            Some(shown) if worst(&shown, expected) <= STEP || Instant::now() > limit => {
+                return shown;
+            }
+            _ => assert!(Instant::now() < limit, "a window"),
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+/// Ends the program by the end of its input, and returns what was said.
+fn end(mut child: Child, what: &str) -> String {
+    drop(child.stdin.take());
+    let mut said = String::new();
+    let errors = child.stderr.as_mut().expect("a pipe");
+    errors.read_to_string(&mut said).expect("text");
+    let status = child.wait().expect("it ends");
+    assert!(status.success(), "{what}: {status}, {said}");
+    said
+}
+
+#[test]
+fn the_picture_is_interleaved_at_the_panels_size() {
+    let portrait = (600, 800);
+    let cases = [
+        CASE,
+        Case {
+            panel: portrait,
+            ..CASE
+        },
+        Case {
+            panel: portrait,
+            fit: Fit::Cover,
+            ..CASE
+        },
+        Case {
+            panel: portrait,
+            fit: Fit::Stretch,
+            ..CASE
+        },
+        Case {
+            display: "slanted8",
+            panel: (1000, 300),
+            fit: Fit::Cover,
+            ..CASE
+        },
+        Case {
+            display: "columns",
+            views: 2,
+            window: (1024, 768),
+            ..CASE
+        },
+        Case { grows: 2, ..CASE },
+    ];
+    for case in cases {
+        let what = format!(
+            "{} on {:?}, {}, {} times",
+            case.display,
+            case.panel,
+            word(case.fit),
+            case.grows
+        );
+        case.check(&what);
+    }
+}
+
+/// Displays, with as many views as each is made for.
+const DISPLAYS: [(&str, u32); 12] = [
+    ("huebner8", 8),
+    ("slanted8", 8),
+    ("columns", 2),
+    ("rows", 2),
+    ("checkerboard", 2),
+    ("looking-glass-8.9", 45),
+    ("looking-glass-15.6", 45),
+    ("looking-glass-portrait", 48),
+    ("looking-glass-go", 66),
+    ("looking-glass-16-landscape", 49),
+    ("looking-glass-32-portrait", 66),
+    ("looking-glass-65", 72),
+];
+
+#[test]
+#[ignore = "minutes"]
+fn all_displays_have_their_picture() {
+    for (display, views) in DISPLAYS {
+        for (panel, fit) in [((1280, 800), Fit::Contain), ((800, 1280), Fit::Cover)] {
+            let case = Case {
+                display,
+                views,
+                panel,
+                fit,
+                ..CASE
+            };
+            case.check(&format!("{display} on {panel:?}"));
+        }
+    }
+    for window in [(801, 603), (1920, 1080), (3840, 2160)] {
+        let case = Case {
+            display: "slanted8",
+            views: 4,
+            window,
+            panel: (1000, 1100),
+            ..CASE
+        };
+        case.check(&format!("{window:?}"));
+    }
+}
+
+/// The window covers the monitor that is named, to whatever side of the others, and the mask counts from that monitor's corner.
+#[test]
+fn the_monitor_is_the_one_that_is_named() {
+    let expected = CASE.expected();
+    for (at, desk) in [(900, 0), (0, 800)] {
+        let screen = sized_screen((1700, 640));
+        let user = User::at(screen.display());
+        user.add_monitor("desk", [desk, 0, 900, 640]);
+        user.add_monitor("panel", [at, 40, 800, 600]);
+        let child = CASE.start_on("panel", &screen, &[]);
+        let shown = wait_for(&screen, &expected);
+        let window = user.window("manyview").expect("a window");
+        assert_eq!(user.place(window), [at, 40], "the desk at {desk}");
+        end(child, "a named monitor");
+        assert!(worst(&shown, &expected) <= STEP, "the desk at {desk}");
+    }
+    let screen = sized_screen((800, 600));
+    let mut child = CASE.start_on("HDMI-9", &screen, &[]);
+    assert_eq!(child.wait().expect("it ends").code(), Some(2));
+    let mut said = String::new();
+    let errors = child.stderr.as_mut().expect("a pipe");
+    errors.read_to_string(&mut said).expect("text");
+    assert!(
+        said.starts_with("manyview: --panel 'HDMI-9': there is no such monitor; give one of 0"),
+        "{said}"
+    );
+}
+
+/// The panel's window belongs to the launcher, and what a program asks of its surface is as without it.
+#[test]
+fn the_programs_own_picture_stays() {
+    let screen = sized_screen(CASE.panel);
+    let folder = tempfile::tempdir().expect("a folder");
+    let report = folder.path().join("report.json");
+    let child = CASE.start(&screen, &["--report", &report.to_string_lossy()]);
+    wait_for(&screen, &CASE.expected());
+    let user = User::at(screen.display());
+    let window = user.window("manyview").expect("a window");
+    assert_ne!(
+        user.focused(),
+        window,
+        "the keyboard stays with the program"
+    );
+    let said = end(child, "report");
+    assert_eq!(said, "");
+    let report = std::fs::read_to_string(&report).expect("a report");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["gl_errors"], 0, "{report}");
+    assert!(
+        user.window("manyview").is_none(),
+        "the window goes with the program"
+    );
+}
+
+/// The user closes the panel's window: the program goes on, and shows the picture itself.
+#[test]
+fn a_window_that_is_closed_leaves_the_program_alone() {
+    let screen = sized_screen(CASE.panel);
+    let child = CASE.start(&screen, &[]);
+    wait_for(&screen, &CASE.expected());
+    let user = User::at(screen.display());
+    user.destroy(user.window("manyview").expect("a window"));
+    std::thread::sleep(Duration::from_millis(500));
+    let said = end(child, "closed");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.contains("the panel's window is closed"), "{said}");
+}
+
+#[test]
+fn a_program_without_the_launcher_is_told() {
+    let mut command = support::layered(still(), &[("PANEL", "auto")]);
+    let command = command.stdin(Stdio::piped()).stderr(Stdio::piped());
+    let child = command.spawn().expect("it starts");
+    std::thread::sleep(Duration::from_secs(1));
+    let said = end(child, "without the launcher");
+    assert!(said.contains("opened by manyview run"), "{said}");
+}
+
+#[test]
+fn what_cannot_be_is_one_line() {
+    let run = |more: &[&'static str]| [&["run"], more, &["--", "true"]].concat();
+    refused(
+        &run(&["--fit", "cover"]),
+        2,
+        "for a window of the panel's own",
+    );
+    refused(
+        &run(&["--panel", "auto", "--fit", "wide"]),
+        2,
+        "contain, cover and stretch",
+    );
+    refused(&run(&["--panel", ""]), 2, "is empty");
+    refused(
+        &run(&["--panel", "auto", "--output", "quad"]),
+        2,
+        "another output",
+    );
+    refused(
+        &run(&["--panel", "auto", "--window-output", "panel"]),
+        2,
+        "own, quilt",
+    );
+}
