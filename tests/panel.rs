@@ -14,7 +14,7 @@ use std::io::Read;
 use std::path::PathBuf;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
-use support::{Compiled, Screen, compiled, manyview, refused, rgb, sized_screen, succeed};
+use support::{Compiled, Screen, compiled, manyview, refused, rgb, scratch, sized_screen, succeed};
 use x::User;
 
 const LIMIT: Duration = Duration::from_secs(20);
@@ -71,7 +71,7 @@ impl Case {
         command
             .args(["capture", "--frame", "3", "--what", "atlas", "--views"])
             .arg(self.views.to_string())
-            .args(["--display", self.display])
+            .args(["--display", &named(self.display)])
             .args(CAMERAS)
             .arg("--out")
             .arg(&out)
@@ -88,7 +88,7 @@ impl Case {
     fn expected(&self) -> RgbImage {
         let panel = (self.panel.0.into(), self.panel.1.into());
         let place = self.fit.place(self.size(), panel);
-        let display: Display = load(self.display).expect("a display");
+        let display: Display = load(&named(self.display)).expect("a display");
         let mask = display.mask(&place, self.views).expect("a mask");
         let picture = reference::interleave(&self.views(), &mask).expect("a picture");
         let mut whole = RgbImage::new(panel.0, panel.1);
@@ -113,7 +113,7 @@ impl Case {
                 "--views",
             ])
             .arg(self.views.to_string())
-            .args(["--display", self.display])
+            .args(["--display", &named(self.display)])
             .args(CAMERAS)
             .args(more)
             .arg("--")
@@ -218,21 +218,52 @@ fn the_picture_is_interleaved_at_the_panels_size() {
     }
 }
 
-/// Displays, with as many views as each is made for.
+/// Displays, by name or description, and how many views they show.
 const DISPLAYS: [(&str, u32); 12] = [
     ("huebner8", 8),
     ("slanted8", 8),
+    ("lenticular-5", 5),
     ("columns", 2),
     ("rows", 2),
     ("checkerboard", 2),
-    ("looking-glass-8.9", 45),
-    ("looking-glass-15.6", 45),
-    ("looking-glass-portrait", 48),
-    ("looking-glass-go", 66),
-    ("looking-glass-16-landscape", 49),
-    ("looking-glass-32-portrait", 66),
-    ("looking-glass-65", 72),
+    (
+        "kind = 'slanted'\nviews = 9\npitch = '16/3'\nslant = '-2/3'\norder = 'bgr'",
+        9,
+    ),
+    (
+        "kind = 'slanted'\nviews = 66\npitch = 15.7934\nslant = 2.6021\noffset = 3.1",
+        66,
+    ),
+    (
+        "kind = 'slanted'\nviews = 2\npitch = 6.00217\nslant = 1.0001\ninverted = true",
+        2,
+    ),
+    (
+        "kind = 'integer'\nviews = 3\nhorizontal = 3\nsubpixel = 1\nvertical = 2\noffset = 1\nmodulus = 8\ntable = [0, 'b', 1, 2]",
+        3,
+    ),
+    (
+        "kind = 'leia'\nviews = 12\np-over-du = 3\np-over-dv = 0.8\ncolour-slant = 0.1\noffset = 0.25",
+        12,
+    ),
+    (
+        "kind = 'pattern'\npattern = ['LRLRbLRb']\nsubpixels = true",
+        2,
+    ),
 ];
+
+/// The name of a display, or the file of its description.
+fn named(display: &str) -> String {
+    let Some((kind, _)) = display.split_once('\n') else {
+        return display.to_owned();
+    };
+    let names = DISPLAYS.iter().position(|(known, _)| *known == display);
+    let folder = scratch("panel");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join(format!("{}.toml", names.expect(kind)));
+    std::fs::write(&file, display).expect("written");
+    file.to_string_lossy().into_owned()
+}
 
 #[test]
 #[ignore = "minutes"]
