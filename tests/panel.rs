@@ -320,9 +320,9 @@ fn the_monitor_is_the_one_that_is_named() {
     );
 }
 
-/// The panel's window belongs to the launcher, and what a program asks of its surface is as without it.
+/// The panel's window takes no keyboard from the program, and goes with it.
 #[test]
-fn the_programs_own_picture_stays() {
+fn the_window_takes_no_keyboard_and_ends_with_the_program() {
     let screen = sized_screen(CASE.panel);
     let folder = tempfile::tempdir().expect("a folder");
     let report = folder.path().join("report.json");
