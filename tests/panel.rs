@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use support::{Compiled, Screen, compiled, manyview, refused, rgb, scratch, sized_screen, succeed};
 use x::User;
 
-const LIMIT: Duration = Duration::from_secs(20);
+const LIMIT: Duration = Duration::from_secs(60);
 const CAMERAS: [&str; 4] = ["--separation", "0.02", "--convergence", "8"];
 
 /// Views are resampled to the panel's pixels: the driver's floats may round the other way than the CPU's integers.
