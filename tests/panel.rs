@@ -28,7 +28,7 @@ const STEP: u8 = 1;
 struct Case {
     display: &'static str,
     views: u32,
-    /// Width and height of the program's surface, and how many times as large it becomes.
+    /// Width and height of the program's surface, and how many times as wide it becomes.
     window: (u32, u32),
     grows: u32,
     panel: (u16, u16),
@@ -59,7 +59,7 @@ fn still() -> PathBuf {
 impl Case {
     /// The program's size in the end.
     fn size(&self) -> (u32, u32) {
-        (self.window.0 * self.grows, self.window.1 * self.grows)
+        (self.window.0 * self.grows, self.window.1)
     }
 
     /// The views, as the program's window would show them.

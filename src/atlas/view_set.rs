@@ -18,7 +18,7 @@ impl ViewSet {
 
     /// The views of both sets.
     #[must_use]
-    pub fn and(mut self, other: ViewSet) -> ViewSet {
+    pub fn union(mut self, other: ViewSet) -> ViewSet {
         let words = self.0.iter_mut().zip(other.0);
         words.for_each(|(word, other)| *word |= other);
         self

@@ -315,7 +315,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         "Show the output in a window of its own over this monitor, by name or number; the program keeps its window (`run`, X11)")
         .manual("`auto` takes the monitor that has the panel's size. See [A window of the panel's own](outputs.md#a-window-of-the-panels-own)."),
     OptionSpec::new(OptionId::Fit, "fit", "MANYVIEW_FIT", "",
-        "How the picture is fitted to a panel of another aspect, with --panel: whole with black bars, cut off at its sides, or distorted")
+        "How the picture is fitted to a panel of another aspect (whole with black bars, cut off at its sides, or distorted), with --panel")
         .choices(&["contain", "cover", "stretch"]).default("contain"),
     OptionSpec::new(OptionId::WindowOutput, "window-output", "MANYVIEW_WINDOW_OUTPUT", "OUTPUT",
         "What the program's window shows, with --panel")

@@ -123,19 +123,17 @@ pub(super) const GLASSES: [(&str, Glasses); 3] = [
 /// How outputs are written, for a message.
 pub(super) const WORDS: [&str; OUTPUTS.len() + 2] = words(OUTPUTS, &["anaglyph[:KIND]", "view:I"]);
 
-/// What the program's window shows beside the panel's: `None` is its own view. An anaglyph and a view have a second part.
-pub(super) const WINDOW_OUTPUTS: &[(&str, Option<Output>)] = &[
-    ("own", None),
-    ("quilt", Some(Output::Quilt)),
-    ("sbs", Some(Output::SideBySide { half: false })),
-    ("half-sbs", Some(Output::SideBySide { half: true })),
-    ("tb", Some(Output::TopBottom { half: false })),
-    ("half-tb", Some(Output::TopBottom { half: true })),
+/// How outputs of the program's window are written while the panel has its own: its own picture, or one that needs no place on a panel and no second buffer.
+pub(super) const WINDOW_WORDS: [&str; 8] = [
+    "own",
+    "quilt",
+    "sbs",
+    "half-sbs",
+    "tb",
+    "half-tb",
+    "anaglyph[:KIND]",
+    "view:I",
 ];
-
-/// How these are written, for a message.
-pub(super) const WINDOW_WORDS: [&str; WINDOW_OUTPUTS.len() + 2] =
-    words(WINDOW_OUTPUTS, &["anaglyph[:KIND]", "view:I"]);
 
 impl fmt::Display for Output {
     /// As the option is written.

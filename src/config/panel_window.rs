@@ -1,13 +1,12 @@
 //! The panel's own window, beside that of the program.
 #![forbid(unsafe_code)]
 
-use super::choice::choice;
+use super::Output;
+use super::choice::{choice, choices};
 use super::error::ConfigError;
 use super::options::OptionId;
-use super::output::WINDOW_OUTPUTS;
-use super::parse::{check_output, one_view, path};
+use super::parse::{check_output, path, written};
 use super::settings::Settings;
-use super::{Output, parse};
 use crate::display::Fit;
 use std::path::PathBuf;
 
@@ -70,15 +69,20 @@ fn output(settings: &Settings, views: u32) -> Result<Option<Output>, ConfigError
     let Some((field, value)) = settings.field(id) else {
         return Ok(None);
     };
-    let output = match WINDOW_OUTPUTS.iter().find(|(name, _)| *name == value) {
-        Some((_, output)) => *output,
-        None => Some(match parse::anaglyph(value) {
-            Some(anaglyph) => Output::Anaglyph(anaglyph),
-            None => Output::View(one_view(&field, value, views)?),
-        }),
-    };
-    if let Some(output) = output {
-        check_output(settings, id, output, views)?;
+    if value == "own" {
+        return Ok(None);
     }
-    Ok(output)
+    let output = written(&field, value)?;
+    if matches!(
+        output,
+        Output::Panel | Output::Interlaced(_) | Output::Quad | Output::Rgbd
+    ) {
+        return Err(ConfigError::Choice {
+            choices: choices(id),
+            field,
+            value: value.to_owned(),
+        });
+    }
+    check_output(settings, id, output, views)?;
+    Ok(Some(output))
 }

@@ -170,17 +170,22 @@ fn output(settings: &Settings, display: &Display) -> Result<Output, ConfigError>
         };
         return display.check_mask().map(|()| Output::Panel).map_err(reason);
     }
+    written(&field, value)
+}
+
+/// The output that a word names; whether a single view is there is not looked at.
+pub(super) fn written(field: &Field, value: &str) -> Result<Output, ConfigError> {
     if let Some((_, output)) = OUTPUTS.iter().find(|(name, _)| *name == value) {
         return Ok(*output);
     }
     if let Some(anaglyph) = anaglyph(value) {
         return Ok(Output::Anaglyph(anaglyph));
     }
-    one_view(&field, value, MAX_VIEWS).map(Output::View)
+    one_view(field, value, MAX_VIEWS).map(Output::View)
 }
 
 /// `anaglyph`, `anaglyph:GLASSES` or `anaglyph:GLASSES-MIXTURE`.
-pub(super) fn anaglyph(value: &str) -> Option<Anaglyph> {
+fn anaglyph(value: &str) -> Option<Anaglyph> {
     let kind = match value.strip_prefix("anaglyph")? {
         "" => GLASSES[0].0,
         kind => kind.strip_prefix(':')?,
@@ -229,7 +234,7 @@ fn filter(settings: &Settings, views: u32) -> Result<Filter, ConfigError> {
 }
 
 /// The I of `view:I`.
-pub(super) fn one_view(field: &Field, value: &str, views: u32) -> Result<u32, ConfigError> {
+fn one_view(field: &Field, value: &str, views: u32) -> Result<u32, ConfigError> {
     let Some(view) = value
         .strip_prefix("view:")
         .and_then(|index| index.parse().ok())

@@ -130,7 +130,7 @@ impl Layer {
     fn seen(&self) -> ViewSet {
         let panel = self.seen_in(self.output());
         let window = self.window_output().map(|output| self.seen_in(output));
-        window.map_or(panel, |window| panel.and(window))
+        window.map_or(panel, |window| panel.union(window))
     }
 
     /// The views that are in the picture of an output.

@@ -1,5 +1,5 @@
 /* The same picture again and again, in a surface of the size that is given (width and height), until its input ends, ten frames at least. With a third argument, the surface
- * has that many times the size from the tenth frame on. */
+ * has that many times the width from the tenth frame on. */
 static int width, height;
 #define SURFACE_SIZE
 #define WIDTH width
@@ -41,14 +41,10 @@ int main(int argc, char **argv)
     height = argc > 2 ? atoi(argv[2]) : 240;
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
         return 2;
-    glMatrixMode(GL_PROJECTION);
-    glFrustum(-0.8, 0.8, -0.6, 0.6, 1, 100);
-    glMatrixMode(GL_MODELVIEW);
-    glEnable(GL_DEPTH_TEST);
+    set_camera();
     if (argc > 3 && draw(10)) {
         EGLContext context = eglGetCurrentContext();
         width *= atoi(argv[3]);
-        height *= atoi(argv[3]);
         const EGLint size[] = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};
         surface = eglCreatePbufferSurface(display, config, size);
         if (!eglMakeCurrent(display, surface, surface, context))

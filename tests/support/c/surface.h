@@ -49,3 +49,12 @@ static inline EGLContext new_context(EGLContext share)
     EGLContext context = eglCreateContext(display, config, share, NULL);
     return context && eglMakeCurrent(display, surface, surface, context) ? context : EGL_NO_CONTEXT;
 }
+
+/* The camera of fixed function: a frustum of 4 to 3, from 1 to 100. */
+static inline void set_camera(void)
+{
+    glMatrixMode(GL_PROJECTION);
+    glFrustum(-0.8, 0.8, -0.6, 0.6, 1, 100);
+    glMatrixMode(GL_MODELVIEW);
+    glEnable(GL_DEPTH_TEST);
+}

@@ -7,10 +7,7 @@ int main(int argc, char **argv)
     (void)argv;
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
         return 2;
-    glMatrixMode(GL_PROJECTION);
-    glFrustum(-0.8, 0.8, -0.6, 0.6, 1, 100);
-    glMatrixMode(GL_MODELVIEW);
-    glEnable(GL_DEPTH_TEST);
+    set_camera();
     for (int frame = 1; frame <= 4; frame++) {
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         if (argc == 1) {
