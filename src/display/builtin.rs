@@ -33,27 +33,27 @@ const INTERLACED: [(&str, &[&str], &str); 3] = [
     ),
 ];
 
-/// A model of the Looking Glass family. The quilt is that of the maker's tools; every device has a mask of its own.
+/// A model of the Looking Glass family, with the numbers of the maker's tools; every device has a mask of its own.
 struct Model {
     name: &'static str,
-    /// Beginning of its serial numbers.
+    /// Beginning of its serial numbers. None where no public source names it: the device is then known by its screen.
     serials: &'static [&'static str],
     quilt: (u32, u32),
     screen: (u32, u32),
     dpi: f64,
+    /// The angle over which it spreads its views, degrees.
+    cone: f64,
     about: &'static str,
 }
 
-/// All of them spread their views over this angle, degrees.
-const CONE: f64 = 40.0;
-
-const MODELS: [Model; 10] = [
+const MODELS: [Model; 13] = [
     Model {
         name: "looking-glass-8.9",
         serials: &["LKG-2K"],
         quilt: (5, 9),
         screen: (2560, 1600),
         dpi: 338.0,
+        cone: 40.0,
         about: "Looking Glass 8.9\"",
     },
     Model {
@@ -62,6 +62,7 @@ const MODELS: [Model; 10] = [
         quilt: (5, 9),
         screen: (3840, 2160),
         dpi: 283.0,
+        cone: 40.0,
         about: "Looking Glass 15.6\" and 16\" of the second generation",
     },
     Model {
@@ -70,15 +71,35 @@ const MODELS: [Model; 10] = [
         quilt: (5, 9),
         screen: (7680, 4320),
         dpi: 280.0,
+        cone: 40.0,
         about: "Looking Glass 8K and 32\" of the second generation",
     },
     Model {
         name: "looking-glass-portrait",
-        serials: &["LKG-P", "LKG-F"],
+        serials: &["LKG-P"],
         quilt: (8, 6),
         screen: (1536, 2048),
         dpi: 324.0,
-        about: "Looking Glass Portrait and Kiosk",
+        cone: 40.0,
+        about: "Looking Glass Portrait",
+    },
+    Model {
+        name: "looking-glass-kiosk",
+        serials: &["LKG-F"],
+        quilt: (11, 6),
+        screen: (1536, 2048),
+        dpi: 324.0,
+        cone: 40.0,
+        about: "Looking Glass Kiosk",
+    },
+    Model {
+        name: "looking-glass-65",
+        serials: &["LKG-D"],
+        quilt: (8, 9),
+        screen: (7680, 4320),
+        dpi: 136.0,
+        cone: 40.0,
+        about: "Looking Glass 65\"",
     },
     Model {
         name: "looking-glass-go",
@@ -86,15 +107,8 @@ const MODELS: [Model; 10] = [
         quilt: (11, 6),
         screen: (1440, 2560),
         dpi: 491.0,
+        cone: 54.0,
         about: "Looking Glass Go",
-    },
-    Model {
-        name: "looking-glass-65",
-        serials: &["LKG-D"],
-        quilt: (8, 9),
-        screen: (7680, 4320),
-        dpi: 280.0,
-        about: "Looking Glass 65\"",
     },
     Model {
         name: "looking-glass-16-landscape",
@@ -102,6 +116,7 @@ const MODELS: [Model; 10] = [
         quilt: (7, 7),
         screen: (3840, 2160),
         dpi: 283.0,
+        cone: 50.0,
         about: "Looking Glass 16\", landscape",
     },
     Model {
@@ -110,7 +125,26 @@ const MODELS: [Model; 10] = [
         quilt: (11, 6),
         screen: (2160, 3840),
         dpi: 283.0,
+        cone: 50.0,
         about: "Looking Glass 16\", portrait",
+    },
+    Model {
+        name: "looking-glass-27-landscape",
+        serials: &[],
+        quilt: (8, 6),
+        screen: (5120, 2880),
+        dpi: 218.0,
+        cone: 50.0,
+        about: "Looking Glass 27\", landscape",
+    },
+    Model {
+        name: "looking-glass-27-portrait",
+        serials: &[],
+        quilt: (12, 4),
+        screen: (2880, 5120),
+        dpi: 218.0,
+        cone: 50.0,
+        about: "Looking Glass 27\", portrait",
     },
     Model {
         name: "looking-glass-32-landscape",
@@ -118,6 +152,7 @@ const MODELS: [Model; 10] = [
         quilt: (7, 7),
         screen: (7680, 4320),
         dpi: 280.0,
+        cone: 50.0,
         about: "Looking Glass 32\", landscape",
     },
     Model {
@@ -126,6 +161,7 @@ const MODELS: [Model; 10] = [
         quilt: (11, 6),
         screen: (4320, 7680),
         dpi: 280.0,
+        cone: 54.0,
         about: "Looking Glass 32\", portrait",
     },
 ];
@@ -178,12 +214,12 @@ pub(super) fn named(name: &str) -> Result<Display, DisplayError> {
     Ok(Display::new(name, views, Kind::Lenticular))
 }
 
-/// The model of a Looking Glass, by its serial number.
-pub(super) fn facts_of(serial: &str) -> Option<Facts> {
-    let model = MODELS
-        .iter()
-        .find(|model| model.serials.iter().any(|start| serial.starts_with(start)))?;
-    Some(model.facts())
+/// The model of a Looking Glass: by its serial number, else the one model of unknown serial numbers that has its screen.
+pub(super) fn facts_of(serial: &str, screen: (u32, u32)) -> Option<Facts> {
+    let known = |model: &&Model| model.serials.iter().any(|start| serial.starts_with(start));
+    let like = |model: &&Model| model.serials.is_empty() && model.screen == screen;
+    let model = MODELS.iter().find(known);
+    Some(model.or_else(|| MODELS.iter().find(like))?.facts())
 }
 
 impl Model {
@@ -191,7 +227,7 @@ impl Model {
         Facts {
             screen: Some(self.screen),
             dpi: Some(self.dpi),
-            cone: Some(CONE),
+            cone: Some(self.cone),
             quilt: Some(self.quilt),
             ..Facts::default()
         }

@@ -17,7 +17,7 @@ pub(super) fn read(file: &str, name: String, text: &str) -> Result<Display, Disp
         message: e.to_string(),
     })?;
     let device = Reader { file, json }.device()?;
-    let known = facts_of(&device.serial);
+    let known = facts_of(&device.serial, (device.width, device.height));
     let quilt = known.and_then(|facts| facts.quilt);
     let facts = Facts {
         screen: Some((device.width, device.height)),

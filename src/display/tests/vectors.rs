@@ -77,6 +77,50 @@ fn looking_glass_derived_numbers_of_the_notes() {
     assert!(near(3.0 * f64::from(width) / p, 20.7502, 4));
 }
 
+/// A model, a calibration of one of its devices, and the views of some pixels: x, row from the top, R, G and B. By `scripts/golden-masks.py`.
+#[derive(serde::Deserialize)]
+struct Golden {
+    model: String,
+    quilt: (u32, u32),
+    calibration: serde_json::Value,
+    pixels: Vec<(i32, i32, u16, u16, u16)>,
+}
+
+#[test]
+fn every_looking_glass_has_its_mask() {
+    let all: Vec<Golden> = serde_json::from_str(include_str!("looking_glass.json")).unwrap();
+    for golden in &all {
+        let name = &golden.model;
+        let display = written(&golden.calibration.to_string(), "visual.json");
+        let model = Display::named(name).unwrap();
+        assert_eq!(display.facts.quilt, Some(golden.quilt), "{name}");
+        assert_eq!(display.facts, model.facts, "{name}");
+        let (width, height) = display.facts.screen.unwrap();
+        assert!(golden.pixels.len() > 35, "{name}");
+        for &(x, y, red, green, blue) in &golden.pixels {
+            let whole = Placement::full_screen(width, height);
+            let place = Placement {
+                x,
+                y,
+                width: 1,
+                height: 1,
+                ..whole
+            };
+            let mask = display.mask(&place, display.views).unwrap();
+            assert_eq!(mask.at(0, 0), Some([red, green, blue]), "{name} {x} {y}");
+        }
+    }
+    for builtin in crate::display::builtins() {
+        let tested = all.iter().any(|golden| golden.model == builtin.name);
+        assert_eq!(
+            tested,
+            builtin.name.starts_with("looking-glass-"),
+            "{}",
+            builtin.name
+        );
+    }
+}
+
 #[test]
 fn the_generic_eight_view_formula() {
     // view = ⌊3x + slope·y + shift + c⌋ mod 8 with the slopes that sources name.
