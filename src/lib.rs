@@ -65,6 +65,9 @@ pub mod layer;
 pub mod window;
 
 #[cfg(feature = "cli")]
+pub mod plugged;
+
+#[cfg(feature = "cli")]
 pub mod bench;
 
 #[cfg(feature = "cli")]

@@ -284,6 +284,7 @@ fn the_commands_of_the_documents_are_accepted() {
         command
             .current_dir(folder.path())
             .env("XDG_RUNTIME_DIR", folder.path())
+            .env("XDG_CONFIG_HOME", folder.path().join("configuration"))
             // Opens no window on the screen of the person who runs the tests.
             .env_remove("DISPLAY")
             .args(options.split_whitespace());

@@ -8,6 +8,7 @@ use manyview::control::ControlError;
 use manyview::display::{DisplayError, MaskError, QuiltError};
 use manyview::interleave::reference::ReferenceError;
 use manyview::launch::LaunchError;
+use manyview::plugged::ChosenError;
 use manyview::simulate::SimulateError;
 use manyview::volume::VolumeError;
 use manyview::window::WindowError;
@@ -33,6 +34,12 @@ pub(super) enum CommandError {
     /// A panel.
     #[error(transparent)]
     Display(#[from] DisplayError),
+    /// The panel that is set up.
+    #[error(transparent)]
+    Chosen(#[from] ChosenError),
+    /// A panel that shows no picture of its own.
+    #[error("{0} is a model, whose devices differ; give the calibration of yours, its visual.json")]
+    Model(String),
     /// A quilt.
     #[error(transparent)]
     Quilt(#[from] QuiltError),
@@ -102,6 +109,8 @@ impl CommandError {
             | Self::Size(_)
             | Self::Mask(_)
             | Self::Display(_)
+            | Self::Chosen(_)
+            | Self::Model(_)
             | Self::Quilt(_)
             | Self::QuiltShape(_)
             | Self::QuiltUnknown(_)

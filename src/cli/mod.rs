@@ -13,6 +13,7 @@ mod error;
 mod layer;
 mod man;
 mod mask;
+mod panel;
 mod run;
 mod sheet;
 mod show;
@@ -71,7 +72,7 @@ enum Action {
     Bench(bench::Arguments),
     /// Say which OpenGL a program would get here and which strategies the layer has with it.
     Doctor(doctor::Arguments),
-    /// List the built-in panels.
+    /// List the panels that are plugged in, set up and built in; set one up.
     Displays(displays::Arguments),
     /// Write the manual pages.
     #[command(hide = true)]

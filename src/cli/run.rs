@@ -3,7 +3,7 @@
 
 use super::error::CommandError;
 use super::layer::LayerArguments;
-use super::{Outcome, scratch, tell};
+use super::{Outcome, panel, scratch, tell};
 use clap::Args;
 use manyview::bench::proof;
 use manyview::config::{OptionId, Origin, Settings, Status};
@@ -28,6 +28,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let mut settings = arguments.layer.settings()?;
+    panel::choose(&mut settings)?;
     let status = match settings.get(OptionId::Prove) {
         Some(_) => Some(StatusFile::new(&mut settings)?),
         None => None,
@@ -41,11 +42,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         );
     }
     let launch = Launch::prepare(&arguments.command, &settings)?;
-    let screen = launch.config.display.facts.screen;
-    let panel = launch.config.panel.as_ref();
-    let panel = panel
-        .map(|panel| PanelServer::open(panel, screen))
-        .transpose()?;
+    let panel = panel::open(&launch.config)?;
     let explanation = launch.config.explain.as_ref();
     let before = explanation.map(|explain| stamps(&explain.files()));
     let ended = launch.run()?;

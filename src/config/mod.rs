@@ -31,6 +31,7 @@ pub use class::{Class, DepthRange, DepthState, OrthographicDraws, Projection, Vi
 pub use error::ConfigError;
 pub use explain::Explain;
 pub use field::{Field, Origin, Renaming};
+pub use file::user_folder;
 pub use live::{Knob, Live};
 pub use options::{DISABLE, Former, LIBRARY, OPTIONS, OptionId, OptionSpec, PathKind, Scope};
 pub use output::{Anaglyph, Glasses, Interlace, Mixture, Output};

@@ -303,7 +303,8 @@ impl OptionSpec {
 pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::Display, "display", "MANYVIEW_DISPLAY", "NAME|FILE",
         "Panel: a built-in name (see `manyview displays`) or a panel file")
-        .path(PathKind::NameOrFile).default("huebner8").manual("See [Displays](displays.md)."),
+        .path(PathKind::NameOrFile).default("huebner8")
+        .manual("`run` takes the panel that is set up or plugged in. See [Displays](displays.md)."),
     OptionSpec::new(OptionId::Views, "views", "MANYVIEW_VIEWS", "N",
         "Number of views, 1 to 256")
         .default("the panel's own"),
@@ -313,7 +314,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         .default("panel").manual("See [Outputs](outputs.md)."),
     OptionSpec::new(OptionId::Panel, "panel", "MANYVIEW_PANEL", "MONITOR|auto",
         "Show the output in a window of its own over this monitor, by name or number; the program keeps its window (`run`, X11)")
-        .manual("`auto` takes the monitor that has the panel's size. See [A window of the panel's own](outputs.md#a-window-of-the-panels-own)."),
+        .manual("`auto` takes the panel's monitor. See [A window of the panel's own](outputs.md#a-window-of-the-panels-own)."),
     OptionSpec::new(OptionId::Fit, "fit", "MANYVIEW_FIT", "",
         "How the picture is fitted to a panel of another aspect (whole with black bars, cut off at its sides, or distorted), with --panel")
         .choices(&["contain", "cover", "stretch"]).default("contain"),

@@ -5,7 +5,7 @@
 
 use super::class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 use super::error::DEPTH_REMEDY;
-use super::file::{one_line, read_capped};
+use super::file::{one_line, read_capped, user_folder};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -197,14 +197,7 @@ pub fn beside(library: &Path) -> Option<PathBuf> {
 /// The folder of the user's own profiles, which go before those that come with a library; it need not be there.
 #[must_use]
 pub fn users() -> Option<PathBuf> {
-    let absolute = |name: &str| {
-        std::env::var_os(name)
-            .map(PathBuf::from)
-            .filter(|p| p.is_absolute())
-    };
-    let configuration =
-        absolute("XDG_CONFIG_HOME").or_else(|| Some(absolute("HOME")?.join(".config")));
-    Some(configuration?.join("manyview/profiles"))
+    Some(user_folder()?.join("profiles"))
 }
 
 /// The file name of the program of this process.

@@ -9,7 +9,7 @@ mod monitor;
 mod panel;
 
 pub use error::WindowError;
-pub use monitor::Monitor;
+pub use monitor::{Monitor, monitors};
 pub use panel::PanelServer;
 
 use image::RgbImage;

@@ -4,7 +4,8 @@
 use super::WindowError;
 use x11rb::connection::Connection;
 use x11rb::protocol::randr::ConnectionExt as _;
-use x11rb::protocol::xproto::{ConnectionExt as _, Screen};
+use x11rb::protocol::xproto::{AtomEnum, ConnectionExt as _, Screen};
+use x11rb::rust_connection::RustConnection;
 
 /// A monitor of an X screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,6 +18,18 @@ pub struct Monitor {
     pub size: (u32, u32),
     /// The user has made it the primary monitor.
     pub primary: bool,
+    /// What it says of itself, its EDID; empty where the server does not tell.
+    pub edid: Vec<u8>,
+}
+
+/// The monitors of the X server.
+///
+/// # Errors
+/// There is no X server, or it fails.
+pub fn monitors() -> Result<Vec<Monitor>, WindowError> {
+    let (connection, number) = RustConnection::connect(None)?;
+    let screen = connection.setup().roots.get(number).cloned();
+    all(&connection, &screen.ok_or(WindowError::Colours)?)
 }
 
 /// All monitors. Where the server reports none, the whole screen counts as one.
@@ -38,6 +51,7 @@ pub(super) fn all(
                 at: (monitor.x, monitor.y),
                 size: (monitor.width.into(), monitor.height.into()),
                 primary: monitor.primary,
+                edid: edid(connection, &monitor.outputs)?,
             });
         }
     }
@@ -50,9 +64,30 @@ pub(super) fn all(
                 screen.height_in_pixels.into(),
             ),
             primary: true,
+            edid: Vec::new(),
         });
     }
     Ok(found)
+}
+
+/// The EDID of the first output that has one.
+fn edid(connection: &impl Connection, outputs: &[u32]) -> Result<Vec<u8>, WindowError> {
+    const NAME: &[u8] = b"EDID";
+    /// Four bytes each; extensions are not needed.
+    const UNITS: u32 = 32;
+    let property = connection.intern_atom(true, NAME)?.reply()?.atom;
+    for &output in outputs.iter().filter(|_| property != x11rb::NONE) {
+        let any: u32 = AtomEnum::ANY.into();
+        let asked =
+            connection.randr_get_output_property(output, property, any, 0, UNITS, false, false)?;
+        // An output without it answers with nothing.
+        if let Ok(reply) = asked.reply()
+            && !reply.data.is_empty()
+        {
+            return Ok(reply.data);
+        }
+    }
+    Ok(Vec::new())
 }
 
 /// The monitor with the `wanted` name or number from 0. Without `wanted`, the first of the panel's size, else the primary one, else the first.
@@ -101,6 +136,7 @@ mod tests {
             at: (x, 0),
             size,
             primary,
+            edid: Vec::new(),
         };
         vec![
             monitor("DP-1", 0, (1920, 1080), false),

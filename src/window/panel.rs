@@ -4,7 +4,6 @@
 //! pictures from the file that they are written to, where it can.
 
 use super::{Window, WindowError};
-use crate::config::PanelWindow;
 use crate::control::panel::{Frame, Hello, PIXEL, SLOTS, slot_bytes};
 use crate::control::place;
 use rustix::event::{PollFd, PollFlags, poll};
@@ -40,9 +39,9 @@ impl PanelServer {
     ///
     /// # Errors
     /// There is no X server, no such monitor, or no place for the socket.
-    pub fn open(wanted: &PanelWindow, panel: Option<(u32, u32)>) -> Result<Self, WindowError> {
+    pub fn open(wanted: Option<&str>, panel: Option<(u32, u32)>) -> Result<Self, WindowError> {
         let socket = Self::place();
-        let window = Window::passive(TITLE, wanted.monitor.as_deref(), panel)?;
+        let window = Window::passive(TITLE, wanted, panel)?;
         let user = rustix::process::geteuid().as_raw();
         let folder = folder();
         let no = |error: &dyn std::fmt::Display| WindowError::Socket(error.to_string());

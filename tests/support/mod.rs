@@ -65,7 +65,10 @@ pub(crate) fn demo(name: &str) -> PathBuf {
 
 /// The command without the caller's own settings.
 pub(crate) fn manyview() -> Command {
-    without_layer(Command::new(env!("CARGO_BIN_EXE_manyview")))
+    let mut command = without_layer(Command::new(env!("CARGO_BIN_EXE_manyview")));
+    // `run` without a display would show on the panel of whoever runs the tests.
+    command.env("MANYVIEW_DISPLAY", "huebner8");
+    command
 }
 
 /// Runs the command and returns exit status, stdout and stderr.
@@ -124,6 +127,7 @@ fn without_layer(mut command: Command) -> Command {
         .env_remove("LD_PRELOAD")
         .env_remove("MANYVIEW_DISABLE")
         .env_remove("MANYVIEW_LIBRARY")
+        .env("XDG_CONFIG_HOME", "/dev/null/none")
         // Tests run side by side, and llvmpipe of Mesa 22.3 may free a fence while the thread that signals it still unlocks it: this
         // damages the heap, with or without the layer.
         .env("LP_NUM_THREADS", "0")

@@ -7,7 +7,7 @@ use x11rb::connection::Connection;
 use x11rb::protocol::randr::{ConnectionExt as _, MonitorInfo};
 use x11rb::protocol::xproto::{
     AtomEnum, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus, KEY_PRESS_EVENT,
-    KEY_RELEASE_EVENT, Window, WindowClass,
+    KEY_RELEASE_EVENT, PropMode, Window, WindowClass,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -92,7 +92,25 @@ impl User {
     }
 
     /// Adds a monitor to the screen: a name, left, top, width and height.
-    pub(crate) fn add_monitor(&self, name: &str, [x, y, width, height]: [i16; 4]) {
+    pub(crate) fn add_monitor(&self, name: &str, place: [i16; 4]) {
+        self.add_output(name, place, Vec::new());
+    }
+
+    /// Adds the monitor that the screen's only output drives, and gives the output an EDID.
+    pub(crate) fn plug_in(&self, name: &str, place: [i16; 4], edid: &[u8]) {
+        let asked = self.connection.randr_get_screen_resources(self.root);
+        let output = asked.expect("sent").reply().expect("outputs").outputs[0];
+        let atom = self.connection.intern_atom(false, b"EDID").expect("sent");
+        let (atom, length) = (atom.reply().expect("a name").atom, edid.len() as u32);
+        let (kind, mode) = (AtomEnum::INTEGER.into(), PropMode::REPLACE);
+        let set = self
+            .connection
+            .randr_change_output_property(output, atom, kind, 8, mode, length, edid);
+        set.expect("sent").check().expect("a property");
+        self.add_output(name, place, vec![output]);
+    }
+
+    fn add_output(&self, name: &str, [x, y, width, height]: [i16; 4], outputs: Vec<u32>) {
         let atom = self.connection.intern_atom(false, name.as_bytes());
         let monitor = MonitorInfo {
             name: atom.expect("sent").reply().expect("a name").atom,
@@ -104,7 +122,7 @@ impl User {
             height: height.unsigned_abs(),
             width_in_millimeters: 300,
             height_in_millimeters: 200,
-            outputs: Vec::new(),
+            outputs,
         };
         let added = self.connection.randr_set_monitor(self.root, monitor);
         added.expect("sent").check().expect("a monitor");

@@ -1,0 +1,80 @@
+//! Which panel `manyview run` shows on.
+#![forbid(unsafe_code)]
+
+use super::error::CommandError;
+use super::tell;
+use manyview::config::{Config, OptionId, Origin, Settings};
+use manyview::plugged::{Chosen, Panel, Plugged};
+use manyview::window::{PanelServer, WindowError};
+
+/// What is shown where there is no panel.
+const ANAGLYPH: &str = "anaglyph";
+
+/// Without a display and an output, takes the panel that is set up or plugged in, else an anaglyph, and says so in a line.
+pub(super) fn choose(settings: &mut Settings) -> Result<(), CommandError> {
+    let given = |id| settings.get(id).is_some();
+    if given(OptionId::Display) || given(OptionId::Output) {
+        return Ok(());
+    }
+    if let Some(chosen) = Chosen::read()? {
+        let origin = Origin::File(Chosen::place()?);
+        if let Some(monitor) = chosen.panel {
+            weakly(settings, OptionId::Panel, monitor, origin.clone());
+        }
+        settings.set(OptionId::Display, chosen.display, origin);
+        return Ok(());
+    }
+    match Plugged::find().panel() {
+        Panel::Calibrated {
+            file,
+            name,
+            monitor,
+        } => {
+            let place = match &monitor {
+                Some(monitor) => format!("monitor {monitor}"),
+                None => "the program's own window".to_owned(),
+            };
+            tell(&format_args!(
+                "shows on {name}, which is plugged in, in {place}"
+            ));
+            if let Some(monitor) = monitor {
+                weakly(settings, OptionId::Panel, monitor, Origin::Default);
+            }
+            settings.set(OptionId::Display, file.to_string_lossy(), Origin::Default);
+        }
+        Panel::Uncalibrated(name) => {
+            tell(&format_args!(
+                "{name} is plugged in and its calibration is not found, so this is an anaglyph for red-cyan glasses; mount the drive that \
+                 the device has, or copy its visual.json and give it with --display"
+            ));
+            settings.set(OptionId::Output, ANAGLYPH, Origin::Default);
+        }
+        Panel::None => {
+            tell(
+                &"no panel is plugged in or set up, so this is an anaglyph for red-cyan glasses; `manyview displays` says how a panel is set up",
+            );
+            settings.set(OptionId::Output, ANAGLYPH, Origin::Default);
+        }
+    }
+    Ok(())
+}
+
+/// Sets an option that nobody else has set.
+fn weakly(settings: &mut Settings, id: OptionId, value: String, origin: Origin) {
+    if settings.get(id).is_none() {
+        settings.set(id, value, origin);
+    }
+}
+
+/// Opens the panel's own window, if one is wanted: on the monitor that is named, else on the one that the display says it is, else by its size.
+pub(super) fn open(config: &Config) -> Result<Option<PanelServer>, WindowError> {
+    let Some(panel) = &config.panel else {
+        return Ok(None);
+    };
+    let monitor = panel.monitor.clone().or_else(|| {
+        let plugged = Plugged::find();
+        let found = plugged.monitor_of(&config.display)?;
+        Some(found.monitor.name.clone())
+    });
+    PanelServer::open(monitor.as_deref(), config.display.facts.screen).map(Some)
+}
