@@ -48,6 +48,8 @@ pub mod draw;
 
 pub mod interleave;
 
+pub mod osd;
+
 pub mod accumulation;
 
 pub mod synthesis;

@@ -1,23 +1,15 @@
 //! The context that is current on each thread, and the guard that every hook passes.
 
 use crate::caller::{Caller, Calls, Passing, caller};
-use crate::control;
-use crate::deep;
 use crate::drawable::{self, Drawable, Pair};
-use crate::drawables;
-use crate::fault;
 use crate::geometry::Seen;
-use crate::keys;
-use crate::live;
 use crate::messages::{self, Receiver};
-use crate::panel;
 use crate::provider::Provider;
 use crate::record::{Context, Key, Work};
-use crate::registry;
-use crate::shares;
 use crate::signals::{self, Quiet};
 use crate::switch::{self, Mode, say, say_once, turn_off};
 use crate::uncancelled::Uncancelled;
+use crate::{control, deep, drawables, fault, keys, limiter, live, panel, registry, shares};
 use core::cell::Cell;
 use manyview_core::gl::shadow::no_shadow;
 use manyview_core::gl::{Gl, Ptr, Real};
@@ -462,7 +454,9 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
             }
         });
     }
+    limiter::before(drawable);
     let r = guarded(swap);
+    limiter::after(drawable);
     if ours {
         with_context(|_, c, work| {
             let _quiet = Quiet::new();

@@ -18,6 +18,7 @@ mod fault;
 mod geometry;
 mod hooks;
 mod keys;
+mod limiter;
 mod live;
 mod messages;
 mod panel;

@@ -6,8 +6,8 @@
 use crate::live::free;
 use crate::socket::{self, Checked};
 use crate::switch::{config, say_once};
-use manyview_core::control::panel::{Frame, Hello, SLOTS, slot_bytes};
-use manyview_core::layer::{Layer, PanelPicture};
+use manyview_core::control::panel::{Frame, Hello, SLOTS, Sent, slot_bytes};
+use manyview_core::layer::{Layer, PanelFrame, PanelPicture};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read};
 use std::os::unix::fs::FileExt;
@@ -31,6 +31,8 @@ struct Link {
     file: Checked<File>,
     size: (u32, u32),
     free: [bool; SLOTS as usize],
+    /// The window knows that a newer picture is to come.
+    behind: bool,
     /// The process that opened the link. After fork, a child has our memory and our descriptors.
     pid: u32,
 }
@@ -57,9 +59,9 @@ pub(crate) fn before(layer: &mut Layer) {
             ),
         };
     }
-    let size = match &mut *state {
+    let taken = match &mut *state {
         State::Open(link) if link.pid == std::process::id() => match link.listen() {
-            Ok(()) => Some(link.size),
+            Ok(()) => Some((link.size, !link.free.contains(&true))),
             Err(_) => {
                 *state = closed(
                     "the panel's window is closed; the picture is shown in the program's window",
@@ -69,23 +71,26 @@ pub(crate) fn before(layer: &mut Layer) {
         },
         _ => None,
     };
-    layer.set_panel(size);
+    let (size, full) = taken.unzip();
+    layer.set_panel(size, full.unwrap_or(false));
 }
 
 /// After a frame was shown: gives its picture to the panel's window.
 pub(crate) fn after(layer: &mut Layer) {
-    let Some(picture) = layer.take_panel_picture() else {
+    let Some(frame) = layer.take_panel_frame() else {
         return;
     };
     if let Some(mut state) = free(&STATE)
         && let State::Open(link) = &mut *state
         && link.pid == std::process::id()
-        && link.send(&picture).is_err()
+        && link.send(&frame).is_err()
     {
         *state =
             closed("the panel's window is closed; the picture is shown in the program's window");
     }
-    layer.recycle_panel_picture(picture);
+    if let Some(picture) = frame.picture {
+        layer.recycle_panel_picture(picture);
+    }
 }
 
 fn closed(why: &str) -> State {
@@ -108,6 +113,7 @@ impl Link {
             file: Checked::new(file)?,
             size: hello.size,
             free: [true; SLOTS as usize],
+            behind: false,
             pid: std::process::id(),
         })
     }
@@ -134,10 +140,39 @@ impl Link {
         }
     }
 
-    /// Writes a picture to a free slot, and tells the window. Where none is free, the window is behind, and this picture is left out.
-    fn send(&mut self, picture: &PanelPicture) -> io::Result<()> {
-        let Some(slot) = self.free.iter().position(|free| *free) else {
+    /// Tells the window what a frame has for it.
+    fn send(&mut self, frame: &PanelFrame) -> io::Result<()> {
+        let written = frame.picture.as_ref().map(|picture| self.write(picture));
+        let written = written.transpose()?;
+        let picture = written.flatten();
+        let left_out = frame.picture.is_some() && picture.is_none();
+        let sent = Sent {
+            picture,
+            is_behind: frame.is_behind || left_out,
+        };
+        if picture.is_none() && sent.is_behind == self.behind {
             return Ok(());
+        }
+        let gone = || io::Error::from(io::ErrorKind::NotConnected);
+        let stream = self.stream.get().ok_or_else(gone)?;
+        match socket::send(stream, &sent.bytes()) {
+            Ok(Sent::BYTES) => {
+                self.behind = sent.is_behind;
+                if let Some(frame) = picture {
+                    self.free[usize::from(frame.slot)] = false;
+                }
+                Ok(())
+            }
+            Ok(_) => Err(gone()),
+            Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Writes a picture to a slot. None where no slot is free: the window is behind, and this picture is left out.
+    fn write(&mut self, picture: &PanelPicture) -> io::Result<Option<Frame>> {
+        let Some(slot) = self.free.iter().position(|free| *free) else {
+            return Ok(None);
         };
         let gone = || io::Error::from(io::ErrorKind::NotConnected);
         let file = self.file.get().ok_or_else(gone)?;
@@ -146,20 +181,10 @@ impl Link {
             file.write_all_at(row, at)?;
             at += row.len() as u64;
         }
-        let frame = Frame {
+        Ok(Some(Frame {
             slot: slot as u8,
-            at: picture.at.map(|v| v as u16),
-            size: picture.size.map(|v| v as u16),
-        };
-        let stream = self.stream.get().ok_or_else(gone)?;
-        match socket::send(stream, &frame.bytes()) {
-            Ok(Frame::BYTES) => {
-                self.free[slot] = false;
-                Ok(())
-            }
-            Ok(_) => Err(gone()),
-            Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(()),
-            Err(error) => Err(error),
-        }
+            at: picture.place.at.map(|v| v as u16),
+            size: picture.place.size.map(|v| v as u16),
+        }))
     }
 }

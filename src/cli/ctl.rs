@@ -2,12 +2,13 @@
 #![forbid(unsafe_code)]
 
 use super::error::CommandError;
-use super::{Outcome, print, wake};
+use super::{Outcome, print};
 use clap::{Args, Subcommand};
 use manyview::config::Capture;
 use manyview::control::{
     ALL, Answer, ControlError, Explanation, LAYER, Picture, ProfileRequest, Request, line, place,
 };
+use manyview::window::wake;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -269,7 +270,7 @@ fn ask(pid: u32, stream: UnixStream, request: &Request) -> Result<Answer, Comman
         if !idle || Instant::now() > limit {
             return Err(failed(error));
         }
-        wake::wake(pid);
+        wake(pid);
     }
     if answer.is_empty() {
         return Err(ControlError::Closed(pid).into());

@@ -19,7 +19,6 @@ mod sheet;
 mod show;
 mod simulate;
 mod volume;
-mod wake;
 mod weave;
 
 use clap::{Parser, Subcommand};

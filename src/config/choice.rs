@@ -31,7 +31,21 @@ pub(super) fn choices(id: OptionId) -> String {
         OptionId::Output | OptionId::WindowOutput => format!(
             "{listed}, with KIND red-cyan, green-magenta or amber-blue, and -half or -grey after it"
         ),
-        OptionId::Disable => format!("{listed}, several of them with commas between"),
+        OptionId::Disable | OptionId::Osd => {
+            format!("{listed}, several of them with commas between")
+        }
         _ => listed,
+    }
+}
+
+/// An option that is on or off; off where it is not given.
+pub(super) fn switch(settings: &Settings, id: OptionId) -> Result<bool, ConfigError> {
+    match settings.field(id) {
+        None | Some((_, "0")) => Ok(false),
+        Some((_, "1")) => Ok(true),
+        Some((field, value)) => Err(ConfigError::Switch {
+            field,
+            value: value.to_owned(),
+        }),
     }
 }

@@ -78,6 +78,16 @@ pub enum ConfigError {
         /// Its value.
         value: String,
     },
+    /// Not a limit to the frame rate.
+    #[error(
+        "{field} is '{value}'; give frames per second from 1 to 1000, with :early or :late after them if you like, such as 60:early"
+    )]
+    FpsCap {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
     /// An option of the panel's own window without that.
     #[error(
         "{field} is for a window of the panel's own; give {panel} as a monitor or auto with it, or leave it out"

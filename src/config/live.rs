@@ -1,7 +1,10 @@
 //! The values that can change while the program runs.
 #![forbid(unsafe_code)]
 
-use super::{Camera, CaptureWhat, Config, ConfigError, OptionId, Origin, Output, Settings, parse};
+use super::{
+    Camera, CaptureWhat, Config, ConfigError, OptionId, Origin, OsdParts, Output, Settings,
+    cameras, parse,
+};
 use crate::display::{Lens, LensPart};
 
 /// The values in force now; they begin as the options say.
@@ -15,6 +18,8 @@ pub struct Live {
     pub hud_depth: f64,
     /// The numbers of the panel's sheet; none where it has no slanted one.
     pub lens: Option<Lens>,
+    /// Parts of the on-screen display.
+    pub osd: OsdParts,
     /// All cameras are the program's own, and its own view is shown.
     pub flat: bool,
 }
@@ -30,8 +35,9 @@ pub enum Knob {
 
 impl Live {
     /// The options that can be set while the program runs.
-    pub const OPTIONS: [OptionId; 7] = [
+    pub const OPTIONS: [OptionId; 8] = [
         OptionId::Output,
+        OptionId::Osd,
         OptionId::Separation,
         OptionId::Convergence,
         OptionId::EyeSpacing,
@@ -48,6 +54,7 @@ impl Live {
             camera: config.camera,
             hud_depth: config.hud_depth.or(config.profile.hud_depth).unwrap_or(0.0),
             lens: config.display.lens(),
+            osd: config.osd,
             flat: false,
         }
     }
@@ -81,12 +88,13 @@ impl Live {
             } else {
                 self.output
             },
-            camera: match parse::camera(&settings)? {
+            camera: match cameras::camera(&settings)? {
                 Camera::Auto if measured.is_some() => self.as_they_stand(chosen),
                 Camera::Auto => self.camera,
                 placed => placed,
             },
             hud_depth: parse::hud_depth(&settings)?.unwrap_or(self.hud_depth),
+            osd: parse::osd(&settings)?.unwrap_or(self.osd),
             lens,
             flat: self.flat,
         })

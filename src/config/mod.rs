@@ -1,6 +1,7 @@
 //! What the user asked for: options of the command line, keys of the TOML file and `MANYVIEW_*` variables.
 #![forbid(unsafe_code)]
 
+mod cameras;
 mod capture;
 mod choice;
 mod class;
@@ -8,8 +9,10 @@ mod error;
 mod explain;
 mod field;
 mod file;
+mod frame_cap;
 mod live;
 mod options;
+mod osd;
 mod output;
 pub mod panel;
 mod panel_window;
@@ -32,8 +35,10 @@ pub use error::ConfigError;
 pub use explain::Explain;
 pub use field::{Field, Origin, Renaming};
 pub use file::user_folder;
+pub use frame_cap::FrameCap;
 pub use live::{Knob, Live};
 pub use options::{DISABLE, Former, LIBRARY, OPTIONS, OptionId, OptionSpec, PathKind, Scope};
+pub use osd::{OsdPart, OsdParts};
 pub use output::{Anaglyph, Glasses, Interlace, Mixture, Output};
 pub use panel_window::{AUTO, PanelWindow};
 pub use profile::{Profile, Rule};
@@ -76,8 +81,12 @@ pub struct Config {
     pub orthographic: OrthographicDraws,
     /// Holes of synthesised views are magenta.
     pub marks_holes: bool,
+    /// The most frames per second, if the user wants a limit.
+    pub fps_cap: Option<FrameCap>,
     /// Size of a tile over the size of the window.
     pub view_scale: ViewScale,
+    /// Parts of the on-screen display.
+    pub osd: OsdParts,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
     pub hud_depth: Option<f64>,
     /// Optimisations that are turned off.

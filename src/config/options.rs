@@ -1,7 +1,7 @@
 //! The one table of options: each is an option of the command, a key of the TOML file and a `MANYVIEW_*` variable.
 #![forbid(unsafe_code)]
 
-use super::{output, strategy};
+use super::{osd, output, strategy};
 
 /// Turns the layer off when it is set to anything but nothing or `0`.
 pub const DISABLE: &str = "MANYVIEW_DISABLE";
@@ -51,8 +51,12 @@ pub enum OptionId {
     TrueViews,
     /// Frames per second that the number of true views follows.
     Fps,
+    /// The most frames per second.
+    FpsCap,
     /// Tile size over window size.
     ViewScale,
+    /// Parts of the on-screen display.
+    Osd,
     /// Depth of flat draws.
     HudDepth,
     /// Optimisations that are turned off.
@@ -357,9 +361,15 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::Fps, "fps", "MANYVIEW_FPS", "F",
         "Frames per second that --strategy hybrid holds by drawing fewer views")
         .default("60"),
+    OptionSpec::new(OptionId::FpsCap, "fps-cap", "MANYVIEW_FPS_CAP", "F[:early|late]",
+        "Frames per second that the program shows at most; it waits before a frame is shown (early) or after it (late)")
+        .manual("`late`, unless given, follows input sooner; `early` makes the times between frames more equal."),
     OptionSpec::new(OptionId::ViewScale, "view-scale", "MANYVIEW_VIEW_SCALE", "F",
         "Size of a view over the size of the window, from 0.05 to 1, or auto: as finely as the output shows the view")
         .default("1"),
+    OptionSpec::new(OptionId::Osd, "osd", "MANYVIEW_OSD", "WORDS",
+        "What is written over the picture, words with commas between them")
+        .choices(&osd::WORDS).default("values,warnings").manual("See [On-screen display](outputs.md#on-screen-display)."),
     OptionSpec::new(OptionId::HudDepth, "hud-depth", "MANYVIEW_HUD_DEPTH", "D",
         "Where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel")
         .default("0").manual("See [Profiles](profiles.md)."),
@@ -515,7 +525,7 @@ mod tests {
     fn a_row_that_lists_words_has_one_of_them_as_default_or_says_what_holds() {
         for row in OPTIONS.iter().filter(|row| !row.choices.is_empty()) {
             let listed = row.choices.contains(&row.default);
-            let described = matches!(row.id, OptionId::Clip | OptionId::Disable);
+            let described = matches!(row.id, OptionId::Clip | OptionId::Disable | OptionId::Osd);
             assert_ne!(listed, described, "{:?}", row.id);
         }
     }
@@ -539,6 +549,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 37, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 39, "a new option needs a row");
     }
 }

@@ -1,7 +1,8 @@
 //! From written options to a [`Config`]; every value is checked here and nowhere else.
 #![forbid(unsafe_code)]
 
-use super::choice::{choice, choices};
+use super::cameras;
+use super::choice::{choice, choices, switch};
 use super::error::ConfigError;
 use super::field::{Field, Origin};
 use super::options::OptionId;
@@ -9,8 +10,8 @@ use super::output::{GLASSES, OUTPUTS};
 use super::settings::Settings;
 use super::strategy::STRATEGIES;
 use super::{
-    Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter,
-    Kept, MAX_VIEWS, Mixture, Optimisation, OrthographicDraws, Output, PanelWindow, Profile,
+    Anaglyph, AtlasLayout, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter, FrameCap,
+    MAX_VIEWS, Mixture, Optimisation, OrthographicDraws, OsdParts, Output, PanelWindow, Profile,
     Strategy, TrueViews, ViewScale, panel, profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
@@ -30,7 +31,7 @@ impl Config {
             views,
             output,
             filter: filter(settings, views)?,
-            camera: camera(settings)?,
+            camera: cameras::camera(settings)?,
             strategy,
             true_views: true_views(settings, strategy, views)?,
             atlas: choice(settings, OptionId::Atlas, ATLASES)?.unwrap_or(AtlasLayout::SideBySide),
@@ -38,7 +39,9 @@ impl Config {
             marks_holes: choice(settings, OptionId::Holes, HOLES)?.unwrap_or(false),
             orthographic: choice(settings, OptionId::Orthographic, ORTHOGRAPHIC)?
                 .unwrap_or_default(),
+            fps_cap: FrameCap::from_settings(settings)?,
             view_scale: view_scale(settings)?,
+            osd: osd(settings)?.unwrap_or_default(),
             hud_depth: hud_depth(settings)?,
             disabled: disabled(settings)?,
             profile: named_profile(settings)?,
@@ -255,106 +258,6 @@ fn one_view(field: &Field, value: &str, views: u32) -> Result<u32, ConfigError> 
     Ok(view)
 }
 
-pub(super) fn camera(settings: &Settings) -> Result<Camera, ConfigError> {
-    use OptionId::{AutoDepth, Convergence, EyeSpacing, FocalDepth, Separation};
-    let measured = settings.get(AutoDepth).is_none() || switch(settings, AutoDepth)?;
-    let eye = settings
-        .field(EyeSpacing)
-        .or_else(|| settings.field(FocalDepth));
-    let clip = settings
-        .field(Separation)
-        .or_else(|| settings.field(Convergence));
-    if let (Some((first, first_value)), Some((second, second_value))) = (&eye, &clip) {
-        return Err(ConfigError::TwoCameras {
-            first: first.clone(),
-            first_value: (*first_value).to_owned(),
-            second: second.clone(),
-            second_value: (*second_value).to_owned(),
-        });
-    }
-    if let Some((field, value)) = settings.field(FocalDepth)
-        && number((field.clone(), value))? <= 0.0
-    {
-        return Err(ConfigError::NotPositive {
-            field,
-            value: value.to_owned(),
-        });
-    }
-    let given = |id| settings.field(id).map(number).transpose();
-    if measured {
-        if let (Some((field, value)), None) =
-            (settings.field(Convergence), settings.field(Separation))
-            && number((field.clone(), value))? <= 0.0
-        {
-            return Err(ConfigError::NotPositive {
-                field,
-                value: value.to_owned(),
-            });
-        }
-        let kept = match (
-            given(Separation)?,
-            given(Convergence)?,
-            given(EyeSpacing)?,
-            given(FocalDepth)?,
-        ) {
-            (None, None, None, None) => Some(None),
-            (Some(separation), None, ..) => Some(Some(Kept::Separation(separation))),
-            (None, Some(convergence), ..) => Some(Some(Kept::Convergence(convergence))),
-            (_, _, Some(spacing), None) => Some(Some(Kept::EyeSpacing(spacing))),
-            (_, _, None, Some(depth)) => Some(Some(Kept::FocalDepth(depth))),
-            // Both are given: there is nothing to find.
-            _ => None,
-        };
-        if let Some(kept) = kept {
-            return Ok(Camera::Measured(kept));
-        }
-    }
-    if eye.is_some() {
-        let (spacing, focal_depth) = pair(settings, EyeSpacing, FocalDepth)?;
-        return Ok(Camera::Eye {
-            spacing,
-            focal_depth,
-        });
-    }
-    if clip.is_some() {
-        let (separation, convergence) = pair(settings, Separation, Convergence)?;
-        return Ok(Camera::Clip {
-            separation,
-            convergence,
-        });
-    }
-    Ok(Camera::Auto)
-}
-
-/// Two numbers that only make sense together; at least one is there.
-fn pair(settings: &Settings, first: OptionId, second: OptionId) -> Result<(f64, f64), ConfigError> {
-    match (settings.field(first), settings.field(second)) {
-        (Some(a), Some(b)) => Ok((number(a)?, number(b)?)),
-        (Some((field, value)), None) => Err(ConfigError::Partner {
-            partner: field.sibling(second),
-            field,
-            value: value.to_owned(),
-        }),
-        (None, Some((field, value))) => Err(ConfigError::Partner {
-            partner: field.sibling(first),
-            field,
-            value: value.to_owned(),
-        }),
-        (None, None) => Ok((0.0, 0.0)),
-    }
-}
-
-fn number((field, value): (Field, &str)) -> Result<f64, ConfigError> {
-    match value.parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(ConfigError::Number {
-            field,
-            value: value.to_owned(),
-            example: "0.25",
-        }),
-    }
-}
-
 /// Of a view over the window.
 const SMALLEST_SCALE: f64 = 0.05;
 
@@ -379,6 +282,20 @@ pub(super) fn hud_depth(settings: &Settings) -> Result<Option<f64>, ConfigError>
     match value.parse() {
         Ok(depth) if profile::depth_in_range(depth) => Ok(Some(depth)),
         _ => Err(ConfigError::HudDepth {
+            field,
+            value: value.to_owned(),
+        }),
+    }
+}
+
+pub(super) fn osd(settings: &Settings) -> Result<Option<OsdParts>, ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::Osd) else {
+        return Ok(None);
+    };
+    match OsdParts::of(value) {
+        Some(parts) => Ok(Some(parts)),
+        None => Err(ConfigError::Choice {
+            choices: choices(field.id),
             field,
             value: value.to_owned(),
         }),
@@ -462,18 +379,6 @@ fn changes(settings: &Settings, id: OptionId, views: u32) -> Result<bool, Config
             value: value.to_owned(),
         }),
         _ => switch(settings, id),
-    }
-}
-
-/// An option that is on or off; off where it is not given.
-fn switch(settings: &Settings, id: OptionId) -> Result<bool, ConfigError> {
-    match settings.field(id) {
-        None | Some((_, "0")) => Ok(false),
-        Some((_, "1")) => Ok(true),
-        Some((field, value)) => Err(ConfigError::Switch {
-            field,
-            value: value.to_owned(),
-        }),
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! The window opens a socket and a file of [`SLOTS`] pictures, each as large as the panel, four bytes a pixel (blue, green, red and one without
 //! meaning), rows from the top down. The layer connects and reads a [`Hello`]. It writes a picture into a slot that is free, and sends a [`Frame`].
-//! The window sends the number of a slot that is free again, in one byte. So neither waits for the other, and a picture is shown whole or not at all.
+//! The window sends the number of a slot that is free again, in one byte. So neither waits for the other, and a picture is shown whole or not at all. Where
+//! the newest picture comes later, or is left out because no slot is free, the layer says so: a program that shows no frame after that has to be woken.
 #![forbid(unsafe_code)]
 
 use std::path::{Path, PathBuf};
@@ -53,6 +54,15 @@ pub fn slot_bytes((width, height): (u32, u32)) -> u64 {
     u64::from(width) * u64::from(height) * PIXEL as u64
 }
 
+/// What the layer sends for a frame: nine bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sent {
+    /// A picture.
+    pub picture: Option<Frame>,
+    /// A newer one is to come.
+    pub is_behind: bool,
+}
+
 /// A picture in a slot, whose rows follow each other without gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
@@ -64,33 +74,45 @@ pub struct Frame {
     pub size: [u16; 2],
 }
 
-impl Frame {
-    /// Bytes of a frame.
+/// The bit of the first byte that says that a newer picture is to come.
+const BEHIND: u8 = 0x80;
+/// The other bits of the first byte, where there is no picture.
+const NO_SLOT: u8 = 0x7f;
+
+impl Sent {
+    /// Bytes of it.
     pub const BYTES: usize = 9;
 
     /// As bytes.
     #[must_use]
     pub fn bytes(&self) -> [u8; Self::BYTES] {
-        let mut bytes = [self.slot; Self::BYTES];
-        let numbers = self.at.into_iter().chain(self.size);
+        let mut bytes = [0; Self::BYTES];
+        let slot = self.picture.map_or(NO_SLOT, |frame| frame.slot);
+        bytes[0] = slot | if self.is_behind { BEHIND } else { 0 };
+        let numbers = self.picture.map(|frame| [frame.at, frame.size]);
+        let numbers = numbers.into_iter().flatten().flatten();
         for (number, place) in numbers.zip(bytes[1..].chunks_exact_mut(2)) {
             place.copy_from_slice(&number.to_le_bytes());
         }
         bytes
     }
 
-    /// Of bytes. None if it is in no slot, or not within a panel of this size.
+    /// Of bytes. A picture that is in no slot, or not within a panel of this size, is none.
     #[must_use]
-    pub fn of(bytes: [u8; Self::BYTES], (width, height): (u32, u32)) -> Option<Self> {
-        let [slot, x0, x1, y0, y1, w0, w1, h0, h1] = bytes;
+    pub fn of(bytes: [u8; Self::BYTES], (width, height): (u32, u32)) -> Self {
+        let [first, x0, x1, y0, y1, w0, w1, h0, h1] = bytes;
+        let slot = first & !BEHIND;
         let [x, y, w, h] = [[x0, x1], [y0, y1], [w0, w1], [h0, h1]].map(u16::from_le_bytes);
         let inside = |at: u16, side: u16, all: u32| u32::from(at) + u32::from(side) <= all;
         let fits = slot < SLOTS && inside(x, w, width) && inside(y, h, height);
-        fits.then_some(Self {
-            slot,
-            at: [x, y],
-            size: [w, h],
-        })
+        Self {
+            picture: fits.then_some(Frame {
+                slot,
+                at: [x, y],
+                size: [w, h],
+            }),
+            is_behind: first & BEHIND != 0,
+        }
     }
 }
 
@@ -124,13 +146,24 @@ mod tests {
             at: [300, 7],
             size: [1000, 593],
         };
-        assert_eq!(Frame::of(frame.bytes(), (1300, 600)), Some(frame));
-        assert_eq!(Frame::of(frame.bytes(), (1299, 600)), None);
-        assert_eq!(Frame::of(frame.bytes(), (1300, 599)), None);
+        let sent = |frame, is_behind| Sent {
+            picture: Some(frame),
+            is_behind,
+        };
+        let nothing = Sent {
+            picture: None,
+            is_behind: true,
+        };
+        for message in [sent(frame, false), sent(frame, true), nothing] {
+            assert_eq!(Sent::of(message.bytes(), (1300, 600)), message);
+        }
+        let bytes = sent(frame, true).bytes();
+        assert_eq!(Sent::of(bytes, (1299, 600)), nothing);
+        assert_eq!(Sent::of(bytes, (1300, 599)), nothing);
         let frame = Frame {
             slot: SLOTS,
             ..frame
         };
-        assert_eq!(Frame::of(frame.bytes(), (1300, 600)), None);
+        assert_eq!(Sent::of(sent(frame, true).bytes(), (1300, 600)), nothing);
     }
 }

@@ -74,9 +74,17 @@ impl Gl {
         }
     }
 
-    /// glGetBufferSubData of floats, or what OpenGL ES has instead of it.
+    /// The floats of a buffer from a byte on.
     pub fn get_buffer_floats(&self, target: u32, at: usize, out: &mut [f32]) {
-        let bytes = core::mem::size_of_val(out) as isize;
+        let bytes = core::mem::size_of_val(out);
+        // SAFETY: the floats are so many bytes, and any bytes are floats.
+        let out = unsafe { core::slice::from_raw_parts_mut(out.as_mut_ptr().cast(), bytes) };
+        self.get_buffer_bytes(target, at, out);
+    }
+
+    /// glGetBufferSubData, or what OpenGL ES has instead of it.
+    fn get_buffer_bytes(&self, target: u32, at: usize, out: &mut [u8]) {
+        let bytes = out.len() as isize;
         if self.is_es() {
             // SAFETY: no pointers; what is mapped, or beyond the end of the buffer, gives null and an error.
             let from = unsafe {
@@ -86,8 +94,7 @@ impl Gl {
             if !from.is_null() {
                 // SAFETY: so many bytes are mapped, and they are not ours.
                 unsafe {
-                    let to: *mut u8 = out.as_mut_ptr().cast();
-                    core::ptr::copy_nonoverlapping(from.cast::<u8>(), to, bytes as usize);
+                    core::ptr::copy_nonoverlapping(from.cast(), out.as_mut_ptr(), out.len());
                     self.real.glUnmapBuffer(target);
                 }
             }
@@ -98,6 +105,25 @@ impl Gl {
             self.real
                 .glGetBufferSubData(target, at as isize, bytes, out.as_mut_ptr().cast())
         };
+    }
+
+    /// Reads pixels of the framebuffer that is bound for reading into the pack buffer that is bound: w·h texels of four bytes from x, y on, rows bottom up.
+    pub fn read_bgra_to_buffer(&self, _: &PixelStore, [x, y]: [i32; 2], [w, h]: [u32; 2]) {
+        if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 {
+            return;
+        }
+        let (w, h, null) = (w as i32, h as i32, core::ptr::null_mut());
+        // SAFETY: a pack buffer is bound (asked above), so the pointer is an offset into it, which the driver checks.
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w, h, self.bgra(), c::UNSIGNED_BYTE, null)
+        };
+    }
+
+    /// What [`Gl::read_bgra_to_buffer`] has read: blue, green, red and alpha.
+    pub fn get_buffer_bgra(&self, target: u32, out: &mut [u8]) {
+        self.get_buffer_bytes(target, 0, out);
+        self.to_bgra(out);
     }
 
     /// glDeleteBuffers of one name.

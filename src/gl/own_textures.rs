@@ -1,6 +1,7 @@
 //! Names of the layer's own textures.
 
-use super::{Gl, Held, Ptr, TextureName, shadow};
+use super::consts as c;
+use super::{Gl, Held, PixelStore, Ptr, TextureName, shadow};
 
 impl Gl {
     /// A new name of a texture from glGenTextures.
@@ -32,5 +33,20 @@ impl Gl {
         shadow::texture_taken(name);
         // SAFETY: one name.
         unsafe { self.real.glDeleteTextures(1, (&raw const name) as Ptr) };
+    }
+
+    /// Replaces texels of layer 0 of the array texture that is bound, from the first column and a row on: width and height, and red, green, blue and alpha of each,
+    /// rows bottom up.
+    pub fn tex_sub_layer_rgba8(&self, _: &PixelStore, row: i32, [w, h]: [i32; 2], texels: &[u8]) {
+        if texels.len() != w as usize * h as usize * 4 {
+            return;
+        }
+        let (target, rgba) = (c::TEXTURE_2D_ARRAY, c::RGBA);
+        let p = texels.as_ptr().cast_mut().cast();
+        // SAFETY: w·h texels of four bytes, as many as there are; without gaps, in no buffer (`PixelStore`).
+        unsafe {
+            self.real
+                .glTexSubImage3D(target, 0, 0, row, 0, w, h, 1, rgba, c::UNSIGNED_BYTE, p)
+        };
     }
 }

@@ -33,15 +33,27 @@ impl Gl {
         if out.len() != w as usize * h as usize * 4 {
             return;
         }
-        let format = if self.is_es() { c::RGBA } else { c::BGRA };
+        let format = self.bgra();
         let p = out.as_mut_ptr().cast();
         // SAFETY: w·h texels of four bytes, as many as `out` has; without gaps, in no buffer (`PixelStore`).
         unsafe {
             self.real
                 .glReadPixels(x, y, w as i32, h as i32, format, c::UNSIGNED_BYTE, p)
         };
+        self.to_bgra(out);
+    }
+
+    /// The format that is read for blue, green, red and alpha: OpenGL ES reads red first.
+    pub(super) fn bgra(&self) -> u32 {
+        if self.is_es() { c::RGBA } else { c::BGRA }
+    }
+
+    /// Puts what was read as [`Gl::bgra`] in that order.
+    pub(super) fn to_bgra(&self, texels: &mut [u8]) {
         if self.is_es() {
-            out.chunks_exact_mut(4).for_each(|texel| texel.swap(0, 2));
+            texels
+                .chunks_exact_mut(4)
+                .for_each(|texel| texel.swap(0, 2));
         }
     }
 

@@ -96,6 +96,7 @@ impl Layer {
                     return Err(ControlError::NoStereo);
                 }
                 self.adopt(live);
+                self.show_values(&changes);
                 Ok(Ok(Answer::Values(self.values())))
             }
             Order::Get(None) => Ok(Ok(Answer::Values(self.values()))),
@@ -121,7 +122,14 @@ impl Layer {
                     flat: !self.session.live.flat,
                     ..self.session.live
                 });
-                Ok(Ok(Answer::Layer(!self.session.live.flat)))
+                let flat = self.session.live.flat;
+                let text = if flat {
+                    "the program's own view"
+                } else {
+                    "all views"
+                };
+                self.show_text(text.to_owned());
+                Ok(Ok(Answer::Layer(!flat)))
             }
         }
     }
@@ -143,7 +151,11 @@ impl Layer {
                 Some(Ok(_)) => outcome,
                 _ => Some(self.control(order)),
             });
-        outcome.unwrap_or_else(|| Ok(Ok(Answer::Values(self.values()))))
+        let outcome = outcome.unwrap_or_else(|| Ok(Ok(Answer::Values(self.values()))));
+        if let Err(refused) = &outcome {
+            self.show_text(refused.to_string());
+        }
+        outcome
     }
 
     fn values(&self) -> Map<String, Value> {
@@ -227,6 +239,10 @@ impl Layer {
                 return; // it is asked for again with the next frame
             }
             let written = self.write(gl, neutral, source, &wanted, frame);
+            self.show_text(match &written {
+                Ok(path) => format!("wrote {}", path.display()),
+                Err(reason) => reason.clone(),
+            });
             self.diagnostics.picture = Picture::Done(match written {
                 Ok(path) => Ok(Answer::Captured { path, frame }),
                 Err(reason) => Err(ControlError::Picture(reason)),

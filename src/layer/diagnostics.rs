@@ -1,10 +1,11 @@
 //! Diagnostics of the frames: the report, one frame explained, the proof against replay, pictures on request.
 
-use super::{control, explain, prove};
+use super::{control, explain, osd, prove};
 use crate::config::Config;
 use crate::gl::Count;
 use crate::plan::Reason;
 use crate::report::{Counts, Report};
+use std::time::Instant;
 
 /// Observers of the frames, which change nothing of what is drawn.
 #[derive(Debug)]
@@ -23,6 +24,8 @@ pub(super) struct Diagnostics {
     made: Count,
     /// Sentences that the user is to see at once.
     pub(super) announced: Vec<String>,
+    /// The on-screen display.
+    pub(super) display: osd::Display,
 }
 
 impl Diagnostics {
@@ -36,6 +39,7 @@ impl Diagnostics {
             fallbacks: Counts::default(),
             made: Count::default(),
             announced: Vec::new(),
+            display: osd::Display::default(),
         }
     }
 
@@ -47,6 +51,7 @@ impl Diagnostics {
     /// Adds a sentence to the report, which the user is also to see at once.
     pub(super) fn announce(&mut self, sentence: String) {
         self.report.note(sentence.clone());
+        self.display.osd.warning(sentence.clone(), Instant::now());
         self.announced.push(sentence);
     }
 

@@ -106,6 +106,7 @@ impl Layer {
                 self.diagnostics.report.mono_frame();
             }
             self.time_frame(gl);
+            self.count_for_osd();
             self.enter_mono(gl);
         }
         self.realign_tiles();
@@ -166,6 +167,11 @@ impl Layer {
         self.judge_proof(gl, neutral, exact);
         let source = self.source(image, depth.as_ref());
         self.capture(gl, neutral, &source);
+        if self.session.panel.size.is_none() {
+            gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
+            let (width, height) = self.size();
+            self.draw_osd(gl, neutral, image, (self.output(), [width, height]));
+        }
         self.track_depths(gl, neutral);
     }
 
@@ -211,7 +217,7 @@ impl Layer {
         depth: Option<&Depth>,
         neutral: &Neutral,
     ) {
-        let output = match self.session.panel {
+        let output = match self.session.panel.size {
             Some(_) => self
                 .window_output()
                 .unwrap_or(Output::View(self.targets.atlas.tiles.own().0)),

@@ -31,6 +31,7 @@ mod neutral;
 mod occlusion;
 mod orphans;
 mod orthographic;
+mod osd;
 mod own_variants;
 mod panel;
 mod passes;
@@ -62,7 +63,8 @@ pub use draw::Primitives;
 pub use feedback::FeedbackCommand;
 pub use frames::Frames;
 pub use lists::is_scaled;
-pub use panel::PanelPicture;
+use panel::Panel;
+pub use panel::{PanelFrame, PanelPicture};
 pub use queries::{Answer, ResultPlace};
 pub use reading::DrawableId;
 pub use tracked::Primitive;
@@ -223,7 +225,7 @@ impl Layer {
 
     /// Whether the picture depends on where the window lies. If so, [`Layer::moved`] has to be called before each frame is shown.
     pub fn follows_window(&self) -> bool {
-        self.session.panel.is_none()
+        self.session.panel.size.is_none()
             && matches!(
                 self.output(),
                 crate::config::Output::Panel | crate::config::Output::Interlaced(_)
@@ -329,6 +331,9 @@ impl Layer {
         // The next frame makes it anew.
         if let Some(panel) = self.targets.panel.take() {
             panel.delete(gl);
+        }
+        if let Some(osd) = self.targets.osd.take() {
+            osd.delete(gl);
         }
     }
 

@@ -30,9 +30,16 @@ impl Layer {
             .orphans
             .buffers
             .extend(self.write_bindings.take_buffers());
-        if let Some(panel) = &self.targets.panel {
+        if let Some(panel) = &mut self.targets.panel {
+            let (buffers, fences) = panel.give_buffers();
+            lists.orphans.buffers.extend(buffers);
+            lists.orphans.fences.extend(fences);
             lists.orphans.framebuffers.push(panel.framebuffer());
             lists.orphans.textures.push(panel.texture());
+        }
+        if let Some(osd) = &self.targets.osd {
+            lists.orphans.framebuffers.push(osd.framebuffer());
+            lists.orphans.textures.push(osd.texture());
         }
         let programs = self
             .targets

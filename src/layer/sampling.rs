@@ -53,7 +53,7 @@ impl Layer {
             self.output(),
             (self.size().into(), &self.placement()),
             self.targets.detail,
-            self.targets.interleaver.on_gpu() && self.session.panel.is_none(),
+            self.targets.interleaver.on_gpu() && self.session.panel.size.is_none(),
         )
     }
 

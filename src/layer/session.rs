@@ -1,7 +1,7 @@
 //! A context's settings and capabilities, and the group that shares its objects: all that holds for as long as the context is under the
 //! layer.
 
-use super::{Member, OnScreen, PanelPicture, Support, auto};
+use super::{Member, OnScreen, Panel, Support, auto};
 use crate::config::{Config, Live, Profile, Strategy};
 use crate::display::{Display, Placement};
 use crate::gl::Gl;
@@ -22,11 +22,7 @@ pub(super) struct Session {
     pub(super) profile: Arc<Profile>,
     /// Position of the window; none where the window system does not report it.
     pub(super) on_screen: Option<OnScreen>,
-    /// Width and height of the panel's own window, in pixels; none where the program's window is on the panel.
-    pub(super) panel: Option<(u32, u32)>,
-    /// The picture for that window, until it is taken; and the memory of the one before.
-    pub(super) panel_picture: Option<PanelPicture>,
-    pub(super) panel_pixels: Vec<u8>,
+    pub(super) panel: Panel,
     /// The display with other numbers of its lens sheet, once they have been changed.
     fitted: Option<Display>,
     pub(super) auto: Option<auto::Auto>,
@@ -58,9 +54,7 @@ impl Session {
             live: Live::new(config),
             profile: Arc::new(config.profile.clone()),
             on_screen: None,
-            panel: None,
-            panel_picture: None,
-            panel_pixels: Vec::new(),
+            panel: Panel::default(),
             fitted: None,
             auto,
         }
@@ -96,7 +90,7 @@ impl Session {
 
     /// Place on the panel of the picture of a window of this size, all in pixels.
     pub(super) fn placement(&self, window: (u32, u32)) -> Placement {
-        match (self.panel, &self.config.panel) {
+        match (self.panel.size, &self.config.panel) {
             (Some(panel), Some(config)) => config.fit.place(window, panel),
             _ => self.window_placement(window),
         }

@@ -129,6 +129,14 @@ impl Synthesis {
         self.passes.as_ref().and_then(|_| self.number.views())
     }
 
+    /// Number of views that the next scene is drawn in, where it follows the time that frames take.
+    pub(super) fn governed(&self) -> Option<u32> {
+        match &self.number {
+            Number::Governed(governor) => Some(governor.level()),
+            Number::One | Number::Fixed(_) => None,
+        }
+    }
+
     /// Number of views that a scene may be drawn in at most, for `views` in all: the layers of the disparity pyramid.
     pub(super) fn most(&self, views: u32) -> u32 {
         match &self.number {

@@ -4,7 +4,7 @@ use super::fit::{Fitted, fit_first};
 use super::session::Session;
 use super::support::Support;
 use super::{LayerError, accumulate, framebuffer};
-use crate::atlas::{Atlas, Names, PanelImage};
+use crate::atlas::{Atlas, Names, OsdImage, PanelImage};
 use crate::config::{Config, ViewScale};
 use crate::gl::shadow::are_textures_taken;
 use crate::gl::{FramebufferName, Gl, TextureName};
@@ -23,6 +23,8 @@ pub(super) struct Targets {
     pub(super) accumulated: accumulate::Accumulated,
     /// The picture for the panel's own window, once one was drawn.
     pub(super) panel: Option<PanelImage>,
+    /// The on-screen display, once it was shown.
+    pub(super) osd: Option<OsdImage>,
     pub(super) interleaver: Interleaver,
     pub(super) detail: Detail,
     /// The driver has made no other atlas, so this one stays.
@@ -79,6 +81,7 @@ impl Targets {
             offscreen: Offscreen::new(gl, config.views, support.compatibility, images),
             accumulated: accumulate::Accumulated::default(),
             panel: None,
+            osd: None,
             interleaver,
             detail,
             stuck: told.is_some(),
@@ -97,6 +100,7 @@ impl Targets {
                 .panel
                 .as_ref()
                 .is_some_and(|panel| panel.texture() == name)
+            || self.osd.as_ref().is_some_and(|osd| osd.texture() == name)
             || self.offscreen.owns_texture(name)
             || accumulation.is_some_and(|buffer| buffer.owns(name))
     }
@@ -110,6 +114,10 @@ impl Targets {
                 .panel
                 .as_ref()
                 .is_some_and(|panel| panel.framebuffer() == name)
+            || self
+                .osd
+                .as_ref()
+                .is_some_and(|osd| osd.framebuffer() == name)
             || accumulation.is_some_and(|buffer| buffer.framebuffer() == name)
     }
 

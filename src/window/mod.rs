@@ -7,10 +7,13 @@
 mod error;
 mod monitor;
 mod panel;
+mod present;
+mod wake;
 
 pub use error::WindowError;
 pub use monitor::{Monitor, monitors};
 pub use panel::PanelServer;
+pub use wake::wake;
 
 use image::RgbImage;
 use std::borrow::Cow;
@@ -19,8 +22,8 @@ use x11rb::image::{BitsPerPixel, Image, ImageOrder, PixelLayout, ScanlinePad};
 use x11rb::protocol::Event as XEvent;
 use x11rb::protocol::xproto::{
     AtomEnum, ChangeWindowAttributesAux, ConnectionExt as _, CreateGCAux, CreateWindowAux,
-    EventMask, Gcontext, GetKeyboardMappingReply, InputFocus, KeyButMask, PropMode, Window as Id,
-    WindowClass,
+    EventMask, Gcontext, GetKeyboardMappingReply, InputFocus, KeyButMask, Pixmap, PropMode,
+    Window as Id, WindowClass,
 };
 use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
@@ -60,6 +63,8 @@ pub struct Window {
     gc: Gcontext,
     atoms: Atoms,
     layout: PixelLayout,
+    /// The colour that is black.
+    black: u32,
     monitor: Monitor,
     root: Id,
     keys: GetKeyboardMappingReply,
@@ -146,6 +151,7 @@ impl Window {
             gc,
             atoms,
             layout,
+            black: screen.black_pixel,
             monitor,
             root: screen.root,
         };
@@ -288,15 +294,10 @@ impl Window {
         shown == [0x12 << 16, 0x12 << 8, 0x12]
     }
 
-    /// Makes the window black.
-    fn clear(&self) -> Result<(), WindowError> {
-        self.connection.clear_area(false, self.id, 0, 0, 0, 0)?;
-        Ok(())
-    }
-
-    /// Puts pixels of four bytes (blue, green, red, one without meaning) into the window, at left and top.
+    /// Puts pixels of four bytes (blue, green, red, one without meaning) into a pixmap, at left and top.
     fn put(
         &self,
+        pixmap: Pixmap,
         mut pixels: Vec<u8>,
         (width, height): (u16, u16),
         (x, y): (i16, i16),
@@ -311,7 +312,7 @@ impl Window {
         // This fails on a screen whose pixels are not four bytes each.
         let image = image.map_err(|_| WindowError::Colours)?;
         let image = image.native(c.setup()).map_err(|_| WindowError::Colours)?;
-        image.put(c, self.id, self.gc, x, y)?;
+        image.put(c, pixmap, self.gc, x, y)?;
         Ok(())
     }
 

@@ -3,10 +3,12 @@
 //! It belongs to the launcher, so the program never sees its connection to the X server, and neither waits for the other. The X server reads the
 //! pictures from the file that they are written to, where it can.
 
-use super::{Window, WindowError};
-use crate::control::panel::{Frame, Hello, PIXEL, SLOTS, slot_bytes};
+use super::present::Presenter;
+use super::{Window, WindowError, wake};
+use crate::control::panel::{Frame, Hello, PIXEL, SLOTS, Sent, slot_bytes};
 use crate::control::place;
-use rustix::event::{PollFd, PollFlags, poll};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::net::sockopt::socket_peercred;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::os::fd::AsFd;
@@ -14,15 +16,20 @@ use std::os::unix::fs::{FileExt, OpenOptionsExt};
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::PathBuf;
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
 use x11rb::protocol::Event as XEvent;
 use x11rb::protocol::shm::{ConnectionExt as _, Seg};
-use x11rb::protocol::xproto::ImageFormat;
+use x11rb::protocol::xproto::{ImageFormat, Pixmap};
 use x11rb::wrapper::ConnectionExt as _;
 
 const TITLE: &str = "manyview";
 /// Permissions of the files.
 const MODE: u32 = 0o600;
+/// So long after its last frame a program is woken whose newest picture is not here.
+const IDLE: Duration = Duration::from_millis(100);
+/// So many pictures a program has to send before it is woken again: one that draws a few frames for each time that it is woken would never rest.
+const FRAMES_AWAKE: u32 = 8;
 
 /// The open window, which shows pictures until it is dropped.
 #[derive(Debug)]
@@ -42,6 +49,7 @@ impl PanelServer {
     pub fn open(wanted: Option<&str>, panel: Option<(u32, u32)>) -> Result<Self, WindowError> {
         let socket = Self::place();
         let window = Window::passive(TITLE, wanted, panel)?;
+        let presenter = Presenter::new(&window)?;
         let user = rustix::process::geteuid().as_raw();
         let folder = folder();
         let no = |error: &dyn std::fmt::Display| WindowError::Socket(error.to_string());
@@ -52,12 +60,13 @@ impl PanelServer {
         let (stop, stopped) = UnixStream::pair().map_err(|error| no(&error))?;
         let served = Served {
             window,
+            presenter,
             listener,
             stopped,
             folder,
             clients: Vec::new(),
             count: 0,
-            shown: None,
+            waiting: None,
         };
         // Its failure is the end of the window, of which the layer tells.
         let thread = std::thread::spawn(move || drop(served.run()));
@@ -94,14 +103,15 @@ fn folder() -> PathBuf {
 /// What the thread works with.
 struct Served {
     window: Window,
+    presenter: Presenter,
     listener: UnixListener,
     stopped: UnixStream,
     folder: PathBuf,
     clients: Vec<Client>,
     /// Programs that have connected.
     count: u32,
-    /// The picture that is shown, and the number of the program that it is of.
-    shown: Option<(u32, Frame)>,
+    /// The newest picture, until a pixmap is free for it, and the number of the program that it is of.
+    waiting: Option<(u32, Frame)>,
 }
 
 /// A program whose pictures are shown.
@@ -112,8 +122,14 @@ struct Client {
     path: PathBuf,
     /// The file as the X server knows it; none where it cannot read files.
     segment: Option<Seg>,
-    /// Bytes of a frame that are not complete.
+    /// Bytes of a message that are not complete.
     pending: Vec<u8>,
+    /// Its process, if the system tells.
+    process: Option<u32>,
+    /// Since when its newest picture is not here.
+    behind: Option<Instant>,
+    /// Pictures that it has sent since it was woken.
+    frames: u32,
 }
 
 impl Drop for Client {
@@ -129,6 +145,8 @@ impl Served {
             if self.handle_events()? {
                 return Ok(());
             }
+            self.show()?;
+            self.wake_idle();
             self.window.connection.flush()?;
             let ready = self
                 .wait()
@@ -154,9 +172,9 @@ impl Served {
     fn handle_events(&mut self) -> Result<bool, WindowError> {
         while let Some(event) = self.window.connection.poll_for_event()? {
             match event {
-                XEvent::Expose(_) => self.show_again()?,
+                XEvent::Expose(_) => self.presenter.show_again(&self.window)?,
                 event if self.window.is_close(&event) => return Ok(true),
-                _ => {}
+                event => self.presenter.handle(&event),
             }
         }
         Ok(false)
@@ -173,7 +191,15 @@ impl Served {
         ];
         let clients = self.clients.iter();
         all.extend(clients.map(|client| PollFd::new(&client.stream, input)));
-        match poll(&mut all, None) {
+        let timeout = self
+            .clients
+            .iter()
+            .any(Client::may_be_woken)
+            .then_some(Timespec {
+                tv_sec: 0,
+                tv_nsec: IDLE.subsec_nanos().into(),
+            });
+        match poll(&mut all, timeout.as_ref()) {
             Ok(_) | Err(rustix::io::Errno::INTR) => {}
             Err(error) => return Err(error.into()),
         }
@@ -212,6 +238,9 @@ impl Served {
             stream: stream.try_clone()?,
             segment: None,
             pending: Vec::new(),
+            process: peer(&stream),
+            behind: None,
+            frames: FRAMES_AWAKE,
             path,
             file,
         };
@@ -246,7 +275,7 @@ impl Served {
         else {
             return Ok(false);
         };
-        let mut bytes = [0; 64 * Frame::BYTES];
+        let mut bytes = [0; 64 * Sent::BYTES];
         let open = match client.stream.read(&mut bytes) {
             Ok(0) => false,
             Ok(count) => {
@@ -255,21 +284,24 @@ impl Served {
             }
             Err(error) => error.kind() == io::ErrorKind::WouldBlock,
         };
-        let whole = client.pending.len() / Frame::BYTES * Frame::BYTES;
+        let whole = client.pending.len() / Sent::BYTES * Sent::BYTES;
         let all: Vec<u8> = client.pending.drain(..whole).collect();
-        let frames = all.as_chunks::<{ Frame::BYTES }>().0;
-        let frames: Vec<_> = frames
-            .iter()
-            .filter_map(|bytes| Frame::of(*bytes, size))
-            .collect();
-        if let Some((last, passed)) = frames.split_last() {
+        let mut passed = Vec::new();
+        for bytes in all.as_chunks::<{ Sent::BYTES }>().0 {
             // The program has opened the file, so nothing of it has to be left where this process is killed.
             let _ = std::fs::remove_file(&client.path);
-            for frame in passed {
+            let sent = Sent::of(*bytes, size);
+            client.behind = sent.is_behind.then(Instant::now);
+            let Some(frame) = sent.picture else {
+                continue;
+            };
+            client.frames = client.frames.saturating_add(1);
+            passed.extend(self.waiting.replace((number, frame)));
+        }
+        for (number, frame) in passed {
+            if let Some(client) = self.clients.iter().find(|client| client.number == number) {
                 free(client, frame.slot);
             }
-            let before = self.shown.replace((number, *last));
-            self.show(before)?;
         }
         Ok(open)
     }
@@ -285,33 +317,55 @@ impl Served {
         Ok(())
     }
 
-    /// Shows the picture anew.
-    fn show_again(&mut self) -> Result<(), WindowError> {
-        let before = self.shown;
-        self.show(before)
-    }
-
-    /// Shows the picture in place of the one `before`, whose slot is free afterwards.
-    fn show(&mut self, before: Option<(u32, Frame)>) -> Result<(), WindowError> {
-        let Some((number, frame)) = self.shown else {
+    /// Shows the picture that waits, if a pixmap is free for it.
+    fn show(&mut self) -> Result<(), WindowError> {
+        let Some((number, frame)) = self.waiting else {
             return Ok(());
         };
-        let place = |(_, frame): (u32, Frame)| (frame.at, frame.size);
-        if before.map(place) != Some((frame.at, frame.size)) {
-            self.window.clear()?;
-        }
-        if let Some(client) = self.clients.iter().find(|client| client.number == number) {
-            put(&self.window, client, frame)?;
-        }
+        let place = (frame.at, frame.size);
+        let Some((buffer, pixmap)) = self.presenter.buffer(&self.window, place)? else {
+            return Ok(());
+        };
+        self.waiting = None;
+        let Some(client) = self.clients.iter().find(|client| client.number == number) else {
+            return Ok(());
+        };
+        put(&self.window, client, frame, pixmap)?;
         // The server has read the picture when it answers.
         self.window.connection.sync()?;
-        if let Some((number, passed)) = before.filter(|before| Some(*before) != self.shown)
-            && let Some(client) = self.clients.iter().find(|client| client.number == number)
-        {
-            free(client, passed.slot);
-        }
-        Ok(())
+        free(client, frame.slot);
+        self.presenter.show(&self.window, buffer)
     }
+
+    /// Wakes programs that have shown no frame for a while and whose newest picture is not here.
+    fn wake_idle(&mut self) {
+        for client in self
+            .clients
+            .iter_mut()
+            .filter(|client| client.may_be_woken())
+        {
+            if client.behind.is_some_and(|since| since.elapsed() >= IDLE)
+                && let Some(process) = client.process
+            {
+                client.frames = 0;
+                // Where it cannot be woken, its picture comes with its next frame.
+                wake(process);
+            }
+        }
+    }
+}
+
+impl Client {
+    /// Its newest picture is not here, and it was not woken for it.
+    fn may_be_woken(&self) -> bool {
+        self.behind.is_some() && self.frames >= FRAMES_AWAKE
+    }
+}
+
+/// The process at the other end.
+fn peer(stream: &UnixStream) -> Option<u32> {
+    let credentials = socket_peercred(stream).ok()?;
+    Some(credentials.pid.as_raw_nonzero().get().unsigned_abs())
 }
 
 /// What can be read.
@@ -327,8 +381,8 @@ fn free(client: &Client, slot: u8) {
     let _ = (&client.stream).write(&[slot]);
 }
 
-/// Puts a picture into the window.
-fn put(window: &Window, client: &Client, frame: Frame) -> Result<(), WindowError> {
+/// Puts a picture into a pixmap.
+fn put(window: &Window, client: &Client, frame: Frame, pixmap: Pixmap) -> Result<(), WindowError> {
     let ([x, y], [width, height]) = (frame.at.map(|v| v as i16), frame.size);
     if width == 0 || height == 0 {
         return Ok(());
@@ -337,7 +391,7 @@ fn put(window: &Window, client: &Client, frame: Frame) -> Result<(), WindowError
     let c = &window.connection;
     if let Some(segment) = client.segment {
         c.shm_put_image(
-            window.id,
+            pixmap,
             window.gc,
             width,
             height,
@@ -358,5 +412,5 @@ fn put(window: &Window, client: &Client, frame: Frame) -> Result<(), WindowError
     let mut pixels = vec![0; usize::from(width) * usize::from(height) * PIXEL];
     let read = client.file.read_exact_at(&mut pixels, offset);
     read.map_err(|error| WindowError::Socket(error.to_string()))?;
-    window.put(pixels, (width, height), (x, y))
+    window.put(pixmap, pixels, (width, height), (x, y))
 }

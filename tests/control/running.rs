@@ -69,6 +69,20 @@ impl Running {
         }
     }
 
+    /// Starts a program that runs until it is killed.
+    pub(crate) fn start_program(screen: &Screen, command: &mut Command) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        command
+            .env("XDG_RUNTIME_DIR", folder.path())
+            .current_dir(folder.path())
+            .stderr(Stdio::piped());
+        let child = screen.give(command).spawn().expect("the program starts");
+        Running {
+            child: Some(child),
+            folder,
+        }
+    }
+
     pub(crate) fn controlled(screen: &Screen, options: &[(&str, &str)]) -> Self {
         let mut all = vec![("CONTROL", "1")];
         all.extend(options);

@@ -138,6 +138,8 @@ fn without_layer(mut command: Command) -> Command {
             command.env_remove(name);
         }
     }
+    // Pictures are compared without text over them.
+    command.env("MANYVIEW_OSD", "off");
     // Frames can be compared where cameras stand still.
     command.env("MANYVIEW_AUTO_DEPTH", "0");
     // `auto` would try strategies and keep the outcome for the user; tests/auto.rs asks for it.

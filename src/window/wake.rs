@@ -16,7 +16,7 @@ const WINDOWS: usize = 10_000;
 
 /// Makes a process draw its windows anew. None where that is not possible: it has no windows of an X server, or the server does not tell whose windows
 /// they are.
-pub(super) fn wake(pid: u32) -> Option<()> {
+pub fn wake(pid: u32) -> Option<()> {
     // Both run as the same user, but not always on the same display.
     let theirs = display_of(pid);
     let (connection, _) = x11rb::connect(theirs.as_deref()).ok()?;
