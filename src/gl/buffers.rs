@@ -123,7 +123,7 @@ impl Gl {
     /// What [`Gl::read_bgra_to_buffer`] has read: blue, green, red and alpha.
     pub fn get_buffer_bgra(&self, target: u32, out: &mut [u8]) {
         self.get_buffer_bytes(target, 0, out);
-        self.to_bgra(out);
+        self.swap_to_bgra(out);
     }
 
     /// glDeleteBuffers of one name.

@@ -40,7 +40,7 @@ impl Gl {
             self.real
                 .glReadPixels(x, y, w as i32, h as i32, format, c::UNSIGNED_BYTE, p)
         };
-        self.to_bgra(out);
+        self.swap_to_bgra(out);
     }
 
     /// The format that is read for blue, green, red and alpha: OpenGL ES reads red first.
@@ -49,7 +49,7 @@ impl Gl {
     }
 
     /// Puts what was read as [`Gl::bgra`] in that order.
-    pub(super) fn to_bgra(&self, texels: &mut [u8]) {
+    pub(super) fn swap_to_bgra(&self, texels: &mut [u8]) {
         if self.is_es() {
             texels
                 .chunks_exact_mut(4)

@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn long_lines_are_broken_and_what_has_no_room_is_left_out() {
         let text = "the driver takes no mask of the panel, perhaps for lack of memory".to_owned();
-        let broken = write(&[text.clone()], 20, [300, 600], 1.0).unwrap();
+        let broken = write(std::slice::from_ref(&text), 20, [300, 600], 1.0).unwrap();
         assert!(
             broken.size[0] <= 300 && broken.size[1] >= 3 * 20,
             "{:?}",
