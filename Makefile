@@ -103,6 +103,7 @@ pictures: packages build demos ## make the picture of the README
 gallery: packages build demos ## make the pictures of docs/gallery.md
 	@sh scripts/packages.sh $(PICTURE_PACKAGES)
 	$(CARGO) test --release --test calibrate gallery_photos -- --ignored
+	$(CARGO) test --release --test wall gallery_wall -- --ignored
 	@sh scripts/gallery.sh $(BIN) $(DEMOS)/mirror docs/gallery $(TARGET)/gallery
 
 test: packages build demos ## run the tests

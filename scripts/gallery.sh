@@ -52,4 +52,5 @@ for picture in described-strip measured-strip fit; do
     pngtopnm "$folder/$picture.png" | pnmscale 0.25 | pnmtopng -compression 9 >"$folder/$picture.tmp"
     mv "$folder/$picture.tmp" "$folder/$picture.png"
 done
+pngtopnm "$photos/wall-strip.png" | pnmscale 0.5 | pnmtopng -compression 9 >"$folder/wall-strip.png"
 rm -f "$folder/blend.png" "$folder/gaussian.png" "$folder/described.png" "$folder/measured.png"

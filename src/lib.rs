@@ -14,6 +14,9 @@ pub mod display;
 #[cfg(feature = "cli")]
 pub mod calibrate;
 
+#[cfg(feature = "cli")]
+pub mod wall;
+
 pub mod config;
 
 pub mod control;

@@ -9,7 +9,7 @@ const ROUNDS: usize = 60;
 
 /// Where the sum of squares is least.
 #[derive(Clone, Debug)]
-pub(super) struct Minimum {
+pub(crate) struct Minimum {
     pub at: Vec<f64>,
     /// Half of the sum of squares.
     pub cost: f64,
@@ -18,7 +18,7 @@ pub(super) struct Minimum {
 }
 
 /// A residual in standard deviations, softened (pseudo-Huber).
-pub(super) fn soft(residual: f64) -> f64 {
+pub(crate) fn soft(residual: f64) -> f64 {
     let ratio = residual / SOFT;
     // The root of 2(√(1+r²) − 1), in a form that keeps small values.
     residual * (2.0 / ((1.0 + ratio * ratio).sqrt() + 1.0)).sqrt()
@@ -26,7 +26,7 @@ pub(super) fn soft(residual: f64) -> f64 {
 
 /// Minimises from `start`; parameters are expected to be of the order of `steps`. None when the residuals are not
 /// finite or the parameters cannot be told apart.
-pub(super) fn minimise(
+pub(crate) fn minimise(
     start: &[f64],
     steps: &[f64],
     residuals: impl Fn(&[f64]) -> Option<Vec<f64>>,

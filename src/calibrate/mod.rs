@@ -59,6 +59,7 @@ mod written;
 pub use by_eye::{Action, ByEye, KEYS, action};
 pub use error::CalibrateError;
 pub use fit::{Camera, Fit, Residuals, fit};
+pub(crate) use least_squares::{minimise, soft};
 pub use photo::Photo;
 pub use setup::{Guess, Setup};
 pub use sighting::Sighting;

@@ -11,6 +11,7 @@ use manyview::launch::LaunchError;
 use manyview::plugged::ChosenError;
 use manyview::simulate::SimulateError;
 use manyview::volume::VolumeError;
+use manyview::wall::WallError;
 use manyview::window::WindowError;
 use std::path::PathBuf;
 
@@ -79,6 +80,9 @@ pub(super) enum CommandError {
     /// A panel that could not be measured.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
+    /// A wall that could not be measured.
+    #[error(transparent)]
+    Wall(#[from] WallError),
     /// Nothing was measured.
     #[error(transparent)]
     Bench(#[from] BenchError),
@@ -119,7 +123,8 @@ impl CommandError {
             | Self::Picture { .. }
             | Self::Simulate(_)
             | Self::Volume(_)
-            | Self::Calibrate(_) => 2,
+            | Self::Calibrate(_)
+            | Self::Wall(_) => 2,
             Self::Launch(error) => error.exit_status(),
             Self::Bench(error) => error.exit_status(),
             Self::Control(error) => error.exit_status(),

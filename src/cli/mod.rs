@@ -19,6 +19,7 @@ mod sheet;
 mod show;
 mod simulate;
 mod volume;
+mod wall;
 mod weave;
 
 use clap::{Parser, Subcommand};
@@ -67,6 +68,8 @@ enum Action {
     Volume(volume::Arguments),
     /// Measure a panel's lens sheet from photos of a pattern that it shows.
     Calibrate(calibrate::Arguments),
+    /// Panels that show one picture together: measure where they are and how bright.
+    Wall(wall::Arguments),
     /// Measure the layer: frame times of scenes over those without it, and how far the picture is from the exact one.
     Bench(bench::Arguments),
     /// Say which OpenGL a program would get here and which strategies the layer has with it.
@@ -91,6 +94,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Simulate(arguments) => simulate::run(&arguments),
         Action::Volume(arguments) => volume::run(&arguments),
         Action::Calibrate(arguments) => calibrate::run(&arguments),
+        Action::Wall(arguments) => wall::run(&arguments),
         Action::Bench(arguments) => bench::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),
         Action::Displays(arguments) => displays::run(&arguments),

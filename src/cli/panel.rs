@@ -4,6 +4,7 @@
 use super::error::CommandError;
 use super::tell;
 use manyview::config::{Config, OptionId, Origin, Settings};
+use manyview::display::Kind;
 use manyview::plugged::{Chosen, Panel, Plugged};
 use manyview::window::{PanelServer, WindowError};
 
@@ -71,6 +72,9 @@ pub(super) fn open(config: &Config) -> Result<Option<PanelServer>, WindowError> 
     let Some(panel) = &config.panel else {
         return Ok(None);
     };
+    if let Kind::Wall(wall) = &config.display.kind {
+        return PanelServer::open_wall(wall).map(Some);
+    }
     let monitor = panel.monitor.clone().or_else(|| {
         let plugged = Plugged::find();
         let found = plugged.monitor_of(&config.display)?;

@@ -6,8 +6,9 @@ use super::mask::size;
 use super::{Outcome, tell};
 use clap::Args;
 use image::RgbImage;
-use manyview::config::{Config, Filter, OptionId, Origin, Settings};
-use manyview::display::{Display, Placement, QuiltName};
+use manyview::config::{AUTO, Config, Filter, OptionId, Origin, Settings};
+use manyview::display::{Display, Fit, Kind, Placement, QuiltName};
+use manyview::interleave::wall::wall;
 use manyview::interleave::{quilt, reference};
 use manyview::launch::writable;
 use std::path::{Path, PathBuf};
@@ -46,6 +47,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         (OptionId::Filter, &arguments.filter),
     ]);
     settings.set(OptionId::Output, "panel", Origin::CommandLine);
+    // A wall needs windows; its picture does not.
+    settings.set(OptionId::Panel, AUTO, Origin::Default);
     let display = Config::from_settings(&settings)?.display;
     let wanted = match &arguments.size {
         Some(text) => Some(size(text).ok_or_else(|| CommandError::Size(text.clone()))?),
@@ -84,7 +87,16 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Filter::Nearest => config.display.mask(&placement, config.views)?,
         _ => config.display.fine_mask(&placement, config.views)?,
     };
-    let panel = reference::filtered(&views, &mask, config.filter)?;
+    let panel = match (
+        &config.display.kind,
+        views.first().map(RgbImage::dimensions),
+    ) {
+        (Kind::Wall(shown), Some(size)) => {
+            let nodes = shown.nodes(size, Fit::default());
+            wall(&views, &mask, &nodes, shown.node_count().0)?
+        }
+        _ => reference::filtered(&views, &mask, config.filter)?,
+    };
     let refused = |error: image::ImageError| CommandError::Picture {
         file: arguments.out.clone(),
         reason: error.to_string(),

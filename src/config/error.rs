@@ -88,6 +88,27 @@ pub enum ConfigError {
         /// Its value.
         value: String,
     },
+    /// A wall without windows.
+    #[error(
+        "the display is a wall, which is shown in windows of its panels; give --panel auto with manyview run, or another --output"
+    )]
+    WallWindow,
+    /// A monitor for a wall.
+    #[error(
+        "{field} names a monitor, and the display is a wall, whose description names those of its panels; give auto"
+    )]
+    WallMonitor {
+        /// The option.
+        field: Field,
+    },
+    /// Filtered views on a wall.
+    #[error(
+        "{field} is for one panel, and the display is a wall, which shows the nearest view; leave it out"
+    )]
+    WallFilter {
+        /// The option.
+        field: Field,
+    },
     /// An option of the panel's own window without that.
     #[error(
         "{field} is for a window of the panel's own; give {panel} as a monitor or auto with it, or leave it out"

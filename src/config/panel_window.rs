@@ -7,7 +7,7 @@ use super::error::ConfigError;
 use super::options::OptionId;
 use super::parse::{check_output, path, written};
 use super::settings::Settings;
-use crate::display::Fit;
+use crate::display::{Display, Fit, Kind};
 use std::path::PathBuf;
 
 /// The monitor that `--panel auto` takes is chosen by its size.
@@ -33,10 +33,13 @@ pub struct PanelWindow {
 }
 
 impl PanelWindow {
+    /// `shown`: the display and the output; a wall is shown in windows of its panels.
     pub(super) fn from_settings(
         settings: &Settings,
         views: u32,
+        shown: (&Display, Output),
     ) -> Result<Option<Self>, ConfigError> {
+        let is_wall = matches!(shown.0.kind, Kind::Wall(_)) && shown.1 == Output::Panel;
         let Some((field, monitor)) = settings.field(OptionId::Panel) else {
             for id in [OptionId::Fit, OptionId::WindowOutput] {
                 if let Some((field, _)) = settings.field(id) {
@@ -44,8 +47,14 @@ impl PanelWindow {
                     return Err(ConfigError::NoPanelWindow { field, panel });
                 }
             }
+            if is_wall {
+                return Err(ConfigError::WallWindow);
+            }
             return Ok(None);
         };
+        if is_wall && monitor != AUTO {
+            return Err(ConfigError::WallMonitor { field });
+        }
         if monitor.is_empty() {
             return Err(ConfigError::NoMonitor { field });
         }

@@ -30,7 +30,7 @@ impl Config {
         Ok(Self {
             views,
             output,
-            filter: filter(settings, views)?,
+            filter: filter(settings, views, &display)?,
             camera: cameras::camera(settings)?,
             strategy,
             true_views: true_views(settings, strategy, views)?,
@@ -54,7 +54,7 @@ impl Config {
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
             launch: path(settings, OptionId::Launch),
-            panel: PanelWindow::from_settings(settings, views)?,
+            panel: PanelWindow::from_settings(settings, views, (&display, output))?,
             renamings: settings.renamings().to_vec(),
             display,
         })
@@ -221,7 +221,7 @@ pub(super) fn check_output(
     }
 }
 
-fn filter(settings: &Settings, views: u32) -> Result<Filter, ConfigError> {
+fn filter(settings: &Settings, views: u32, display: &Display) -> Result<Filter, ConfigError> {
     const FILTERS: &[(&str, Filter)] = &[
         ("nearest", Filter::Nearest),
         ("blend", Filter::Blend),
@@ -231,6 +231,9 @@ fn filter(settings: &Settings, views: u32) -> Result<Filter, ConfigError> {
     match settings.field(OptionId::Filter) {
         Some((field, _)) if filter != Filter::Nearest && views > MAX_FINE_VIEWS => {
             Err(ConfigError::Fine { field, views })
+        }
+        Some((field, _)) if filter != Filter::Nearest && matches!(display.kind, Kind::Wall(_)) => {
+            Err(ConfigError::WallFilter { field })
         }
         _ => Ok(filter),
     }

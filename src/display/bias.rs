@@ -35,6 +35,28 @@ impl Bias {
         (self.columns, self.rows, &self.values)
     }
 
+    /// At a place, as shares of the screen from its left and top.
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let (left, across) = line_before(x, self.columns);
+        let (upper, down) = line_before(y, self.rows);
+        let value = |row: usize, column: usize| self.values[row * self.columns + column];
+        let along = |row: usize| {
+            let (a, b) = (value(row, left), value(row, left + 1));
+            a + (b - a) * across
+        };
+        let (a, b) = (along(upper), along(upper + 1));
+        a + (b - a) * down
+    }
+
+    /// The least and the greatest value.
+    pub(super) fn range(&self) -> [f64; 2] {
+        let values = || self.values.iter().copied();
+        [
+            values().fold(f64::MAX, f64::min),
+            values().fold(f64::MIN, f64::max),
+        ]
+    }
+
     /// The values along a row of the screen.
     pub(super) fn row(&self, placement: &Placement, row: i64) -> BiasRow {
         let (upper, weight) = cell(row, placement.screen_height, self.rows);
@@ -66,8 +88,12 @@ impl BiasRow {
 
 /// The grid line before the centre of a pixel, at most the last but one, and how far it is to the next; at the edge outside.
 fn cell(pixel: i64, pixels: u32, lines: usize) -> (usize, f64) {
-    let place = (pixel as f64 + 0.5) / f64::from(pixels.max(1));
-    let place = place.clamp(0.0, 1.0) * (lines - 1) as f64;
+    line_before((pixel as f64 + 0.5) / f64::from(pixels.max(1)), lines)
+}
+
+/// The grid line before a share of the screen, at most the last but one, and how far it is to the next; at the edge outside.
+fn line_before(share: f64, lines: usize) -> (usize, f64) {
+    let place = share.clamp(0.0, 1.0) * (lines - 1) as f64;
     let before = (place.floor() as usize).min(lines - 2);
     (before, place - before as f64)
 }

@@ -104,6 +104,20 @@ impl Display {
                 lines.push(("mask", path.display().to_string()));
                 lines.push(("views shown", mask.views_shown().len().to_string()));
             }
+            Kind::Wall(wall) => {
+                for panel in wall.panels() {
+                    let (width, height) = panel.pixels;
+                    let [x, y] = panel.corners()[0];
+                    let monitor = &panel.monitor;
+                    let display = &panel.display.name;
+                    lines.push((
+                        "panel",
+                        format!(
+                            "{monitor}: {display}, {width}x{height} pixels, at {x:.1}, {y:.1} mm"
+                        ),
+                    ));
+                }
+            }
             Kind::Lenticular | Kind::Pattern(_) | Kind::Uncalibrated => {}
         }
     }
@@ -147,6 +161,7 @@ impl Kind {
             Self::Leia(_) => "Leia-type",
             Self::Pattern(_) => "a pattern written by hand",
             Self::MaskFile { .. } => "mask file",
+            Self::Wall(_) => "several panels that show one picture",
             Self::Uncalibrated => "Looking Glass without the calibration of a device: quilts only",
         }
     }

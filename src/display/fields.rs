@@ -1,7 +1,7 @@
 //! Values of a description, each with its own sentence when it is wrong.
 #![forbid(unsafe_code)]
 
-use super::{DisplayError, Number, Spacing, SubpixelOrder};
+use super::{Bias, DisplayError, Number, Spacing, SubpixelOrder};
 use std::ops::RangeInclusive;
 use toml::{Table, Value};
 
@@ -283,4 +283,30 @@ fn number(value: &Value) -> Option<Number> {
 
 fn length(value: &Value) -> Option<Number> {
     number(value).filter(|number| number.to_f64().abs() <= LARGEST)
+}
+
+/// A number of a file.
+pub(super) fn float(value: &Value) -> Option<f64> {
+    match value {
+        Value::Integer(whole) => Some(*whole as f64),
+        _ => value.as_float(),
+    }
+}
+
+/// A grid of numbers.
+pub(super) fn bias(value: &Value) -> Option<Bias> {
+    let table = value.as_table()?;
+    if table
+        .keys()
+        .any(|k| !["columns", "rows", "values"].contains(&k.as_str()))
+    {
+        return None;
+    }
+    let side = |key| usize::try_from(table.get(key)?.as_integer()?).ok();
+    let values = table.get("values")?.as_array()?.iter().map(float);
+    Bias::new(
+        side("columns")?,
+        side("rows")?,
+        values.collect::<Option<_>>()?,
+    )
 }

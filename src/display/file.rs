@@ -3,10 +3,11 @@
 //! docs/displays.md has every field with an example; the version of the format is 1.
 #![forbid(unsafe_code)]
 
-use super::fields::Fields;
+use super::fields::{Fields, bias};
+use super::wall_file::wall;
 use super::{
-    Bias, Display, DisplayError, Facts, GUARD, Integer, Kind, Leia, MAX_VIEWS, Mask, Pattern,
-    Rotation, Slanted, calibration,
+    Display, DisplayError, Facts, GUARD, Integer, Kind, Leia, MAX_VIEWS, Mask, Pattern, Rotation,
+    Slanted, calibration,
 };
 use crate::bounded;
 use std::io::ErrorKind;
@@ -18,7 +19,7 @@ use toml::Value;
 pub(super) const MOST_BYTES: u64 = 1 << 21;
 
 const KIND: &str = "give the optics, for example kind = \"slanted\"";
-const KINDS: &str = "\"lenticular\", \"huebner\", \"slanted\", \"integer\", \"looking-glass\", \"leia\", \"pattern\" or \"mask\"";
+const KINDS: &str = "\"lenticular\", \"huebner\", \"slanted\", \"integer\", \"looking-glass\", \"leia\", \"pattern\", \"wall\" or \"mask\"";
 const NAME: &str = "give a name, for example name = \"My panel\"";
 const VIEWS: &str = "give the number of views, for example views = 8";
 const PITCH: &str = "give the lens pitch in subpixels, for example pitch = \"16/3\"";
@@ -95,7 +96,7 @@ const LEIA: [&str; 5] = [
 ];
 
 /// Every field that some kind reads.
-const ALL: [&str; 20] = [
+const ALL: [&str; 22] = [
     "pitch",
     "slant",
     "offset",
@@ -116,6 +117,8 @@ const ALL: [&str; 20] = [
     "inverted",
     "calibration",
     "mask",
+    "panel",
+    "viewer",
 ];
 
 /// Steps of an `integer` panel: with 32 bits a place on the screen times a step fits 64.
@@ -263,6 +266,16 @@ impl Reader<'_> {
                 display.views = views.unwrap_or(display.views);
                 display
             }
+            "wall" => {
+                only(&["panel", "viewer"])?;
+                let wall = wall(self.path, f)?;
+                let views = views.or(wall.panels().first().map(|panel| panel.display.views));
+                let screen = Some(wall.sheet());
+                let views = views.unwrap_or(1);
+                let mut display = Display::new(name, views, Kind::Wall(Arc::new(wall)));
+                display.facts.screen = screen;
+                display
+            }
             "mask" => {
                 only(&["mask"])?;
                 from_mask(&self.beside("mask", MASK)?, name, views)?
@@ -361,27 +374,6 @@ impl Reader<'_> {
             .text(field, value, "the path of a file", remedy)?;
         Ok(self.path.parent().unwrap_or(Path::new("")).join(name))
     }
-}
-
-fn bias(value: &Value) -> Option<Bias> {
-    let table = value.as_table()?;
-    if table
-        .keys()
-        .any(|k| !["columns", "rows", "values"].contains(&k.as_str()))
-    {
-        return None;
-    }
-    let side = |key| usize::try_from(table.get(key)?.as_integer()?).ok();
-    let float = |value: &Value| match value {
-        Value::Integer(whole) => Some(*whole as f64),
-        _ => value.as_float(),
-    };
-    let values = table.get("values")?.as_array()?.iter().map(float);
-    Bias::new(
-        side("columns")?,
-        side("rows")?,
-        values.collect::<Option<_>>()?,
-    )
 }
 
 fn table(value: &Value) -> Option<Vec<u16>> {

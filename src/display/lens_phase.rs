@@ -74,7 +74,7 @@ impl Display {
             Kind::LookingGlass(device) => device.phase(),
             Kind::Leia(panel) => panel.phase(self.views),
             Kind::Pattern(pattern) => pattern.phase(),
-            Kind::MaskFile { .. } | Kind::Uncalibrated => None,
+            Kind::MaskFile { .. } | Kind::Wall(_) | Kind::Uncalibrated => None,
         }
     }
 }

@@ -36,6 +36,8 @@ mod rotation;
 mod slanted;
 #[cfg(test)]
 mod tests;
+mod wall;
+mod wall_file;
 mod written;
 
 pub use bias::Bias;
@@ -55,6 +57,7 @@ pub use pattern::Pattern;
 pub use quilt::{QuiltError, QuiltName};
 pub use rotation::Rotation;
 pub use slanted::Slanted;
+pub use wall::{CELL, Homography, Light, Node, Wall, WallPanel, apply, placed};
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -126,6 +129,8 @@ pub enum Kind {
         /// Its values; shared, as a 4K mask is 50 MB.
         mask: Arc<Mask>,
     },
+    /// Several panels that show one picture.
+    Wall(Arc<Wall>),
     /// No mask: the model is known, the single device is not. Quilts can be made for it.
     Uncalibrated,
 }
@@ -256,6 +261,7 @@ impl Display {
             Kind::Pattern(pattern) => pattern.check_views(views),
             Kind::Integer(steps) => steps.check_views(views),
             Kind::MaskFile { path, mask } => mask.check_indices(path, views),
+            Kind::Wall(wall) => wall.check_views(views),
             _ => Ok(()),
         }
     }
@@ -289,6 +295,7 @@ impl Display {
             Kind::Leia(panel) => panel.mask(placement, self.views, views),
             Kind::Pattern(pattern) => pattern.mask(placement),
             Kind::MaskFile { path, mask } => mask.crop(path, placement),
+            Kind::Wall(wall) => wall.mask(placement, views),
             Kind::Uncalibrated => Err(self.uncalibrated()),
         }
     }

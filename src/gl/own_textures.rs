@@ -49,4 +49,20 @@ impl Gl {
                 .glTexSubImage3D(target, 0, 0, row, 0, w, h, 1, rgba, c::UNSIGNED_BYTE, p)
         };
     }
+
+    /// glTexImage2D of RGBA with 32 bits each, level 0 of the 2D texture that is bound: w·h texels, row 0 first.
+    pub fn tex_image_rgba32f(&self, _: &PixelStore, w: i32, h: i32, texels: &[[f32; 4]]) {
+        if texels.len() < w as usize * h as usize {
+            return;
+        }
+        /// GL_RGBA32F
+        const FORMAT: i32 = 0x8814;
+        let target = c::TEXTURE_2D;
+        let p = texels.as_ptr() as Ptr;
+        // SAFETY: w·h texels of 16 bytes (checked); without gaps, from no buffer (`PixelStore`).
+        unsafe {
+            self.real
+                .glTexImage2D(target, 0, FORMAT, w, h, 0, c::RGBA, c::FLOAT, p)
+        };
+    }
 }

@@ -66,7 +66,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
     let shown = picture(one)?;
     let atlas = picture(tiles)?;
     let source = Plain::new(gl, names.texture(gl), size);
-    let mut interleaver = Interleaver::new(gl, &mut names, glsl, None);
+    let mut interleaver = Interleaver::new(gl, &mut names, glsl, false, None);
     let copy = Program::new(gl, glsl, Pass::Copy)?;
     // Memory that was never written may not be backed by pages, and would cost nothing to read.
     let (w, h) = (width as i32, height as i32);

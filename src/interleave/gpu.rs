@@ -2,13 +2,13 @@
 
 use super::shader::{
     BLOCK_BOUNDS_UNIT, DEPTH_UNIT, MASK_UNIT, MaskUniforms, Pass, RAY_RANGE_UNIT, REFERENCE_UNITS,
-    SampleAligned, Synthesis, Texels, Uniforms, VIEWS_UNIT,
+    SampleAligned, Synthesis, Texels, Uniforms, VIEWS_UNIT, WARP_UNIT,
 };
 use super::sheet::{self, Sheet};
 use super::{Depth, Disparities, Form, Layout, Program, reference, rgbd};
 use crate::atlas::{Names, PyramidTextures, ReferenceTextures, Tiles, ViewSet};
 use crate::config::{Config, DisocclusionSource, Filter, Output};
-use crate::display::{Display, GUARD, Lens, Mask, Placement};
+use crate::display::{Display, Fit, GUARD, Lens, Mask, Placement, Wall};
 use crate::gl::{Gl, PixelStore, ProgramName, TextureName, VertexArrayName, consts as c};
 use crate::state::Neutral;
 use crate::view::ViewIndex;
@@ -58,6 +58,10 @@ pub struct Interleaver {
     lit: bool,
     mask_texture: TextureName,
     uploaded: Option<Uploaded>,
+    /// The nodes of a wall; 0 where the display is none.
+    warp_texture: TextureName,
+    /// Which window and fit its nodes are for.
+    warped: Option<([u32; 2], Fit)>,
     cpu: Option<String>,
     /// The program's, from before the mask was uploaded.
     errors: Vec<u32>,
@@ -116,12 +120,13 @@ fn reserve(gl: &Gl, names: &mut Names) -> TextureName {
 }
 
 impl Interleaver {
-    /// Compiles the output passes, and with `synthesis` those that synthesise a panel's picture with this source of disocclusions. Where one fails,
+    /// Compiles the output passes, with `wall` that of walls, and with `synthesis` those that synthesise a panel's picture with this source of disocclusions. Where one fails,
     /// the CPU takes over and [`Interleaver::note`] says why.
     pub fn new(
         gl: &Gl,
         names: &mut Names,
         glsl: u32,
+        wall: bool,
         synthesis: Option<DisocclusionSource>,
     ) -> Self {
         let mut i = Interleaver {
@@ -132,6 +137,8 @@ impl Interleaver {
             lit: false,
             mask_texture: TextureName::ZERO,
             uploaded: None,
+            warp_texture: TextureName::ZERO,
+            warped: None,
             cpu: None,
             errors: Vec::new(),
             refused: false,
@@ -149,7 +156,8 @@ impl Interleaver {
             _ => false,
         });
         let panels = panels.map(Pass::Synthesis);
-        for pass in Pass::OUTPUTS.into_iter().chain(panels) {
+        let walls = wall.then_some(Pass::Wall);
+        for pass in Pass::OUTPUTS.into_iter().chain(walls).chain(panels) {
             match Program::new(gl, glsl, pass) {
                 Ok(program) => i.programs.push((pass, program)),
                 Err(e) => {
@@ -163,6 +171,9 @@ impl Interleaver {
         }
         i.vertex_array = gl.gen_vertex_array();
         i.mask_texture = reserve(gl, names);
+        if wall {
+            i.warp_texture = reserve(gl, names);
+        }
         i
     }
 
@@ -202,9 +213,10 @@ impl Interleaver {
         known && self.lit
     }
 
-    /// The GL name of the mask's texture, 0 for none.
-    pub fn texture(&self) -> TextureName {
-        self.mask_texture
+    /// The GL names of its textures.
+    pub fn textures(&self) -> impl Iterator<Item = TextureName> {
+        let all = [self.mask_texture, self.warp_texture].into_iter();
+        all.filter(|name| !name.is_zero())
     }
 
     /// The GL names of all programs.
@@ -218,6 +230,11 @@ impl Interleaver {
             gl.delete_texture(self.mask_texture);
             self.mask_texture = reserve(gl, names);
             self.uploaded = None;
+        }
+        if !self.warp_texture.is_zero() {
+            gl.delete_texture(self.warp_texture);
+            self.warp_texture = reserve(gl, names);
+            self.warped = None;
         }
     }
 
@@ -253,9 +270,8 @@ impl Interleaver {
         self.refused = false;
         let pass = self.pass(gl, neutral.pixels(), of, &form, source, size);
         let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == pass) else {
-            let depth = source.depth.map(|(_, depth)| depth);
             let tiles: Vec<RgbImage> = ViewIndex::all(config.views).map(tile).collect();
-            if let Some(picture) = self.picture_by_cpu(tiles, depth, &form, placement)? {
+            if let Some(picture) = self.picture_by_cpu(tiles, source, &form, placement)? {
                 draw_picture(gl, neutral, picture);
             }
             return Ok(());
@@ -336,13 +352,18 @@ impl Interleaver {
             return Pass::Synthesis(Synthesis::Panel { whole, source });
         }
         let texels = tiles.grid.is_full() && [tiles.width, tiles.height] == size;
+        if let Form::Wall(wall, fit) = form {
+            self.upload(gl, pixels, of, None, None);
+            self.upload_warp(gl, pixels, wall, (tiles.window, *fit));
+            return Pass::Wall;
+        }
         let filter = match form {
             Form::Layout(Layout::View(_)) if texels => return Pass::Whole,
             Form::Layout(_) => return Pass::Layout,
             Form::Anaglyph(_) => return Pass::Anaglyph,
             Form::Rgbd => return Pass::Rgbd,
             Form::Panel(_, filter) => *filter,
-            Form::Interlaced(_) => Filter::Nearest,
+            Form::Wall(..) | Form::Interlaced(_) => Filter::Nearest,
         };
         let lenses = !tiles.grid.is_full() && filter == Filter::Nearest;
         let fits = tiles.rows << column_bits(tiles) < u32::from(GUARD);
@@ -416,14 +437,41 @@ impl Interleaver {
         Some(uploaded)
     }
 
+    /// Binds the nodes of a wall for the picture of a window, and uploads them where the texture holds others.
+    fn upload_warp(&mut self, gl: &Gl, pixels: &PixelStore, wall: &Wall, of: ([u32; 2], Fit)) {
+        gl.active_texture(c::TEXTURE0 + WARP_UNIT);
+        gl.bind_texture(c::TEXTURE_2D, self.warp_texture);
+        if self.warped == Some(of) {
+            return;
+        }
+        let (columns, rows) = wall.node_count();
+        let nodes = wall.nodes(of.0.into(), of.1);
+        let texels: Vec<[f32; 4]> = nodes
+            .iter()
+            .map(|[u, v, light]| [*u, *v, *light, 0.0])
+            .collect();
+        self.errors.extend(gl.take_errors());
+        gl.tex_image_rgba32f(pixels, columns as i32, rows as i32, &texels);
+        for (p, v) in [
+            (c::TEXTURE_MIN_FILTER, c::NEAREST),
+            (c::TEXTURE_MAG_FILTER, c::NEAREST),
+            (c::TEXTURE_MAX_LEVEL, 0),
+        ] {
+            gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
+        }
+        self.refused |= gl.drop_errors() > 0;
+        self.warped = (!self.refused).then_some(of);
+    }
+
     /// The picture of an output, computed by the CPU. None where the depth of RGBD, or the mask, is missing.
     fn picture_by_cpu(
         &self,
         tiles: Vec<RgbImage>,
-        depth: Option<&Depth>,
+        source: &Source,
         form: &Form,
         placement: &Placement,
     ) -> Result<Option<RgbImage>, String> {
+        let depth = source.depth.map(|(_, depth)| depth);
         let size = (placement.width, placement.height);
         let picture = match (form, &self.mask) {
             (Form::Layout(layout), _) => reference::arrange(&tiles, *layout, size),
@@ -433,10 +481,14 @@ impl Interleaver {
                 _ => return Ok(None),
             },
             (Form::Panel(_, filter), Some((_, mask))) => reference::filtered(&tiles, mask, *filter),
+            (Form::Wall(wall, fit), Some((_, mask))) => {
+                let nodes = wall.nodes(source.tiles.window.into(), *fit);
+                super::wall::wall(&tiles, mask, &nodes, wall.node_count().0)
+            }
             (Form::Interlaced(_), Some((_, mask))) => {
                 reference::interleave(&reference::eyes(tiles), mask)
             }
-            (Form::Panel(..) | Form::Interlaced(_), None) => return Ok(None),
+            (Form::Panel(..) | Form::Wall(..) | Form::Interlaced(_), None) => return Ok(None),
         };
         picture.map(Some).map_err(|e| e.to_string())
     }

@@ -24,6 +24,7 @@ mod sources;
 #[cfg(test)]
 mod tests;
 mod uniforms;
+pub mod wall;
 
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
@@ -35,13 +36,15 @@ pub use sources::Sources;
 
 use crate::atlas::Grid;
 use crate::config::{Anaglyph, Config, Filter, Interlace, Output};
-use crate::display::{Display, DisplayError, Mask, Placement};
+use crate::display::{Display, DisplayError, Fit, Kind, Mask, Placement, Wall};
 
 /// How the views are arranged in the picture.
 #[derive(Clone, Copy, Debug)]
 pub enum Form<'a> {
     /// Each subpixel by the mask of a display; by its fine mask where views are filtered.
     Panel(&'a Display, Filter),
+    /// Each subpixel by the masks of a wall's panels, where their warps take it in the picture.
+    Wall(&'a Wall, Fit),
     /// The first and the last view, by the pixels of the screen.
     Interlaced(Interlace),
     /// Whole views beside each other.
@@ -62,7 +65,13 @@ impl<'a> Form<'a> {
             Output::Interlaced(interlace) => Self::Interlaced(interlace),
             Output::Anaglyph(anaglyph) => Self::Anaglyph(anaglyph),
             Output::Rgbd => Self::Rgbd,
-            _ => Self::Panel(display, config.filter),
+            _ => match &display.kind {
+                Kind::Wall(wall) => {
+                    let fit = config.panel.as_ref().map(|panel| panel.fit);
+                    Self::Wall(wall, fit.unwrap_or_default())
+                }
+                _ => Self::Panel(display, config.filter),
+            },
         }
     }
 
@@ -103,7 +112,7 @@ impl<'a> Form<'a> {
                 let (columns, rows) = layout.grid(views);
                 [1.0 / f64::from(columns), 1.0 / f64::from(rows)]
             }
-            Self::Anaglyph(_) | Self::Rgbd => [1.0; 2],
+            Self::Wall(..) | Self::Anaglyph(_) | Self::Rgbd => [1.0; 2],
         }
     }
 
@@ -112,6 +121,7 @@ impl<'a> Form<'a> {
         let made = match self {
             Self::Panel(display, Filter::Nearest) => display.mask(placement, views),
             Self::Panel(display, _) => display.fine_mask(placement, views),
+            Self::Wall(wall, _) => wall.mask(placement, views),
             Self::Interlaced(interlace) => match Display::named(interlace.display()) {
                 Ok(display) => display.mask(placement, 2),
                 Err(error) => return Some(Err(error)),

@@ -20,6 +20,8 @@ pub enum Pass {
     Anaglyph,
     /// The own view beside its depth.
     Rgbd,
+    /// The pixels of all panels of a wall.
+    Wall,
     /// A copy of a 2D texture, with which the cost of the others is compared.
     Copy,
     /// A step of the accumulation buffer.
@@ -94,7 +96,7 @@ pub enum Step {
 }
 
 impl Pass {
-    /// All passes that assemble a picture from views.
+    /// All passes that assemble a picture from views, but that of walls.
     pub const OUTPUTS: [Self; 10] = [
         Self::Interleave,
         Self::Texels(Texels::Subpixels),
@@ -112,7 +114,7 @@ impl Pass {
     pub fn all() -> impl Iterator<Item = Self> {
         Self::OUTPUTS
             .into_iter()
-            .chain([Self::Copy])
+            .chain([Self::Wall, Self::Copy])
             .chain(Step::ALL.map(Self::Accumulate))
             .chain(Synthesis::ALL.map(Self::Synthesis))
     }

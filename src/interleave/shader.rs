@@ -32,6 +32,7 @@ const REFERENCE: &str = include_str!("../../shaders/reference.wgsl");
 const DISTORTION: &str = include_str!("../../shaders/distortion.wgsl");
 const THROUGH: &str = include_str!("../../shaders/through.wgsl");
 const THROUGH_REFERENCE: &str = include_str!("../../shaders/through_reference.wgsl");
+const WALL: &str = include_str!("../../shaders/wall.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
@@ -51,6 +52,9 @@ pub const BLOCK_BOUNDS_UNIT: u32 = 4;
 pub const STEPS_UNITS: [u32; 2] = [5, 6];
 /// Texture units of the reference image of an occlusion camera: distortion map, colours, depths, and distortions of the samples in pixels.
 pub const REFERENCE_UNITS: [u32; 4] = [5, 6, 7, 8];
+
+/// Texture unit of the nodes of a wall: a 2D texture of floats; see `shaders/wall.wgsl`.
+pub const WARP_UNIT: u32 = 9;
 
 /// A shader stage of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -302,6 +306,7 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Whole => "whole",
         Pass::Anaglyph => "anaglyph",
         Pass::Rgbd => "rgbd",
+        Pass::Wall => "wall",
         Pass::Copy => "copied",
         Pass::Accumulate(Step::Fill) => "fill",
         Pass::Accumulate(Step::Copy) => "copy",
@@ -332,6 +337,7 @@ pub(super) fn source(pass: Pass) -> String {
         Pass::Layout | Pass::Whole => [COVER, COMMON, ATLAS, LAYOUT].join("\n"),
         Pass::Anaglyph => [COVER, COMMON, ATLAS, ANAGLYPH].join("\n"),
         Pass::Rgbd => [COVER, COMMON, ATLAS, RGBD].join("\n"),
+        Pass::Wall => [COVER, COMMON, ATLAS, MASK, WALL].join("\n"),
         Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
         Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::DistortionMap) => {

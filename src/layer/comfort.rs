@@ -265,7 +265,10 @@ impl Layer {
 
     /// The disparity that the display can show between neighbouring views.
     fn budget(&self) -> Budget {
-        let (width, views) = (self.placement().width, self.session.config.views);
+        let (width, views) = (
+            self.session.picture_width(self.size()),
+            self.session.config.views,
+        );
         match self.output().is_stereo() {
             true => self.session.config.display.budget_of_eyes(views, width),
             false => self.session.config.display.budget(views, width),
@@ -283,7 +286,7 @@ impl Layer {
 
     /// Pixels of the panel per unit of normalised device coordinates.
     fn half_width(&self) -> f64 {
-        f64::from(self.placement().width) / 2.0
+        f64::from(self.session.picture_width(self.size())) / 2.0
     }
 
     /// Finds the cameras for the distances that were seen in a frame; `p` is the projection of its scene.

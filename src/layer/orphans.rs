@@ -9,7 +9,7 @@ impl Layer {
     /// The context is destroyed: leaves the objects that its share group keeps to the other contexts.
     pub fn leave(mut self: Box<Self>) {
         let mut lists = self.session.group.lists();
-        let mask = Some(self.targets.interleaver.texture()).filter(|t| !t.is_zero());
+        let of_panels = self.targets.interleaver.textures();
         let atlases = || self.atlases().chain(self.canvases.atlases());
         for atlas in atlases() {
             lists.orphans.framebuffers.extend(atlas.framebuffers());
@@ -18,7 +18,7 @@ impl Layer {
         lists.orphans.framebuffers.extend(framebuffers);
         let textures = atlases().flat_map(|atlas| atlas.textures());
         let textures = textures.copied();
-        let textures = textures.chain(mask);
+        let textures = textures.chain(of_panels);
         lists.orphans.textures.extend(textures);
         let parked = self.canvases.atlases_mut();
         for atlas in std::iter::once(&mut self.targets.atlas).chain(parked) {

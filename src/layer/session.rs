@@ -3,7 +3,7 @@
 
 use super::{Member, OnScreen, Panel, Support, auto};
 use crate::config::{Config, Live, Profile, Strategy};
-use crate::display::{Display, Placement};
+use crate::display::{Display, Kind, Placement};
 use crate::gl::Gl;
 use crate::plan::decide::has_depths_of_replay;
 use std::sync::Arc;
@@ -91,8 +91,19 @@ impl Session {
     /// Place on the panel of the picture of a window of this size, all in pixels.
     pub(super) fn placement(&self, window: (u32, u32)) -> Placement {
         match (self.panel.size, &self.config.panel) {
-            (Some(panel), Some(config)) => config.fit.place(window, panel),
+            (Some((width, height)), Some(config)) => match self.display().kind {
+                Kind::Wall(_) => Placement::full_screen(width, height),
+                _ => config.fit.place(window, (width, height)),
+            },
             _ => self.window_placement(window),
+        }
+    }
+
+    /// Pixels of the panel over which the picture of a window of this size is spread, from its left to its right.
+    pub(super) fn picture_width(&self, window: (u32, u32)) -> u32 {
+        match (&self.display().kind, self.panel.size, &self.config.panel) {
+            (Kind::Wall(wall), Some(_), Some(config)) => wall.picture_width(window, config.fit),
+            _ => self.placement(window).width,
         }
     }
 

@@ -6,6 +6,7 @@ use super::support::Support;
 use super::{LayerError, accumulate, framebuffer};
 use crate::atlas::{Atlas, Names, OsdImage, PanelImage};
 use crate::config::{Config, ViewScale};
+use crate::display::Kind;
 use crate::gl::shadow::are_textures_taken;
 use crate::gl::{FramebufferName, Gl, TextureName};
 use crate::interleave::Interleaver;
@@ -41,7 +42,10 @@ pub(super) fn interleaving(gl: &Gl, config: &Config, support: &Support) -> (Name
     if are_textures_taken() {
         names.hide();
     }
-    let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
+    let interleaver = {
+        let wall = matches!(config.display.kind, Kind::Wall(_));
+        Interleaver::new(gl, &mut names, support.glsl, wall, config.synthesis())
+    };
     (names, interleaver)
 }
 
@@ -95,7 +99,7 @@ impl Targets {
     pub(super) fn owns_texture(&self, name: TextureName) -> bool {
         let accumulation = self.accumulated.buffer.as_ref();
         self.atlas.owns(name)
-            || self.interleaver.texture() == name
+            || self.interleaver.textures().any(|own| own == name)
             || self
                 .panel
                 .as_ref()

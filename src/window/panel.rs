@@ -3,10 +3,11 @@
 //! It belongs to the launcher, so the program never sees its connection to the X server, and neither waits for the other. The X server reads the
 //! pictures from the file that they are written to, where it can.
 
-use super::present::Presenter;
+use super::present::{Place, Presenter};
 use super::{Window, WindowError, wake};
 use crate::control::panel::{Frame, Hello, PIXEL, SLOTS, Sent, slot_bytes};
 use crate::control::place;
+use crate::display::Wall;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::net::sockopt::socket_peercred;
 use std::fs::{File, OpenOptions};
@@ -47,9 +48,38 @@ impl PanelServer {
     /// # Errors
     /// There is no X server, no such monitor, or no place for the socket.
     pub fn open(wanted: Option<&str>, panel: Option<(u32, u32)>) -> Result<Self, WindowError> {
-        let socket = Self::place();
         let window = Window::passive(TITLE, wanted, panel)?;
-        let presenter = Presenter::new(&window)?;
+        let size = window.monitor().size;
+        let part = Part {
+            presenter: Presenter::new(&window)?,
+            window,
+            at: [0, 0],
+            size,
+        };
+        Self::serve(vec![part], size)
+    }
+
+    /// Opens a window over the monitor of each panel of a wall.
+    ///
+    /// # Errors
+    /// As [`PanelServer::open`].
+    pub fn open_wall(wall: &Wall) -> Result<Self, WindowError> {
+        let mut parts = Vec::new();
+        for panel in wall.panels() {
+            let window = Window::passive(TITLE, Some(&panel.monitor), None)?;
+            window.check(panel.pixels)?;
+            parts.push(Part {
+                presenter: Presenter::new(&window)?,
+                window,
+                at: panel.at,
+                size: panel.pixels,
+            });
+        }
+        Self::serve(parts, wall.sheet())
+    }
+
+    fn serve(parts: Vec<Part>, size: (u32, u32)) -> Result<Self, WindowError> {
+        let socket = Self::place();
         let user = rustix::process::geteuid().as_raw();
         let folder = folder();
         let no = |error: &dyn std::fmt::Display| WindowError::Socket(error.to_string());
@@ -59,8 +89,8 @@ impl PanelServer {
         place::close_to_others(&socket).map_err(|error| no(&error))?;
         let (stop, stopped) = UnixStream::pair().map_err(|error| no(&error))?;
         let served = Served {
-            window,
-            presenter,
+            parts,
+            size,
             listener,
             stopped,
             folder,
@@ -102,8 +132,9 @@ fn folder() -> PathBuf {
 
 /// What the thread works with.
 struct Served {
-    window: Window,
-    presenter: Presenter,
+    parts: Vec<Part>,
+    /// Width and height of the picture in pixels.
+    size: (u32, u32),
     listener: UnixListener,
     stopped: UnixStream,
     folder: PathBuf,
@@ -114,14 +145,23 @@ struct Served {
     waiting: Option<(u32, Frame)>,
 }
 
+/// A window, and the part of the picture that it shows.
+struct Part {
+    window: Window,
+    presenter: Presenter,
+    /// Left and top in the picture, and width and height, in pixels.
+    at: [u32; 2],
+    size: (u32, u32),
+}
+
 /// A program whose pictures are shown.
 struct Client {
     number: u32,
     stream: UnixStream,
     file: File,
     path: PathBuf,
-    /// The file as the X server knows it; none where it cannot read files.
-    segment: Option<Seg>,
+    /// The file as the X server knows it, for each window; none where it cannot read files.
+    segments: Vec<Option<Seg>>,
     /// Bytes of a message that are not complete.
     pending: Vec<u8>,
     /// Its process, if the system tells.
@@ -147,7 +187,9 @@ impl Served {
             }
             self.show()?;
             self.wake_idle();
-            self.window.connection.flush()?;
+            for part in &self.parts {
+                part.window.connection.flush()?;
+            }
             let ready = self
                 .wait()
                 .map_err(|e| WindowError::Socket(e.to_string()))?;
@@ -170,11 +212,16 @@ impl Served {
 
     /// Handles the events of the window. Returns whether it was closed.
     fn handle_events(&mut self) -> Result<bool, WindowError> {
-        while let Some(event) = self.window.connection.poll_for_event()? {
-            match event {
-                XEvent::Expose(_) => self.presenter.show_again(&self.window)?,
-                event if self.window.is_close(&event) => return Ok(true),
-                event => self.presenter.handle(&event),
+        for Part {
+            window, presenter, ..
+        } in &mut self.parts
+        {
+            while let Some(event) = window.connection.poll_for_event()? {
+                match event {
+                    XEvent::Expose(_) => presenter.show_again(window)?,
+                    event if window.is_close(&event) => return Ok(true),
+                    event => presenter.handle(&event),
+                }
             }
         }
         Ok(false)
@@ -183,14 +230,17 @@ impl Served {
     /// Waits until something can be read.
     fn wait(&self) -> io::Result<Ready> {
         let input = PollFlags::IN;
-        let x = self.window.connection.stream();
         let mut all = vec![
-            PollFd::new(x, input),
             PollFd::new(&self.stopped, input),
             PollFd::new(&self.listener, input),
         ];
         let clients = self.clients.iter();
         all.extend(clients.map(|client| PollFd::new(&client.stream, input)));
+        let windows = self
+            .parts
+            .iter()
+            .map(|part| part.window.connection.stream());
+        all.extend(windows.map(|stream| PollFd::new(stream, input)));
         let timeout = self
             .clients
             .iter()
@@ -204,10 +254,10 @@ impl Served {
             Err(error) => return Err(error.into()),
         }
         let ready = |fd: &PollFd<'_>| !fd.revents().is_empty();
-        let clients = self.clients.iter().zip(&all[3..]);
+        let clients = self.clients.iter().zip(&all[2..]);
         Ok(Ready {
-            stopped: ready(&all[1]),
-            listener: ready(&all[2]),
+            stopped: ready(&all[0]),
+            listener: ready(&all[1]),
             clients: clients
                 .filter(|(_, fd)| ready(fd))
                 .map(|(client, _)| client.number)
@@ -228,7 +278,7 @@ impl Served {
             .create_new(true)
             .mode(MODE)
             .open(&path)?;
-        let size = self.window.monitor().size;
+        let size = self.size;
         let hello = Hello {
             size,
             file: path.clone(),
@@ -236,7 +286,7 @@ impl Served {
         let mut client = Client {
             number: self.count,
             stream: stream.try_clone()?,
-            segment: None,
+            segments: Vec::new(),
             pending: Vec::new(),
             process: peer(&stream),
             behind: None,
@@ -245,29 +295,17 @@ impl Served {
             file,
         };
         client.file.set_len(slot_bytes(size) * u64::from(SLOTS))?;
-        client.segment = self.attach(&client.file);
+        let windows = self.parts.iter().map(|part| &part.window);
+        client.segments = windows.map(|window| attach(window, &client.file)).collect();
         stream.write_all(hello.line().as_bytes())?;
         stream.set_nonblocking(true)?;
         self.clients.push(client);
         Ok(())
     }
 
-    /// Lets the X server read a file. None where it cannot, as over a network.
-    fn attach(&self, file: &File) -> Option<Seg> {
-        let c = &self.window.connection;
-        let known = c.shm_query_version().ok()?.reply().ok()?;
-        if (known.major_version, known.minor_version) < (1, 2) || !self.window.is_bgrx() {
-            return None;
-        }
-        let segment = c.generate_id().ok()?;
-        let file = file.as_fd().try_clone_to_owned().ok()?;
-        c.shm_attach_fd(segment, file, false).ok()?.check().ok()?;
-        Some(segment)
-    }
-
     /// Receives frames of a program, and shows the last one. Returns false where it has ended.
     fn receive(&mut self, number: u32) -> Result<bool, WindowError> {
-        let size = self.window.monitor().size;
+        let size = self.size;
         let Some(client) = self
             .clients
             .iter_mut()
@@ -311,30 +349,49 @@ impl Served {
         let ended = self
             .clients
             .extract_if(.., |client| client.number == number);
-        for segment in ended.filter_map(|client| client.segment) {
-            self.window.connection.shm_detach(segment)?;
+        for client in ended {
+            for (part, segment) in self.parts.iter().zip(&client.segments) {
+                if let Some(segment) = segment {
+                    part.window.connection.shm_detach(*segment)?;
+                }
+            }
         }
         Ok(())
     }
 
-    /// Shows the picture that waits, if a pixmap is free for it.
+    /// Shows the picture that waits, if a pixmap is free for it in each window.
     fn show(&mut self) -> Result<(), WindowError> {
         let Some((number, frame)) = self.waiting else {
             return Ok(());
         };
-        let place = (frame.at, frame.size);
-        let Some((buffer, pixmap)) = self.presenter.buffer(&self.window, place)? else {
+        if !self.parts.iter().all(|part| part.presenter.is_free()) {
             return Ok(());
-        };
+        }
         self.waiting = None;
         let Some(client) = self.clients.iter().find(|client| client.number == number) else {
             return Ok(());
         };
-        put(&self.window, client, frame, pixmap)?;
-        // The server has read the picture when it answers.
-        self.window.connection.sync()?;
+        let mut buffers = Vec::new();
+        for (part, segment) in self.parts.iter_mut().zip(&client.segments) {
+            let seen = Seen::of(frame, part);
+            let Part {
+                window, presenter, ..
+            } = part;
+            let Some((buffer, pixmap)) = presenter.buffer(window, seen.place)? else {
+                continue;
+            };
+            put(window, (client, *segment, self.size), frame, (seen, pixmap))?;
+            buffers.push(buffer);
+        }
+        for part in &self.parts {
+            // The server has read the picture when it answers.
+            part.window.connection.sync()?;
+        }
         free(client, frame.slot);
-        self.presenter.show(&self.window, buffer)
+        for (part, buffer) in self.parts.iter_mut().zip(buffers) {
+            part.presenter.show(&part.window, buffer)?;
+        }
+        Ok(())
     }
 
     /// Wakes programs that have shown no frame for a while and whose newest picture is not here.
@@ -381,26 +438,69 @@ fn free(client: &Client, slot: u8) {
     let _ = (&client.stream).write(&[slot]);
 }
 
-/// Puts a picture into a pixmap.
-fn put(window: &Window, client: &Client, frame: Frame, pixmap: Pixmap) -> Result<(), WindowError> {
-    let ([x, y], [width, height]) = (frame.at.map(|v| v as i16), frame.size);
+/// Lets the X server read a file. None where it cannot, as over a network.
+fn attach(window: &Window, file: &File) -> Option<Seg> {
+    let c = &window.connection;
+    let known = c.shm_query_version().ok()?.reply().ok()?;
+    if (known.major_version, known.minor_version) < (1, 2) || !window.is_bgrx() {
+        return None;
+    }
+    let segment = c.generate_id().ok()?;
+    let file = file.as_fd().try_clone_to_owned().ok()?;
+    c.shm_attach_fd(segment, file, false).ok()?.check().ok()?;
+    Some(segment)
+}
+
+/// The part of a picture that a window shows.
+#[derive(Clone, Copy)]
+struct Seen {
+    /// Left and top in the picture as it lies in its slot.
+    from: [u16; 2],
+    /// Where that is in the window.
+    place: Place,
+}
+
+impl Seen {
+    fn of(frame: Frame, part: &Part) -> Self {
+        let axis = |axis: usize, side: u32| {
+            let (start, end) = (part.at[axis], part.at[axis] + side);
+            let first = u32::from(frame.at[axis]).max(start);
+            let last = (u32::from(frame.at[axis]) + u32::from(frame.size[axis])).min(end);
+            let from = first - u32::from(frame.at[axis]);
+            [from, first - start, last.saturating_sub(first)].map(|n| n as u16)
+        };
+        let ([x, left, width], [y, top, height]) = (axis(0, part.size.0), axis(1, part.size.1));
+        Self {
+            from: [x, y],
+            place: ([left, top], [width, height]),
+        }
+    }
+}
+
+/// Puts the part of a picture that a window shows into a pixmap. `size`: that of the whole picture.
+fn put(
+    window: &Window,
+    (client, segment, size): (&Client, Option<Seg>, (u32, u32)),
+    frame: Frame,
+    (seen, pixmap): (Seen, Pixmap),
+) -> Result<(), WindowError> {
+    let ([x, y], [width, height]) = seen.place;
     if width == 0 || height == 0 {
         return Ok(());
     }
-    let offset = slot_bytes(window.monitor().size) * u64::from(frame.slot);
-    let c = &window.connection;
-    if let Some(segment) = client.segment {
-        c.shm_put_image(
+    let offset = slot_bytes(size) * u64::from(frame.slot);
+    if let Some(segment) = segment {
+        window.connection.shm_put_image(
             pixmap,
             window.gc,
+            frame.size[0],
+            frame.size[1],
+            seen.from[0],
+            seen.from[1],
             width,
             height,
-            0,
-            0,
-            width,
-            height,
-            x,
-            y,
+            x as i16,
+            y as i16,
             super::DEPTH,
             ImageFormat::Z_PIXMAP.into(),
             false,
@@ -409,8 +509,15 @@ fn put(window: &Window, client: &Client, frame: Frame, pixmap: Pixmap) -> Result
         )?;
         return Ok(());
     }
-    let mut pixels = vec![0; usize::from(width) * usize::from(height) * PIXEL];
-    let read = client.file.read_exact_at(&mut pixels, offset);
-    read.map_err(|error| WindowError::Socket(error.to_string()))?;
-    window.put(pixmap, pixels, (width, height), (x, y))
+    let row = usize::from(width) * PIXEL;
+    let mut pixels = vec![0; row * usize::from(height)];
+    for (number, out) in (0..).zip(pixels.chunks_exact_mut(row)) {
+        let texel = u64::from(seen.from[1]) + number;
+        let texel = texel * u64::from(frame.size[0]) + u64::from(seen.from[0]);
+        let read = client
+            .file
+            .read_exact_at(out, offset + texel * PIXEL as u64);
+        read.map_err(|error| WindowError::Socket(error.to_string()))?;
+    }
+    window.put(pixmap, pixels, (width, height), (x as i16, y as i16))
 }

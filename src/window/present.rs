@@ -65,6 +65,12 @@ impl Presenter {
         })
     }
 
+    /// Whether [`Presenter::buffer`] has a pixmap.
+    pub(super) fn is_free(&self) -> bool {
+        let mut all = self.buffers.iter().enumerate();
+        all.any(|(at, buffer)| !buffer.busy && Some(at) != self.last)
+    }
+
     /// A pixmap that a picture can be put into at this place; it is black elsewhere. None while the server reads all of them.
     pub(super) fn buffer(
         &mut self,

@@ -83,7 +83,8 @@ unsafe fn ask(context: &Context) -> Probe {
                 .map(str::to_owned);
             probe.strategies = names.collect();
             probe.notes = support.notes(gl.is_es());
-            let interleaver = Interleaver::new(&gl, &mut Default::default(), support.glsl, None);
+            let interleaver =
+                Interleaver::new(&gl, &mut Default::default(), support.glsl, false, None);
             probe.notes.extend(interleaver.note());
         }
         Err(error) => probe.notes.push(error.to_string()),

@@ -10,6 +10,7 @@ mod fuzz;
 mod kinds;
 mod turns;
 mod vectors;
+mod wall;
 mod written;
 
 fn seeded(cases: u32) -> ProptestConfig {

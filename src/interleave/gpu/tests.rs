@@ -30,7 +30,7 @@ impl Stage {
         let tiles = Tiles::new(4, [64, 48], Grid::FULL, layout, limits).expect("fits");
         let window = Window::ask(&gl, 64, 48, true);
         let atlas = Atlas::new(&gl, names, &window, tiles, true).expect("an atlas");
-        let interleaver = Interleaver::new(&gl, names, glsl, None);
+        let interleaver = Interleaver::new(&gl, names, glsl, false, None);
         gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         let fixed = !gl.is_es() && gl.get_integer(c::CONTEXT_PROFILE_MASK) == 2;
         let neutral = Neutral::enter(&gl, fixed, false);
@@ -102,7 +102,7 @@ fn a_picture_is_one_triangle_over_the_window() {
             );
             let mask = TextureName(state.int(Scope::Unit(MASK_UNIT), c::TEXTURE_BINDING_2D));
             let wanted = if output == Output::Panel {
-                stage.interleaver.texture()
+                stage.interleaver.textures().next().unwrap_or_default()
             } else {
                 TextureName::ZERO
             };
@@ -154,6 +154,7 @@ fn making_the_passes_leaves_no_trace() {
             &gl,
             &mut Names::default(),
             450,
+            false,
             Some(DisocclusionSource::Nothing),
         );
         assert_eq!(interleaver.note(), None);

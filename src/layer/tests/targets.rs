@@ -134,7 +134,8 @@ fn they_know_their_names() {
     let targets = &bench.layer.targets;
     let ours: Vec<TextureName> = targets.atlas.textures().to_vec();
     assert!(!ours.is_empty() && ours.iter().all(|&name| targets.owns_texture(name)));
-    assert!(targets.owns_texture(targets.interleaver.texture()));
+    let owned = |texture| targets.owns_texture(texture);
+    assert!(targets.interleaver.textures().all(owned));
     assert!(!targets.owns_texture(texture) && !bench.layer.owns_texture(texture));
     let framebuffers: Vec<FramebufferName> = targets.atlas.framebuffers().collect();
     assert!(
