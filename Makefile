@@ -55,7 +55,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build release demos demo bench overhead pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
+.PHONY: help build release demos demo bench overhead panel-cost pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -207,6 +207,9 @@ fuzz: rust ## feed random files, requests and shaders to what reads them, each k
 shaders: packages build ## rewrite real shaders, of programs and of piglit, and compile them before and after (140 MB, ten minutes)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	$(CARGO) test --release --test shaders full_ -- --ignored --nocapture
+
+panel-cost: build demos ## what the panel's window and the on-screen display cost
+	@sh scripts/panel-cost.sh $(BIN) $(DEMOS)
 
 overhead: packages build demos ## measure the layer where it does nothing: switched off, and with one view (ten minutes)
 	@sh scripts/overhead.sh $(BIN) $(TARGET)/overhead $(DEMOS)

@@ -292,6 +292,49 @@ fn all_displays_have_their_picture() {
     }
 }
 
+/// Mean difference of two pictures of one size, in steps of 255.
+fn mean(a: &RgbImage, b: &RgbImage) -> f64 {
+    let off = a
+        .iter()
+        .zip(b.iter())
+        .map(|(a, b)| u64::from(a.abs_diff(*b)));
+    off.sum::<u64>() as f64 / a.len() as f64
+}
+
+/// With `--view-scale auto` views have as many pixels as the panel shows of them, whatever the window has: the picture is that of a window of the panel's
+/// size, or nearly.
+#[test]
+fn views_have_the_resolution_of_the_panel() {
+    let panel = Case {
+        panel: (1280, 960),
+        ..CASE
+    };
+    for display in ["huebner8", "lenticular-8"] {
+        let panel = Case { display, ..panel };
+        let exact = Case {
+            window: (1280, 960),
+            ..panel
+        };
+        let exact = exact.expected();
+        let screen = sized_screen(panel.panel);
+        let coarse = mean(&panel.expected(), &exact);
+        let child = panel.start(&screen, &["--view-scale", "auto"]);
+        let limit = Instant::now() + LIMIT;
+        let user = User::at(screen.display());
+        let fine = loop {
+            let window = user.window("manyview");
+            let shown = window.map(|window| mean(&user.picture(window), &exact));
+            match shown {
+                Some(fine) if fine < 0.5 * coarse || Instant::now() > limit => break fine,
+                _ => assert!(Instant::now() < limit, "a window"),
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        };
+        end(child, display);
+        assert!(fine < 0.5 * coarse, "{display}: {fine} of {coarse}");
+    }
+}
+
 /// The window covers the monitor that is named, to whatever side of the others, and the mask counts from that monitor's corner.
 #[test]
 fn the_monitor_is_the_one_that_is_named() {

@@ -53,6 +53,17 @@ impl Grid {
         }
     }
 
+    /// The same tiles by the pixels of another picture of the same scene, both of these sizes: that of the grid, and the other one.
+    pub fn resized(self, from: [u32; 2], to: [u32; 2]) -> Grid {
+        let [x, y] = [0, 1].map(|i| f64::from(from[i].max(1)) / f64::from(to[i].max(1)));
+        Grid {
+            across: self.across * x,
+            shear: self.shear * y,
+            up: self.up * y,
+            ..self
+        }
+    }
+
     /// A column of texels for each lens, the centres of which lie where the panel shows the view. `parts` is the number of parts into which a
     /// lens period is divided, N for a panel; `between` is the number of parts between neighbouring views, 1 for a panel. None where this
     /// saves too few texels, or too many of them lie outside the window.

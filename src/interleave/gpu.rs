@@ -365,7 +365,8 @@ impl Interleaver {
             Form::Panel(_, filter) => *filter,
             Form::Wall(..) | Form::Interlaced(_) => Filter::Nearest,
         };
-        let lenses = !tiles.grid.is_full() && filter == Filter::Nearest;
+        let same_size = [tiles.width, tiles.height] == size;
+        let lenses = filter == Filter::Nearest && !(tiles.grid.is_full() && same_size);
         let fits = tiles.rows << column_bits(tiles) < u32::from(GUARD);
         let places = (texels && filter == Filter::Nearest && fits).then_some(*tiles);
         let eyes = matches!(form, Form::Interlaced(_));

@@ -308,8 +308,9 @@ fn uniforms_are_found_by_name() {
         .collect();
     let (one, two) = (1.0f32.to_bits(), 2.0f32.to_bits());
     let (left, right) = ([one, one, one, 0], [two, two, two, 0]);
-    let column = [5.0f32, 6.0, 8.0, 10.0].map(f32::to_bits);
-    let row = [0.0f32, 7.0, 9.0, 11.0].map(f32::to_bits);
+    // By the pixels of the picture, 5 x 6, and not by those of the window, 1 x 2.
+    let column = [5.0f32 / 5.0, 6.0 * 2.0 / 6.0, 8.0, 10.0].map(f32::to_bits);
+    let row = [0.0f32, 7.0 * 2.0 / 6.0, 9.0, 11.0].map(f32::to_bits);
     let expected: [(&str, &[u32]); 18] = [
         ("tile", &[1, 2]),
         ("picture", &[5, 6]),

@@ -102,7 +102,8 @@ impl Uniforms {
         }
         let [white, black] = self.depth;
         words.put_floats([white, black, 0.0, 0.0]);
-        let grid = &tiles.grid;
+        // Of the window's pixels; the picture may have others.
+        let grid = tiles.grid.resized(tiles.window, self.picture);
         let [[x, y], [step_x, step_y]] = [grid.origin, grid.step];
         words.put_floats([grid.across, grid.shear, x, step_x].map(|v| v as f32));
         words.put_floats([0.0, grid.up, y, step_y].map(|v| v as f32));

@@ -11,8 +11,8 @@ use crate::plan::Unrepresentable;
 use crate::plan::decide::{Demand, Detail, retreat};
 use crate::view::ViewIndex;
 
-/// The grid of the views of a window of this size. `shader`: the output is made on the GPU, and covers the window, so that it can sample tiles that
-/// are aligned with the panel's lenses.
+/// The grid of the views of a window of this size. `shader`: the output is made on the GPU, so that it can sample tiles that are aligned with the
+/// panel's lenses.
 pub(super) fn grid(
     config: &Config,
     display: &Display,
@@ -35,6 +35,7 @@ pub(super) fn grid(
             (detail == Detail::SampleAligned && shader)
                 .then(|| form.sample_aligned(placement, config.views))
                 .flatten()
+                .map(|grid| grid.resized(picture, window))
                 .unwrap_or_else(|| scaled(form.share(config.views), picture))
         }
     }
@@ -53,7 +54,7 @@ impl Layer {
             self.output(),
             (self.size().into(), &self.placement()),
             self.targets.detail,
-            self.targets.interleaver.on_gpu() && self.session.panel.size.is_none(),
+            self.targets.interleaver.on_gpu(),
         )
     }
 
