@@ -1,6 +1,8 @@
 //! The panel's own window: its picture is, subpixel for subpixel, what the CPU interleaves of the same views at the panel's size.
 #![forbid(unsafe_code)]
 
+#[path = "control/running.rs"]
+mod running;
 mod support;
 #[path = "support/x.rs"]
 mod x;
@@ -9,6 +11,7 @@ use image::{GenericImageView, RgbImage};
 use manyview::config::panel::load;
 use manyview::display::{Display, Fit};
 use manyview::interleave::reference;
+use running::Running;
 use serde_json::Value;
 use std::io::Read;
 use std::path::PathBuf;
@@ -438,3 +441,76 @@ fn what_cannot_be_is_one_line() {
         "own, quilt",
     );
 }
+
+/// The program's own window, of its size.
+fn own_window(user: &User) -> u32 {
+    running::until("the program's window", || {
+        let mut all = user.windows().into_iter();
+        all.find(|window| user.picture(*window).dimensions() == STAYS)
+    })
+}
+
+/// Width and height of the window of `stays`.
+const STAYS: (u32, u32) = (96, 64);
+
+/// A program with a window of its own: that shows the program's own view, or what is asked for, as if there were no panel; and the panel's picture stays as it is
+/// while the window is moved.
+#[test]
+fn the_programs_window_keeps_its_own_picture() {
+    let bare = {
+        let screen = sized_screen((300, 200));
+        let mut running = Running::start(&screen, &[("DISABLE", "1")]);
+        let shown = running.steady_window();
+        assert_eq!(running.end().0, Some(0));
+        shown
+    };
+    let anaglyph = {
+        let screen = sized_screen((300, 200));
+        let options = [("VIEWS", "3"), ("OUTPUT", "anaglyph"), CAMERA[0], CAMERA[1]];
+        let mut running = Running::start(&screen, &options);
+        let shown = running.steady_window();
+        assert_eq!(running.end().0, Some(0));
+        shown
+    };
+    assert_ne!(bare, anaglyph);
+    for (output, expected) in [("own", &bare), ("anaglyph", &anaglyph)] {
+        let screen = sized_screen((700, 300));
+        let user = User::at(screen.display());
+        user.add_monitor("desk", [0, 0, 300, 300]);
+        user.add_monitor("panel", [300, 0, 400, 300]);
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut command = manyview();
+        command.args([
+            "run",
+            "--panel",
+            "panel",
+            "--display",
+            "lenticular-3",
+            "--views",
+            "3",
+        ]);
+        command.args(["--window-output", output]).args(CAMERAS);
+        command.arg("--").arg(running::stays());
+        let mut running = Running::start_in(folder, &screen, &mut command);
+        let window = own_window(&user);
+        running::until("its picture", || {
+            (user.picture(window) == *expected).then_some(())
+        });
+        let panel = running::until("the panel's window", || user.window("manyview"));
+        let before = running::until("a picture of the panel", || {
+            let shown = user.picture(panel);
+            shown
+                .pixels()
+                .any(|pixel| pixel.0 != [0; 3])
+                .then_some(shown)
+        });
+        user.move_to(window, [150, 90]);
+        std::thread::sleep(Duration::from_millis(300));
+        assert_eq!(user.place(window), [150, 90]);
+        running::same(&user.picture(panel), &before, "the panel after the move");
+        running::same(&user.picture(window), expected, "the window after the move");
+        assert_eq!(running.end(), (Some(0), String::new()), "{output}");
+    }
+}
+
+const CAMERA: [(&str, &str); 2] = [("SEPARATION", "0.02"), ("CONVERGENCE", "8")];

@@ -133,7 +133,8 @@ pub(super) fn looks_like_path(path: &Path) -> bool {
             .is_some_and(|e| known.iter().any(|k| e == *k))
 }
 
-pub(super) fn load(path: &Path) -> Result<Display, DisplayError> {
+/// `in_wall`: it is a panel of a wall, which cannot be a wall itself.
+pub(super) fn load(path: &Path, in_wall: bool) -> Result<Display, DisplayError> {
     let is = |extension: &str| {
         path.extension()
             .is_some_and(|e| e.eq_ignore_ascii_case(extension))
@@ -145,11 +146,11 @@ pub(super) fn load(path: &Path) -> Result<Display, DisplayError> {
     if is("json") {
         return calibration::read(&path.display().to_string(), stem(path), &text);
     }
-    from_toml(path, &text)
+    from_toml(path, &text, in_wall)
 }
 
 /// `path` for messages, and for files beside it.
-pub(super) fn from_toml(path: &Path, text: &str) -> Result<Display, DisplayError> {
+pub(super) fn from_toml(path: &Path, text: &str, in_wall: bool) -> Result<Display, DisplayError> {
     let file = path.display().to_string();
     let table = text.parse().map_err(|e: toml::de::Error| {
         let before = e
@@ -163,7 +164,12 @@ pub(super) fn from_toml(path: &Path, text: &str) -> Result<Display, DisplayError
         }
     })?;
     let fields = Fields::new(file, table);
-    Reader { path, fields }.display()
+    Reader {
+        path,
+        fields,
+        in_wall,
+    }
+    .display()
 }
 
 fn read(path: &Path) -> Result<String, DisplayError> {
@@ -206,6 +212,7 @@ fn from_mask(path: &Path, name: String, views: Option<u32>) -> Result<Display, D
 struct Reader<'a> {
     path: &'a Path,
     fields: Fields,
+    in_wall: bool,
 }
 
 impl Reader<'_> {
@@ -266,7 +273,7 @@ impl Reader<'_> {
                 display.views = views.unwrap_or(display.views);
                 display
             }
-            "wall" => {
+            "wall" if !self.in_wall => {
                 only(&["panel", "viewer"])?;
                 let wall = wall(self.path, f)?;
                 let views = views.or(wall.panels().first().map(|panel| panel.display.views));

@@ -220,8 +220,16 @@ impl Display {
         let path = Path::new(name_or_path);
         match Self::named(name_or_path) {
             Err(DisplayError::Unknown { .. }) if path.is_file() || file::looks_like_path(path) => {
-                file::load(path)
+                file::load(path, false)
             }
+            result => result,
+        }
+    }
+
+    /// As [`Display::load`] for a panel of a wall: a path is relative to `folder`, and a wall is refused, so that none has itself as a panel.
+    fn load_for_wall(name_or_path: &str, folder: &Path) -> Result<Self, DisplayError> {
+        match Self::named(name_or_path) {
+            Err(DisplayError::Unknown { .. }) => file::load(&folder.join(name_or_path), true),
             result => result,
         }
     }

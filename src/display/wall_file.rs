@@ -41,6 +41,9 @@ const FIELDS: [&str; 11] = [
 /// The most panels, and pixels along a side of one.
 const MOST: usize = 64;
 const SIDE: u32 = 16_384;
+/// Of the sheet: what a mask may have.
+const MOST_SIDE: u32 = 32_768;
+const MOST_PIXELS: u64 = 1 << 26;
 /// Of light.
 const DARKEST: f64 = 0.05;
 
@@ -73,8 +76,14 @@ pub(super) fn wall(path: &Path, fields: &Fields) -> Result<Wall, DisplayError> {
             }
         }
     }
-    Wall::new(panels, viewer)
-        .ok_or_else(|| fields.wrong("panel", "panels with an area", value, PANELS))
+    let wall = Wall::new(panels, viewer);
+    let wall = wall.ok_or_else(|| fields.wrong("panel", "panels with an area", value, PANELS))?;
+    let (width, height) = wall.sheet();
+    if width.max(height) > MOST_SIDE || u64::from(width) * u64::from(height) > MOST_PIXELS {
+        let expected = "panels of at most 2^26 pixels in all";
+        return Err(fields.wrong("panel", expected, value, PANELS));
+    }
+    Ok(wall)
 }
 
 fn panel(path: &Path, f: &Fields) -> Result<WallPanel, DisplayError> {
@@ -83,15 +92,9 @@ fn panel(path: &Path, f: &Fields) -> Result<WallPanel, DisplayError> {
     let monitor = f.text("monitor", monitor, "a text", MONITOR)?.to_owned();
     let value = f.need("display", DISPLAY)?;
     let name = f.text("display", value, "a display", DISPLAY)?;
-    let display = match Display::named(name) {
-        Ok(display) => display,
-        Err(DisplayError::Unknown { .. }) => {
-            let beside = path.parent().unwrap_or(Path::new("")).join(name);
-            Display::load(&beside.to_string_lossy())?
-        }
-        Err(error) => return Err(error),
-    };
-    if matches!(display.kind, Kind::Wall(_) | Kind::Uncalibrated) {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let display = Display::load_for_wall(name, folder)?;
+    if matches!(display.kind, Kind::Uncalibrated) {
         return Err(f.wrong("display", "a panel with a mask", value, DISPLAY));
     }
     let pixels = f.pair("pixels", SIDE, PIXELS)?.or(display.facts.screen);

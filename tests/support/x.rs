@@ -6,8 +6,8 @@ use image::{Rgb, RgbImage};
 use x11rb::connection::Connection;
 use x11rb::protocol::randr::{ConnectionExt as _, MonitorInfo};
 use x11rb::protocol::xproto::{
-    AtomEnum, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus, KEY_PRESS_EVENT,
-    KEY_RELEASE_EVENT, PropMode, Window, WindowClass,
+    AtomEnum, ConfigureWindowAux, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus,
+    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, PropMode, Window, WindowClass,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -151,6 +151,13 @@ impl User {
             value.is_ok_and(|found| found.value == name.as_bytes())
         };
         self.windows().into_iter().find(named)
+    }
+
+    /// Moves a window as a window manager does.
+    pub(crate) fn move_to(&self, window: Window, [x, y]: [i16; 2]) {
+        let to = ConfigureWindowAux::new().x(i32::from(x)).y(i32::from(y));
+        let moved = self.connection.configure_window(window, &to);
+        moved.expect("sent").check().expect("moved");
     }
 
     /// Left and top of a child of the root window, in pixels of the screen.

@@ -5,7 +5,7 @@ use super::*;
 use crate::display::{calibration, file};
 
 /// What files are made of; mistakes are put in from here.
-const WORDS: [&str; 49] = [
+const WORDS: [&str; 58] = [
     "kind",
     "views",
     "pitch",
@@ -37,6 +37,15 @@ const WORDS: [&str; 49] = [
     "\"pattern\"",
     "\"looking-glass\"",
     "\"lenticular\"",
+    "\"wall\"",
+    "[[panel]]",
+    "monitor",
+    "width",
+    "homography",
+    "mesh-x",
+    "light",
+    "border",
+    "viewer",
     "0",
     "-1",
     "1e300",
@@ -57,7 +66,7 @@ const WORDS: [&str; 49] = [
     "0.1",
 ];
 
-const DESCRIPTIONS: [&str; 7] = [
+const DESCRIPTIONS: [&str; 8] = [
     "kind = \"slanted\"\nviews = 9\npitch = \"16/3\"\nslant = \"2/3\"\noffset = 0.5\norder = \"bgr\"\ncolour-offsets = [0, 0.1, 0.2]\nscreen = \"64x48\"\nrotation = 90",
     "kind = \"slanted\"\nviews = 9\npitch = 18.6579\nbias = { columns = 2, rows = 2, values = [0, 1, 2, 3] }\nrotation = 270",
     "kind = \"integer\"\nviews = 4\nhorizontal = 3\nsubpixel = 1\nvertical = 2\noffset = 1\nmodulus = 96\ntable = [0, 1, \"b\", 3]",
@@ -65,6 +74,7 @@ const DESCRIPTIONS: [&str; 7] = [
     "kind = \"pattern\"\npattern = [\"LRb\", \"RLb\"]\nsubpixels = true\nrotation = 180",
     "kind = \"huebner\"\nviews = 8\ndpi = 338\ncone = 40\nquilt = \"8x6\"",
     "kind = \"lenticular\"\nviews = 5\nname = \"x\"\nversion = 1",
+    "kind = \"wall\"\nviews = 8\n[[panel]]\nmonitor = \"a\"\ndisplay = \"rows\"\npixels = \"64x32\"\nat = [0, 0]\nwidth = 40\nturn = 3\nlight = 0.9\nborder = [1, 1, 1, 1]",
 ];
 
 const CALIBRATION: &str = r#"{"serial": "LKG-P1", "pitch": {"value": 52.59}, "slope": {"value": -7.21}, "center": {"value": 0.4},
@@ -185,7 +195,7 @@ fn fuzz(count: u64) {
                 }
                 bytes.truncate(1 + random.below(2 * bytes.len()));
                 fs::write(&picture, &bytes).unwrap();
-                file::load(&picture)
+                file::load(&picture, false)
             }
             1..=3 => match String::from_utf8(spoil(&mut random, CALIBRATION)) {
                 Ok(text) => calibration::read("x.json", "x".into(), &text),
@@ -194,7 +204,7 @@ fn fuzz(count: u64) {
             _ => {
                 let description = DESCRIPTIONS[random.below(DESCRIPTIONS.len())];
                 match String::from_utf8(spoil(&mut random, description)) {
-                    Ok(text) => file::from_toml(Path::new("x.toml"), &text),
+                    Ok(text) => file::from_toml(Path::new("x.toml"), &text, false),
                     Err(_) => continue,
                 }
             }

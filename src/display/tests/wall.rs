@@ -156,6 +156,7 @@ fn what_is_no_wall_is_refused_by_its_field() {
         ("display = 'rows'", ""),
         ("display = 'rows'", "display = 'no-such'"),
         ("display = 'rows'", "display = 'looking-glass-go'"),
+        ("display = 'rows'", "display = 'wall.toml'"),
         ("pixels = '100x60'", ""),
         ("at = [0, 0]", ""),
         ("at = [0, 0]", "at = [0]"),

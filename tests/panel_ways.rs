@@ -1,0 +1,40 @@
+//! What a window within the program would cost, against the copy that another process shows (decision 38).
+#![forbid(unsafe_code)]
+
+mod support;
+
+use std::path::Path;
+use support::{Compiled, built, lines, sized_screen};
+
+/// Of a frame, in ms, the middle of three turns.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[test]
+#[ignore = "it measures, for a minute: cargo test --release --test panel_ways -- --ignored --nocapture"]
+fn cost_of_the_ways_to_the_panel() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/panel_ways/ways.c");
+    let program = built("ways", &[&source], Compiled::Program, &["-lGL", "-lX11"]);
+    let screen = sized_screen((1984, 1080));
+    let ways = ["none", "window", "paced", "copy"];
+    println!("| a picture of 1920 x 1080 | frame, ms |\n|---|---|");
+    let mut all = [const { Vec::new() }; 4];
+    for _ in 0..3 {
+        for (way, times) in ways.iter().zip(&mut all) {
+            let mut command = support::bare(&program);
+            command
+                .args(["1920", "1080", "60", way])
+                .env_remove("LP_NUM_THREADS");
+            let time = lines(screen.give(&mut command)).trim().parse::<f64>();
+            times.push(time.expect("a number"));
+        }
+    }
+    let all = all.map(median);
+    for (way, time) in ways.iter().zip(all) {
+        println!("| {way} | {time:.1} |");
+    }
+    // What the program waits for is what speaks against the window: its copy costs it about as much.
+    assert!(all[3] < all[0] + 60.0, "{all:?}");
+}
