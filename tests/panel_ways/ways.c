@@ -103,8 +103,11 @@ int main(int argc, char **argv)
         if (file < 0 || ftruncate(file, (off_t)(bytes * SLOTS)) || socketpair(AF_UNIX, SOCK_STREAM, 0, ends))
             return 2;
         pictures = mmap(NULL, bytes * SLOTS, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-        if (!fork())
+        if (!fork()) {
+            close(ends[0]);
             serve(ends[1], pictures);
+        }
+        close(ends[1]);
         fcntl(ends[0], F_SETFL, O_NONBLOCK);
     }
     Window program = window(display, 0, 64, 48), panel = second ? window(display, 64, width, height) : 0;
@@ -121,8 +124,11 @@ int main(int argc, char **argv)
         (void (*)(Display *, GLXDrawable, int))glXGetProcAddress((const GLubyte *)"glXSwapIntervalEXT");
     if (interval) {
         interval(display, program, 0);
-        if (second)
+        if (second) {
+            glXMakeCurrent(display, panel, context);
             interval(display, panel, paced);
+            glXMakeCurrent(display, program, context);
+        }
     }
     static double times[MOST];
     for (int frame = 0; frame < frames; frame++) {
