@@ -170,6 +170,12 @@ fn without_a_panel_an_anaglyph_is_shown_and_said_to_be_one() {
 }
 
 #[test]
+fn a_mistake_is_one_line_all_the_same() {
+    let (code, _, said) = run(plain().args(["run", "--", "/no/such/program"]));
+    assert_eq!((code, said.lines().count()), (127, 1), "{said}");
+}
+
+#[test]
 fn displays_lists_what_is_plugged_in_and_set_up() {
     let (screen, folder) = (desk(), tempfile::tempdir().expect("a folder"));
     let list = |more: &[&str]| {

@@ -2,7 +2,6 @@
 #![forbid(unsafe_code)]
 
 use super::error::CommandError;
-use super::tell;
 use manyview::config::{Config, OptionId, Origin, Settings};
 use manyview::display::Kind;
 use manyview::plugged::{Chosen, Panel, Plugged};
@@ -11,11 +10,11 @@ use manyview::window::{PanelServer, WindowError};
 /// What is shown where there is no panel.
 const ANAGLYPH: &str = "anaglyph";
 
-/// Without a display and an output, takes the panel that is set up or plugged in, else an anaglyph, and says so in a line.
-pub(super) fn choose(settings: &mut Settings) -> Result<(), CommandError> {
+/// Without a display and an output, takes the panel that is set up or plugged in, else an anaglyph. Returns the line that says so, for when the program is started.
+pub(super) fn choose(settings: &mut Settings) -> Result<Option<String>, CommandError> {
     let given = |id| settings.get(id).is_some();
     if given(OptionId::Display) || given(OptionId::Output) {
-        return Ok(());
+        return Ok(None);
     }
     if let Some(chosen) = Chosen::read()? {
         let origin = Origin::File(Chosen::place()?);
@@ -23,9 +22,9 @@ pub(super) fn choose(settings: &mut Settings) -> Result<(), CommandError> {
             weakly(settings, OptionId::Panel, monitor, origin.clone());
         }
         settings.set(OptionId::Display, chosen.display, origin);
-        return Ok(());
+        return Ok(None);
     }
-    match Plugged::find().panel() {
+    let said = match Plugged::find().panel() {
         Panel::Calibrated {
             file,
             name,
@@ -35,29 +34,22 @@ pub(super) fn choose(settings: &mut Settings) -> Result<(), CommandError> {
                 Some(monitor) => format!("monitor {monitor}"),
                 None => "the program's own window".to_owned(),
             };
-            tell(&format_args!(
-                "shows on {name}, which is plugged in, in {place}"
-            ));
             if let Some(monitor) = monitor {
                 weakly(settings, OptionId::Panel, monitor, Origin::Default);
             }
             settings.set(OptionId::Display, file.to_string_lossy(), Origin::Default);
+            return Ok(Some(format!(
+                "shows on {name}, which is plugged in, in {place}"
+            )));
         }
-        Panel::Uncalibrated(name) => {
-            tell(&format_args!(
-                "{name} is plugged in and its calibration is not found, so this is an anaglyph for red-cyan glasses; mount the drive that \
-                 the device has, or copy its visual.json and give it with --display"
-            ));
-            settings.set(OptionId::Output, ANAGLYPH, Origin::Default);
-        }
-        Panel::None => {
-            tell(
-                &"no panel is plugged in or set up, so this is an anaglyph for red-cyan glasses; `manyview displays` says how a panel is set up",
-            );
-            settings.set(OptionId::Output, ANAGLYPH, Origin::Default);
-        }
-    }
-    Ok(())
+        Panel::Uncalibrated(name) => format!(
+            "{name} is plugged in and its calibration is not found, so this is an anaglyph for red-cyan glasses; mount the drive that \
+             the device has, or copy its visual.json and give it with --display"
+        ),
+        Panel::None => "no panel is plugged in or set up, so this is an anaglyph for red-cyan glasses; `manyview displays` says how a panel is set up".to_owned(),
+    };
+    settings.set(OptionId::Output, ANAGLYPH, Origin::Default);
+    Ok(Some(said))
 }
 
 /// Sets an option that nobody else has set.

@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let mut settings = arguments.layer.settings()?;
-    panel::choose(&mut settings)?;
+    let chosen = panel::choose(&mut settings)?;
     let status = match settings.get(OptionId::Prove) {
         Some(_) => Some(StatusFile::new(&mut settings)?),
         None => None,
@@ -43,6 +43,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     let launch = Launch::prepare(&arguments.command, &settings)?;
     let panel = panel::open(&launch.config)?;
+    if let Some(chosen) = chosen {
+        tell(&chosen);
+    }
     let explanation = launch.config.explain.as_ref();
     let before = explanation.map(|explain| stamps(&explain.files()));
     let ended = launch.run()?;
