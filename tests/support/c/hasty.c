@@ -43,6 +43,8 @@ int main(int argc, char **argv)
         return 2;
     for (int frame = 1; frame <= frames; frame++)
         show((float)frame / (float)frames);
+    /* That the window was uncovered when it was mapped is no news any more. */
+    XSync(display, True);
     for (;;) {
         struct pollfd inputs[2] = {{0, POLLIN, 0}, {ConnectionNumber(display), POLLIN, 0}};
         int uncovered = 0;
