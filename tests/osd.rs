@@ -11,7 +11,7 @@ use image::imageops::{FilterType, crop_imm, resize};
 use image::{DynamicImage, RgbImage};
 use running::{Running, same, until};
 use std::process::{Command, Stdio};
-use support::{Screen, demo, layered, sized_screen};
+use support::{Screen, demo, has, layered, sized_screen};
 use x::User;
 
 /// The window, and columns and rows of its quilt.
@@ -80,6 +80,9 @@ fn corners() -> impl Iterator<Item = [u32; 2]> {
 
 #[test]
 fn text_is_read_from_every_view_of_three_scenes() {
+    if !has("tesseract") {
+        return;
+    }
     for scene in ["teapot", "room", "sky"] {
         let screen = sized_screen(WINDOW);
         let running = start(&screen, scene, &[], &[("OSD", "values")]);
@@ -98,6 +101,9 @@ fn text_is_read_from_every_view_of_three_scenes() {
 
 #[test]
 fn it_is_shown_in_windows_of_every_kind() {
+    if !has("tesseract") {
+        return;
+    }
     for more in [
         &["--samples", "4"][..],
         &["--srgb"],
@@ -118,6 +124,9 @@ fn it_is_shown_in_windows_of_every_kind() {
 
 #[test]
 fn frames_and_views_that_are_drawn_are_counted() {
+    if !has("tesseract") {
+        return;
+    }
     let screen = sized_screen(WINDOW);
     let options = [("OSD", "fps"), ("STRATEGY", "hybrid"), ("FPS", "1")];
     let running = start(&screen, "teapot", &[], &options);
