@@ -144,7 +144,7 @@ fn frames_and_views_that_are_drawn_are_counted() {
 }
 
 #[test]
-fn captures_and_the_program_do_not_have_it() {
+fn captures_do_not_have_it() {
     let screen = sized_screen(WINDOW);
     let options = [("OSD", "crosshair"), ("OUTPUT", "view:0"), ("VIEWS", "2")];
     let mut running = Running::controlled(&screen, &options);

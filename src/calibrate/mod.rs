@@ -61,6 +61,7 @@ pub use error::CalibrateError;
 pub use fit::{Camera, Fit, Residuals, fit};
 pub(crate) use least_squares::{minimise, soft};
 pub use photo::Photo;
+pub(crate) use photo::{linear, upright};
 pub use setup::{Guess, Setup};
 pub use sighting::Sighting;
 

@@ -54,18 +54,7 @@ impl Photo {
             photo: name.into(),
             reason,
         };
-        let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
-        let reader = reader.map_err(|e| failed(e.to_string()))?;
-        let mut decoder = reader.into_decoder().map_err(|e| failed(e.to_string()))?;
-        let (width, height) = decoder.dimensions();
-        if u64::from(width) * u64::from(height) > MOST_PIXELS {
-            let reason = format!("{width}x{height} pixels are more than 2^28; make it smaller");
-            return Err(failed(reason));
-        }
-        let orientation = decoder.orientation().map_err(|e| failed(e.to_string()))?;
-        let picture = DynamicImage::from_decoder(decoder).map_err(|e| failed(e.to_string()))?;
-        let mut picture = picture;
-        picture.apply_orientation(orientation);
+        let picture = upright(bytes).map_err(failed)?;
         Ok(Self::from_picture(
             name,
             &picture.into_rgb8(),
@@ -188,8 +177,25 @@ impl Photo {
     }
 }
 
+/// The picture of a JPEG or PNG file, turned upright as its EXIF data says; the error says why there is none.
+pub(crate) fn upright(bytes: &[u8]) -> Result<DynamicImage, String> {
+    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+    let reader = reader.map_err(|e| e.to_string())?;
+    let mut decoder = reader.into_decoder().map_err(|e| e.to_string())?;
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(format!(
+            "{width}x{height} pixels are more than 2^28; make it smaller"
+        ));
+    }
+    let orientation = decoder.orientation().map_err(|e| e.to_string())?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
+    picture.apply_orientation(orientation);
+    Ok(picture)
+}
+
 /// The transfer function of sRGB (IEC 61966-2-1).
-fn linear(value: f32) -> f32 {
+pub(crate) fn linear(value: f32) -> f32 {
     if value <= 0.04045 {
         value / 12.92
     } else {

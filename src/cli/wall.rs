@@ -33,7 +33,7 @@ enum Action {
         #[arg(long, value_name = "FILE.toml")]
         display: String,
     },
-    /// Write the pattern of each panel as PNG: NAME-1.png and so on.
+    /// Write the pattern of each panel as PNG: pattern-1.png and so on.
     Pattern {
         /// The description of the wall
         #[arg(long, value_name = "FILE.toml")]

@@ -1,7 +1,7 @@
 //! The picture of a wall on the CPU: the reference for `shaders/wall.wgsl`.
 #![forbid(unsafe_code)]
 
-use super::reference::{ReferenceError, Tile};
+use super::reference::{ReferenceError, Tile, encoded, linear};
 use crate::display::{CELL, GUARD, Mask, Node};
 use image::{Pixel, Rgb, RgbImage};
 
@@ -26,9 +26,9 @@ pub fn wall<P: Pixel<Subpixel = u8>>(
                     view: view.into(),
                     views: tiles.len(),
                 })?;
-                let value = bilinear(tile, [u, v], channel) / 255.0;
+                let value = (bilinear(tile, [u, v], channel) / 255.0) as f32;
                 let value = match light < 1.0 {
-                    true => encoded(linear(value) * f64::from(light)),
+                    true => encoded(linear(value) * light),
                     false => value,
                 };
                 pixel[channel] = (value * 255.0).round() as u8;
@@ -67,20 +67,4 @@ fn bilinear<P: Pixel<Subpixel = u8>>(tile: &Tile<P>, place: [f32; 2], channel: u
     let value = |x: u32, y: u32| f64::from(tile.get_pixel(x, y).channels()[channel]);
     let along = |y: u32| value(low[0], y) * (1.0 - across) + value(high[0], y) * across;
     along(low[1]) * (1.0 - down) + along(high[1]) * down
-}
-
-/// sRGB to linear light.
-fn linear(value: f64) -> f64 {
-    match value <= 0.04045 {
-        true => value / 12.92,
-        false => ((value + 0.055) / 1.055).powf(2.4),
-    }
-}
-
-/// Linear light to sRGB.
-fn encoded(light: f64) -> f64 {
-    match light <= 0.003_130_8 {
-        true => light * 12.92,
-        false => 1.055 * light.powf(1.0 / 2.4) - 0.055,
-    }
 }

@@ -4,14 +4,12 @@
 use super::WallError;
 use super::homography::from_pairs;
 use super::pattern::Tag;
+use crate::calibrate::{linear, upright};
 use crate::display::apply;
 use apriltag::{DetectorBuilder, Family, Image};
-use image::{DynamicImage, ImageDecoder, ImageReader, Luma};
-use std::io::Cursor;
+use image::Luma;
 use std::path::Path;
 
-/// Larger photos than any camera takes are not decoded.
-const MOST_PIXELS: u64 = 1 << 28;
 /// A value at or above this one is taken as clipped.
 const CLIPPED: u8 = 253;
 /// Where the light around a tag is taken, in halves of its black side from its middle: in the middle of its white edge.
@@ -50,17 +48,7 @@ impl Sighting {
             reason,
         };
         let bytes = std::fs::read(path).map_err(|e| failed(e.to_string()))?;
-        let reader = ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
-        let reader = reader.map_err(|e| failed(e.to_string()))?;
-        let mut decoder = reader.into_decoder().map_err(|e| failed(e.to_string()))?;
-        let (width, height) = decoder.dimensions();
-        if u64::from(width) * u64::from(height) > MOST_PIXELS {
-            return Err(failed(format!("{width}x{height} pixels are too many")));
-        }
-        let orientation = decoder.orientation().map_err(|e| failed(e.to_string()))?;
-        let picture = DynamicImage::from_decoder(decoder);
-        let mut picture = picture.map_err(|e| failed(e.to_string()))?;
-        picture.apply_orientation(orientation);
+        let picture = upright(&bytes).map_err(failed)?;
         Self::of(&name, &picture.into_luma8(), tags)
     }
 
@@ -78,7 +66,7 @@ impl Sighting {
         for (to, from) in rows.zip(grey.as_raw().chunks_exact(width as usize)) {
             for (to, from) in to.iter_mut().zip(from) {
                 // The edge of a black square is where half of the light is, and not half of its sRGB value: corners would be 0.8 pixels off.
-                *to = (linear(f64::from(*from) / 255.0) * 255.0).round() as u8;
+                *to = (linear(f32::from(*from) / 255.0) * 255.0).round() as u8;
             }
         }
         let builder = DetectorBuilder::new().add_family_bits(Family::tag_36h11(), 1);
@@ -147,7 +135,7 @@ impl Seen {
                 }
                 match grey.get_pixel_checked(x as u32, y as u32) {
                     Some(pixel) if pixel.0[0] < CLIPPED => {
-                        sum += linear(f64::from(pixel.0[0]) / 255.0);
+                        sum += f64::from(linear(f32::from(pixel.0[0]) / 255.0));
                         count += 1;
                     }
                     Some(_) => seen.clipped += 1,
@@ -159,13 +147,5 @@ impl Seen {
             }
         }
         seen
-    }
-}
-
-/// sRGB to linear light.
-fn linear(value: f64) -> f64 {
-    match value <= 0.04045 {
-        true => value / 12.92,
-        false => ((value + 0.055) / 1.055).powf(2.4),
     }
 }
