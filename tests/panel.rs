@@ -1,151 +1,46 @@
 //! The panel's own window: its picture is, subpixel for subpixel, what the CPU interleaves of the same views at the panel's size.
 #![forbid(unsafe_code)]
 
+#[path = "panel/case.rs"]
+mod case;
 #[path = "control/running.rs"]
 mod running;
 mod support;
 #[path = "support/x.rs"]
 mod x;
 
-use image::{GenericImageView, RgbImage};
-use manyview::config::panel::load;
-use manyview::display::{Display, Fit};
-use manyview::interleave::reference;
+use case::{CAMERAS, CASE, Case, DISPLAYS, STEP, end, still, word, worst};
+use image::RgbImage;
+use manyview::display::Fit;
 use running::Running;
 use serde_json::Value;
 use std::io::Read;
-use std::path::PathBuf;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
-use support::{Compiled, Screen, compiled, manyview, refused, rgb, scratch, sized_screen, succeed};
+use support::{Screen, manyview, refused, sized_screen};
 use x::User;
 
 const LIMIT: Duration = Duration::from_secs(60);
-const CAMERAS: [&str; 4] = ["--separation", "0.02", "--convergence", "8"];
 
-/// Views are resampled to the panel's pixels: the driver's floats may round the other way than the CPU's integers.
-const STEP: u8 = 1;
-
-/// One way to show the program.
-#[derive(Clone, Copy)]
-struct Case {
-    display: &'static str,
-    views: u32,
-    /// Width and height of the program's surface, and how many times as wide it becomes.
-    window: (u32, u32),
-    grows: u32,
-    panel: (u16, u16),
-    fit: Fit,
+fn start(case: &Case, screen: &Screen, more: &[&str]) -> Child {
+    start_on("auto", case, screen, more)
 }
 
-const CASE: Case = Case {
-    display: "huebner8",
-    views: 8,
-    window: (320, 240),
-    grows: 1,
-    panel: (800, 600),
-    fit: Fit::Contain,
-};
-
-fn word(fit: Fit) -> &'static str {
-    match fit {
-        Fit::Contain => "contain",
-        Fit::Cover => "cover",
-        Fit::Stretch => "stretch",
-    }
+fn start_on(monitor: &str, case: &Case, screen: &Screen, more: &[&str]) -> Child {
+    let mut command = case.command(monitor, more);
+    screen.give(&mut command).spawn().expect("it starts")
 }
 
-fn still() -> PathBuf {
-    compiled("still", Compiled::Program, &["-lEGL", "-lGL"])
-}
-
-impl Case {
-    /// The program's size in the end.
-    fn size(&self) -> (u32, u32) {
-        (self.window.0 * self.grows, self.window.1)
-    }
-
-    /// The views, as the program's window would show them.
-    fn views(&self) -> Vec<RgbImage> {
-        let folder = tempfile::tempdir().expect("a folder");
-        let out = folder.path().join("atlas.png");
-        let (width, height) = self.size();
-        let mut command = manyview();
-        command
-            .args(["capture", "--frame", "3", "--what", "atlas", "--views"])
-            .arg(self.views.to_string())
-            .args(["--display", &named(self.display)])
-            .args(CAMERAS)
-            .arg("--out")
-            .arg(&out)
-            .arg("--")
-            .arg(still())
-            .args([width.to_string(), height.to_string()]);
-        succeed(&mut command);
-        let all = rgb(&out);
-        let view = |i| all.view(i * width, 0, width, height).to_image();
-        (0..self.views).map(view).collect()
-    }
-
-    /// What the panel has to show.
-    fn expected(&self) -> RgbImage {
-        let panel = (self.panel.0.into(), self.panel.1.into());
-        let place = self.fit.place(self.size(), panel);
-        let display: Display = load(&named(self.display)).expect("a display");
-        let mask = display.mask(&place, self.views).expect("a mask");
-        let picture = reference::interleave(&self.views(), &mask).expect("a picture");
-        let mut whole = RgbImage::new(panel.0, panel.1);
-        image::imageops::replace(&mut whole, &picture, place.x.into(), place.y.into());
-        whole
-    }
-
-    fn start(&self, screen: &Screen, more: &[&str]) -> Child {
-        self.start_on("auto", screen, more)
-    }
-
-    fn start_on(&self, monitor: &str, screen: &Screen, more: &[&str]) -> Child {
-        let (width, height) = self.window;
-        let mut command = manyview();
-        command
-            .args([
-                "run",
-                "--panel",
-                monitor,
-                "--fit",
-                word(self.fit),
-                "--views",
-            ])
-            .arg(self.views.to_string())
-            .args(["--display", &named(self.display)])
-            .args(CAMERAS)
-            .args(more)
-            .arg("--")
-            .arg(still())
-            .args([width.to_string(), height.to_string()])
-            .args((self.grows > 1).then(|| self.grows.to_string()))
-            .stdin(Stdio::piped())
-            .stderr(Stdio::piped());
-        screen.give(&mut command).spawn().expect("it starts")
-    }
-
-    /// Checks the pixels of the panel's window.
-    fn check(&self, what: &str) {
-        let expected = self.expected();
-        let screen = sized_screen(self.panel);
-        let child = self.start(&screen, &[]);
-        let shown = wait_for(&screen, &expected);
-        let off = worst(&shown, &expected);
-        end(child, what);
-        assert!(off <= STEP, "{what}: off by {off}");
-        assert!(expected.pixels().any(|p| p.0 != [0; 3]), "{what}");
-    }
-}
-
-/// The largest difference of two pictures; they have the same size.
-fn worst(a: &RgbImage, b: &RgbImage) -> u8 {
-    assert_eq!(a.dimensions(), b.dimensions());
-    let off = a.iter().zip(b.iter()).map(|(a, b)| a.abs_diff(*b));
-    off.max().unwrap_or(0)
+/// Checks the pixels of the panel's window.
+fn check(case: &Case, what: &str) {
+    let expected = case.expected();
+    let screen = sized_screen(case.panel);
+    let child = start(case, &screen, &[]);
+    let shown = wait_for(&screen, &expected);
+    let off = worst(&shown, &expected);
+    end(child, what);
+    assert!(off <= STEP, "{what}: off by {off}");
+    assert!(expected.pixels().any(|p| p.0 != [0; 3]), "{what}");
 }
 
 /// The picture of the panel's window, once it is the expected one, or at last.
@@ -163,17 +58,6 @@ fn wait_for(screen: &Screen, expected: &RgbImage) -> RgbImage {
         }
         std::thread::sleep(Duration::from_millis(50));
     }
-}
-
-/// Ends the program by the end of its input, and returns what was said.
-fn end(mut child: Child, what: &str) -> String {
-    drop(child.stdin.take());
-    let mut said = String::new();
-    let errors = child.stderr.as_mut().expect("a pipe");
-    errors.read_to_string(&mut said).expect("text");
-    let status = child.wait().expect("it ends");
-    assert!(status.success(), "{what}: {status}, {said}");
-    said
 }
 
 #[test]
@@ -217,55 +101,8 @@ fn the_picture_is_interleaved_at_the_panels_size() {
             word(case.fit),
             case.grows
         );
-        case.check(&what);
+        check(&case, &what);
     }
-}
-
-/// Displays, by name or description, and how many views they show.
-const DISPLAYS: [(&str, u32); 12] = [
-    ("huebner8", 8),
-    ("slanted8", 8),
-    ("lenticular-5", 5),
-    ("columns", 2),
-    ("rows", 2),
-    ("checkerboard", 2),
-    (
-        "kind = 'slanted'\nviews = 9\npitch = '16/3'\nslant = '-2/3'\norder = 'bgr'",
-        9,
-    ),
-    (
-        "kind = 'slanted'\nviews = 66\npitch = 15.7934\nslant = 2.6021\noffset = 3.1",
-        66,
-    ),
-    (
-        "kind = 'slanted'\nviews = 2\npitch = 6.00217\nslant = 1.0001\ninverted = true",
-        2,
-    ),
-    (
-        "kind = 'integer'\nviews = 3\nhorizontal = 3\nsubpixel = 1\nvertical = 2\noffset = 1\nmodulus = 8\ntable = [0, 'b', 1, 2]",
-        3,
-    ),
-    (
-        "kind = 'leia'\nviews = 12\np-over-du = 3\np-over-dv = 0.8\ncolour-slant = 0.1\noffset = 0.25",
-        12,
-    ),
-    (
-        "kind = 'pattern'\npattern = ['LRLRbLRb']\nsubpixels = true",
-        2,
-    ),
-];
-
-/// The name of a display, or the file of its description.
-fn named(display: &str) -> String {
-    let Some((kind, _)) = display.split_once('\n') else {
-        return display.to_owned();
-    };
-    let names = DISPLAYS.iter().position(|(known, _)| *known == display);
-    let folder = scratch("panel");
-    std::fs::create_dir_all(&folder).expect("a folder");
-    let file = folder.join(format!("{}.toml", names.expect(kind)));
-    std::fs::write(&file, display).expect("written");
-    file.to_string_lossy().into_owned()
 }
 
 #[test]
@@ -280,7 +117,7 @@ fn all_displays_have_their_picture() {
                 fit,
                 ..CASE
             };
-            case.check(&format!("{display} on {panel:?}"));
+            check(&case, &format!("{display} on {panel:?}"));
         }
     }
     for window in [(801, 603), (1920, 1080), (3840, 2160)] {
@@ -291,7 +128,7 @@ fn all_displays_have_their_picture() {
             panel: (1000, 1100),
             ..CASE
         };
-        case.check(&format!("{window:?}"));
+        check(&case, &format!("{window:?}"));
     }
 }
 
@@ -321,7 +158,7 @@ fn views_have_the_resolution_of_the_panel() {
         let exact = exact.expected();
         let screen = sized_screen(panel.panel);
         let coarse = mean(&panel.expected(), &exact);
-        let child = panel.start(&screen, &["--view-scale", "auto"]);
+        let child = start(&panel, &screen, &["--view-scale", "auto"]);
         let limit = Instant::now() + LIMIT;
         let user = User::at(screen.display());
         let fine = loop {
@@ -347,7 +184,7 @@ fn the_monitor_is_the_one_that_is_named() {
         let user = User::at(screen.display());
         user.add_monitor("desk", [desk, 0, 900, 640]);
         user.add_monitor("panel", [at, 40, 800, 600]);
-        let child = CASE.start_on("panel", &screen, &[]);
+        let child = start_on("panel", &CASE, &screen, &[]);
         let shown = wait_for(&screen, &expected);
         let window = user.window("manyview").expect("a window");
         assert_eq!(user.place(window), [at, 40], "the desk at {desk}");
@@ -355,7 +192,7 @@ fn the_monitor_is_the_one_that_is_named() {
         assert!(worst(&shown, &expected) <= STEP, "the desk at {desk}");
     }
     let screen = sized_screen((800, 600));
-    let mut child = CASE.start_on("HDMI-9", &screen, &[]);
+    let mut child = start_on("HDMI-9", &CASE, &screen, &[]);
     assert_eq!(child.wait().expect("it ends").code(), Some(2));
     let mut said = String::new();
     let errors = child.stderr.as_mut().expect("a pipe");
@@ -372,7 +209,7 @@ fn the_window_takes_no_keyboard_and_ends_with_the_program() {
     let screen = sized_screen(CASE.panel);
     let folder = tempfile::tempdir().expect("a folder");
     let report = folder.path().join("report.json");
-    let child = CASE.start(&screen, &["--report", &report.to_string_lossy()]);
+    let child = start(&CASE, &screen, &["--report", &report.to_string_lossy()]);
     wait_for(&screen, &CASE.expected());
     let user = User::at(screen.display());
     let window = user.window("manyview").expect("a window");
@@ -396,7 +233,7 @@ fn the_window_takes_no_keyboard_and_ends_with_the_program() {
 #[test]
 fn a_window_that_is_closed_leaves_the_program_alone() {
     let screen = sized_screen(CASE.panel);
-    let child = CASE.start(&screen, &[]);
+    let child = start(&CASE, &screen, &[]);
     wait_for(&screen, &CASE.expected());
     let user = User::at(screen.display());
     user.destroy(user.window("manyview").expect("a window"));

@@ -438,7 +438,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
             if let Some(l) = &mut work.layer {
                 control::before(l);
                 keys::before(l);
-                panel::before(l);
+                panel::before(l, c.draws_to());
                 let kept = drawable.is_none() || !l.has_back_buffer();
                 if let Some(draw) = c.draws_to() {
                     follow_window(l, draw, &mut work.seen);

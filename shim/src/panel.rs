@@ -3,21 +3,25 @@
 //!
 //! The descriptors live in the program's table; see [`crate::socket`].
 
+use crate::drawable::Drawable;
+use crate::drawables;
 use crate::live::free;
 use crate::socket::{self, Checked};
 use crate::switch::{config, say_once};
 use manyview_core::control::panel::{Frame, Hello, SLOTS, Sent, slot_bytes};
-use manyview_core::layer::{Layer, PanelFrame, PanelPicture};
+use manyview_core::layer::{DrawableId, Layer, PanelFrame, PanelPicture, Takes};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read};
 use std::os::unix::fs::FileExt;
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::sync::Mutex;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long the window's greeting may take.
 const GREETING: Duration = Duration::from_secs(2);
+/// After so long without a frame, a window of the program leaves the panel to a smaller one.
+const IDLE: Duration = Duration::from_secs(1);
 
 enum State {
     Unopened,
@@ -33,17 +37,32 @@ struct Link {
     free: [bool; SLOTS as usize],
     /// The window knows that a newer picture is to come.
     behind: bool,
+    /// The drawable that the panel shows.
+    shown: Option<Shown>,
     /// The process that opened the link. After fork, a child has our memory and our descriptors.
     pid: u32,
 }
 
+/// A drawable of the program that the panel shows.
+#[derive(Clone, Copy)]
+struct Shown {
+    id: Option<DrawableId>,
+    pixels: u64,
+    /// When it has shown its last frame.
+    at: Instant,
+}
+
 static STATE: Mutex<State> = Mutex::new(State::Unopened);
 
-/// Before a frame is shown: has the layer draw for the panel's window, if that takes a picture now.
-pub(crate) fn before(layer: &mut Layer) {
+/// Before a frame of a drawable is shown: has the layer draw for the panel's window, if that takes a picture now.
+pub(crate) fn before(layer: &mut Layer, drawable: Option<Drawable>) {
     let Some(panel) = config().and_then(|config| config.panel.as_ref()) else {
         return;
     };
+    if panel.size.is_some() {
+        // No window takes pictures.
+        return layer.set_panel(panel.size, Takes::Never);
+    }
     let Some(mut state) = free(&STATE) else {
         return;
     };
@@ -61,7 +80,15 @@ pub(crate) fn before(layer: &mut Layer) {
     }
     let taken = match &mut *state {
         State::Open(link) if link.pid == std::process::id() => match link.listen() {
-            Ok(()) => Some((link.size, !link.free.contains(&true))),
+            Ok(()) => {
+                let (width, height) = layer.size();
+                let frame = Shown {
+                    id: drawable.map(drawables::id),
+                    pixels: u64::from(width) * u64::from(height),
+                    at: Instant::now(),
+                };
+                Some((link.size, link.takes(frame)))
+            }
             Err(_) => {
                 *state = closed(
                     "the panel's window is closed; the picture is shown in the program's window",
@@ -71,8 +98,8 @@ pub(crate) fn before(layer: &mut Layer) {
         },
         _ => None,
     };
-    let (size, full) = taken.unzip();
-    layer.set_panel(size, full.unwrap_or(false));
+    let (size, takes) = taken.unzip();
+    layer.set_panel(size, takes.unwrap_or_default());
 }
 
 /// After a frame was shown: gives its picture to the panel's window.
@@ -114,8 +141,22 @@ impl Link {
             size: hello.size,
             free: [true; SLOTS as usize],
             behind: false,
+            shown: None,
             pid: std::process::id(),
         })
+    }
+
+    /// Whether the panel's window takes a frame: it shows the largest of the windows that are not idle.
+    fn takes(&mut self, frame: Shown) -> Takes {
+        if !frame.replaces(self.shown) {
+            return Takes::Never;
+        }
+        self.shown = Some(frame);
+        if self.free.contains(&true) {
+            Takes::Now
+        } else {
+            Takes::Later
+        }
     }
 
     /// Learns which slots are free again.
@@ -186,5 +227,37 @@ impl Link {
             at: picture.place.at.map(|v| v as u16),
             size: picture.place.size.map(|v| v as u16),
         }))
+    }
+}
+
+impl Shown {
+    /// Whether the panel shows this frame after those of another drawable, or of the same.
+    fn replaces(&self, before: Option<Shown>) -> bool {
+        before.is_none_or(|before| {
+            before.id == self.id
+                || before.pixels < self.pixels
+                || self.at.duration_since(before.at) >= IDLE
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_window_that_is_not_idle_is_shown() {
+        let start = Instant::now();
+        let frame = |id, pixels, ms| Shown {
+            id: Some(DrawableId(id)),
+            pixels,
+            at: start + Duration::from_millis(ms),
+        };
+        let large = frame(1, 640 * 480, 0);
+        assert!(large.replaces(None));
+        assert!(frame(1, 1, 10).replaces(Some(large)), "it has shrunk");
+        assert!(frame(2, 640 * 481, 10).replaces(Some(large)));
+        assert!(!frame(2, 640 * 480, 999).replaces(Some(large)));
+        assert!(frame(2, 9, 1000).replaces(Some(large)));
     }
 }

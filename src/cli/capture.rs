@@ -3,7 +3,7 @@
 
 use super::error::CommandError;
 use super::layer::{CaptureArguments, LayerArguments};
-use super::{Outcome, print, scratch, tell};
+use super::{Outcome, panel, print, scratch, tell};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::config::{Capture, Config, OptionId, Origin, Output, Settings};
@@ -30,7 +30,12 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let mut settings = arguments.layer.settings()?;
     arguments.capture.give(&mut settings);
-    let quilt = Config::from_settings(&settings)?.output == Output::Quilt
+    let config = Config::from_settings(&settings)?;
+    if let Some((width, height)) = panel::size(&config)? {
+        let size = format!("{width}x{height}");
+        settings.set(OptionId::PanelSize, size, Origin::Default);
+    }
+    let quilt = config.output == Output::Quilt
         && matches!(
             arguments.capture.get(OptionId::CaptureWhat),
             None | Some("output")

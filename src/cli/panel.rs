@@ -2,10 +2,10 @@
 #![forbid(unsafe_code)]
 
 use super::error::CommandError;
-use manyview::config::{Config, OptionId, Origin, Settings};
-use manyview::display::Kind;
+use manyview::config::{Config, OptionId, Origin, PanelWindow, Settings};
+use manyview::display::{Display, Kind};
 use manyview::plugged::{Chosen, Panel, Plugged};
-use manyview::window::{PanelServer, WindowError};
+use manyview::window::{PanelServer, WindowError, monitor_for};
 
 /// What is shown where there is no panel.
 const ANAGLYPH: &str = "anaglyph";
@@ -19,7 +19,7 @@ pub(super) fn choose(settings: &mut Settings) -> Result<Option<String>, CommandE
     if let Some(chosen) = Chosen::read()? {
         let origin = Origin::File(Chosen::place()?);
         if let Some(monitor) = chosen.panel {
-            weakly(settings, OptionId::Panel, monitor, origin.clone());
+            give_window(settings, monitor, origin.clone());
         }
         settings.set(OptionId::Display, chosen.display, origin);
         return Ok(None);
@@ -35,7 +35,7 @@ pub(super) fn choose(settings: &mut Settings) -> Result<Option<String>, CommandE
                 None => "the program's own window".to_owned(),
             };
             if let Some(monitor) = monitor {
-                weakly(settings, OptionId::Panel, monitor, Origin::Default);
+                give_window(settings, monitor, Origin::Default);
             }
             settings.set(OptionId::Display, file.to_string_lossy(), Origin::Default);
             return Ok(Some(format!(
@@ -52,10 +52,12 @@ pub(super) fn choose(settings: &mut Settings) -> Result<Option<String>, CommandE
     Ok(Some(said))
 }
 
-/// Sets an option that nobody else has set.
-fn weakly(settings: &mut Settings, id: OptionId, value: String, origin: Origin) {
-    if settings.get(id).is_none() {
-        settings.set(id, value, origin);
+/// Sets the monitor of the panel's window, unless the user has; one view stays in the program's window.
+fn give_window(settings: &mut Settings, monitor: String, origin: Origin) {
+    let views = settings.field(OptionId::Views);
+    let is_one = views.is_some_and(|(_, views)| views == "1");
+    if settings.get(OptionId::Panel).is_none() && !is_one {
+        settings.set(OptionId::Panel, monitor, origin);
     }
 }
 
@@ -67,10 +69,31 @@ pub(super) fn open(config: &Config) -> Result<Option<PanelServer>, WindowError> 
     if let Kind::Wall(wall) = &config.display.kind {
         return PanelServer::open_wall(wall).map(Some);
     }
-    let monitor = panel.monitor.clone().or_else(|| {
-        let plugged = Plugged::find();
-        let found = plugged.monitor_of(&config.display)?;
-        Some(found.monitor.name.clone())
-    });
+    let monitor = monitor(panel, &config.display);
     PanelServer::open(monitor.as_deref(), config.display.facts.screen).map(Some)
+}
+
+/// Pixels of the panel: those of its description, else of the monitor on which its window would be opened.
+pub(super) fn size(config: &Config) -> Result<Option<(u32, u32)>, WindowError> {
+    let Some(panel) = &config.panel else {
+        return Ok(None);
+    };
+    if let Kind::Wall(wall) = &config.display.kind {
+        return Ok(Some(wall.sheet()));
+    }
+    let screen = config.display.facts.screen;
+    if let (None, Some(screen)) = (&panel.monitor, screen) {
+        return Ok(Some(screen));
+    }
+    let monitor = monitor(panel, &config.display);
+    Ok(Some(monitor_for(monitor.as_deref(), screen)?.size))
+}
+
+/// The monitor that is named, else the one that the display says it is.
+fn monitor(panel: &PanelWindow, display: &Display) -> Option<String> {
+    panel.monitor.clone().or_else(|| {
+        let plugged = Plugged::find();
+        let found = plugged.monitor_of(display)?;
+        Some(found.monitor.name.clone())
+    })
 }

@@ -48,7 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let panel = asked.or(sheet.as_ref().and_then(|sheet| sheet.facts.screen));
     let mut window = Window::open(TITLE, arguments.monitor.as_deref(), panel)?;
     let size = panel.unwrap_or(window.monitor().size);
-    window.check(size)?;
+    window.monitor().check(size)?;
     match &arguments.out {
         Some(out) if let Some(mut fit) = sheet.and_then(|sheet| ByEye::new(sheet, size)) => {
             by_eye(&mut window, &mut fit, size, out)

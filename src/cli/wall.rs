@@ -79,7 +79,7 @@ fn show(wall: &Wall) -> Outcome {
     let mut windows = Vec::new();
     for (number, panel) in wall.panels().iter().enumerate() {
         let mut window = Window::open(TITLE, Some(&panel.monitor), Some(panel.pixels))?;
-        window.check(panel.pixels)?;
+        window.monitor().check(panel.pixels)?;
         window.show(&pattern(wall, number))?;
         windows.push(window);
     }

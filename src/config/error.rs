@@ -129,6 +129,16 @@ pub enum ConfigError {
         /// The option that opens the window.
         panel: Field,
     },
+    /// Pixels of a panel.
+    #[error(
+        "{field} is '{value}'; give width and height in pixels such as 1920x1080, each from 1 to 65535"
+    )]
+    PanelSize {
+        /// The option.
+        field: Field,
+        /// As the user wrote it.
+        value: String,
+    },
     /// No name of a monitor.
     #[error("{field} is empty; give the name or the number of a monitor, or auto")]
     NoMonitor {

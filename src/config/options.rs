@@ -89,6 +89,8 @@ pub enum OptionId {
     Launch,
     /// The socket of the panel's own window.
     PanelSocket,
+    /// Pixels of the panel without a window.
+    PanelSize,
 }
 
 /// How a value that may be a path is made absolute.
@@ -423,6 +425,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::variable(OptionId::PanelSocket, "MANYVIEW_PANEL_SOCKET", "PATH",
         "Socket of the panel's window; set by `run`")
         .path(PathKind::File),
+    OptionSpec::variable(OptionId::PanelSize, "MANYVIEW_PANEL_SIZE", "WxH",
+        "Pixels of the panel where no window is opened for it; set by `capture`"),
     OptionSpec::variable(OptionId::Profiles, "MANYVIEW_PROFILES", "FOLDER",
         "Folder in which profiles are found by name and by program, after `manyview/profiles` in `XDG_CONFIG_HOME` or `~/.config`")
         .path(PathKind::File).default("`profiles` beside `libmanyview.so`"),
@@ -549,6 +553,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 39, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 40, "a new option needs a row");
     }
 }

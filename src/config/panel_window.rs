@@ -30,6 +30,8 @@ pub struct PanelWindow {
     pub output: Option<Output>,
     /// The socket of the window, once it is open.
     pub socket: Option<PathBuf>,
+    /// Width and height of the panel in pixels, where there is no window and a picture is captured.
+    pub size: Option<(u32, u32)>,
 }
 
 impl PanelWindow {
@@ -55,6 +57,10 @@ impl PanelWindow {
         if is_wall && monitor != AUTO {
             return Err(ConfigError::WallMonitor { field });
         }
+        if views < 2 {
+            let value = monitor.to_owned();
+            return Err(ConfigError::OneView { field, value });
+        }
         if monitor.is_empty() {
             return Err(ConfigError::NoMonitor { field });
         }
@@ -69,8 +75,21 @@ impl PanelWindow {
             fit: choice(settings, OptionId::Fit, FITS)?.unwrap_or_default(),
             output: output(settings, views)?,
             socket: path(settings, OptionId::PanelSocket),
+            size: size(settings)?,
         }))
     }
+}
+
+fn size(settings: &Settings) -> Result<Option<(u32, u32)>, ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::PanelSize) else {
+        return Ok(None);
+    };
+    let side = |text: &str| text.parse().ok().filter(|side| *side > 0).map(u16::into);
+    let sides = value.split_once('x');
+    let size = sides.and_then(|(width, height)| Some((side(width)?, side(height)?)));
+    let value = value.to_owned();
+    size.map(Some)
+        .ok_or(ConfigError::PanelSize { field, value })
 }
 
 fn output(settings: &Settings, views: u32) -> Result<Option<Output>, ConfigError> {

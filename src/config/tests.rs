@@ -48,6 +48,8 @@ fn every_message_is_one_clear_sentence() {
         &[("MANYVIEW_OUTPUT", "anaglyph:blue")],
         &[("MANYVIEW_OUTPUT", "rows"), ("MANYVIEW_VIEWS", "1")],
         &[("MANYVIEW_OUTPUT", "quad"), ("MANYVIEW_VIEWS", "1")],
+        &[("MANYVIEW_PANEL", "auto"), ("MANYVIEW_VIEWS", "1")],
+        &[("MANYVIEW_PANEL", "auto"), ("MANYVIEW_PANEL_SIZE", "800")],
         &[("MANYVIEW_FILTER", "smooth")],
         &[("MANYVIEW_FILTER", "blend"), ("MANYVIEW_VIEWS", "256")],
         &[("MANYVIEW_CLIP", "never")],

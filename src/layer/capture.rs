@@ -13,19 +13,19 @@ use std::path::{Path, PathBuf};
 
 impl Layer {
     /// Writes the frame where an option or a request to the running program asks for it.
-    pub(super) fn capture(&mut self, gl: &Gl, neutral: &Neutral, source: &Source) {
+    pub(super) fn capture(&mut self, gl: &Gl, neutral: &Neutral, image: u32, source: &Source) {
         let frame = self.diagnostics.report.frames() + 1;
         if let Some(wanted) = &self.session.config.capture
             && (wanted.first..=wanted.last).contains(&frame)
         {
             self.diagnostics.write(self.session.config, frame);
-            if let Err(e) = self.write(gl, neutral, source, wanted, frame) {
+            if let Err(e) = self.write(gl, neutral, (image, source), wanted, frame) {
                 self.diagnostics
                     .report
                     .note(format!("capture of frame {frame}: {e}"));
             }
         }
-        self.take_picture(gl, neutral, source, frame);
+        self.take_picture(gl, neutral, (image, source), frame);
     }
 
     /// Writes what is wanted of the frame and returns the file's path. Changes the framebuffers that are bound.
@@ -33,7 +33,7 @@ impl Layer {
         &mut self,
         gl: &Gl,
         neutral: &Neutral,
-        source: &Source,
+        (image, source): (u32, &Source),
         wanted: &Capture,
         frame: u64,
     ) -> Result<PathBuf, String> {
@@ -61,8 +61,17 @@ impl Layer {
                         .and_then(|i| capture::write(&i, &path))
                 }
                 _ => {
-                    gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
-                    capture::write(&capture::read_rgb(gl, neutral, 0, 0, width, height), &path)
+                    let panel = self.panel_picture(
+                        gl,
+                        image,
+                        source.depth.map(|(_, depth)| depth),
+                        neutral,
+                    );
+                    let picture = panel.unwrap_or_else(|| {
+                        gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
+                        capture::read_rgb(gl, neutral, 0, 0, width, height)
+                    });
+                    capture::write(&picture, &path)
                 }
             },
             CaptureWhat::Atlas => self.arranged(gl, neutral, &all, row, &path),

@@ -228,7 +228,13 @@ impl Layer {
     }
 
     /// Writes the picture that was asked for, if one was.
-    pub(super) fn take_picture(&mut self, gl: &Gl, neutral: &Neutral, source: &Source, frame: u64) {
+    pub(super) fn take_picture(
+        &mut self,
+        gl: &Gl,
+        neutral: &Neutral,
+        source: (u32, &Source),
+        frame: u64,
+    ) {
         if let Picture::Wanted(Wanted::Picture(wanted)) = &self.diagnostics.picture {
             let wanted = Capture {
                 first: frame,

@@ -166,7 +166,7 @@ impl Layer {
         self.draw_picture(gl, image, depth.as_ref(), neutral);
         self.judge_proof(gl, neutral, exact);
         let source = self.source(image, depth.as_ref());
-        self.capture(gl, neutral, &source);
+        self.capture(gl, neutral, image, &source);
         if self.session.panel.size.is_none() {
             gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
             let (width, height) = self.size();

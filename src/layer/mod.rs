@@ -64,7 +64,7 @@ pub use feedback::FeedbackCommand;
 pub use frames::Frames;
 pub use lists::is_scaled;
 use panel::Panel;
-pub use panel::{PanelFrame, PanelPicture};
+pub use panel::{PanelFrame, PanelPicture, Takes};
 pub use queries::{Answer, ResultPlace};
 pub use reading::DrawableId;
 pub use tracked::Primitive;

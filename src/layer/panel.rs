@@ -6,21 +6,36 @@
 use super::{Layer, keep_bindings};
 use crate::atlas::{PanelFormat, PanelImage, PanelPlace};
 use crate::config::Output;
+use crate::display::Placement;
 use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::interleave::Depth;
+use crate::present::capture;
 use crate::state::Neutral;
+use image::RgbImage;
+use image::imageops::replace;
 use std::time::{Duration, Instant};
 
 /// A program that has shown no frame for so long waits for its picture.
 const RARE: Duration = Duration::from_millis(50);
+
+/// Whether the panel's window takes the picture of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Takes {
+    /// At once.
+    #[default]
+    Now,
+    /// When it has shown those that it has.
+    Later,
+    /// Never: it shows another window of the program, or there is none and pictures are only captured.
+    Never,
+}
 
 /// What the layer knows of the panel's own window.
 #[derive(Debug, Default)]
 pub(super) struct Panel {
     /// Width and height in pixels; none where the program's window is on the panel.
     pub(super) size: Option<(u32, u32)>,
-    /// It takes no picture now.
-    full: bool,
+    takes: Takes,
     /// For the window, until it is taken.
     frame: Option<PanelFrame>,
     /// Memory for the next picture.
@@ -56,10 +71,10 @@ impl PanelPicture {
 }
 
 impl Layer {
-    /// Sets width and height of the panel's own window, in pixels; none where the output is shown in the program's window. `full`: the window takes no
-    /// picture now. To be called before a frame is shown.
-    pub fn set_panel(&mut self, size: Option<(u32, u32)>, full: bool) {
-        (self.session.panel.size, self.session.panel.full) = (size, full);
+    /// Sets width and height of the panel's own window, in pixels; none where the output is shown in the program's window. To be called before a frame
+    /// is shown.
+    pub fn set_panel(&mut self, size: Option<(u32, u32)>, takes: Takes) {
+        (self.session.panel.size, self.session.panel.takes) = (size, takes);
     }
 
     /// Takes what the last frame has for the panel's own window.
@@ -91,30 +106,25 @@ impl Layer {
         let Some(panel) = self.session.panel.size else {
             return;
         };
+        if self.session.panel.takes == Takes::Never {
+            // What is on its way is older than what the panel shows then.
+            if let Some(panel) = &mut self.targets.panel {
+                panel.forget(gl);
+            }
+            return;
+        }
         let now = Instant::now();
         let before = self.session.panel.shown.replace(now);
         let rare = before.is_none_or(|before| now - before >= RARE);
         let mut picture = self.arrived(gl);
-        let mut is_behind = self.session.panel.full && !rare;
+        let mut is_behind = self.session.panel.takes == Takes::Later && !rare;
         if !is_behind {
-            let placement = self.placement();
-            let format = PanelFormat {
-                size: (placement.width, placement.height),
-                srgb: self.state.window.srgb,
-            };
-            let Some(framebuffer) = self.panel_framebuffer(gl, format) else {
+            let Some((output, placement)) = self.draw_on_panel(gl, image, depth, neutral) else {
                 return;
             };
-            let output = match self.output() {
-                // The panel's window has one buffer.
-                Output::Quad => Output::View(0),
-                output => output,
-            };
-            gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
-            self.draw_output(gl, image, depth, neutral, (output, placement));
-            let size = [placement.width, placement.height];
-            self.draw_osd(gl, neutral, image, (output, size));
-            let (place, from) = visible([placement.x, placement.y], format.size, panel);
+            let size = (placement.width, placement.height);
+            self.draw_osd(gl, neutral, image, (output, size.into()));
+            let (place, from) = visible([placement.x, placement.y], size, panel);
             let sent = !rare && self.send(gl, neutral, from, place);
             if !sent {
                 picture = Some(self.read_picture(gl, neutral, from, place));
@@ -123,6 +133,47 @@ impl Layer {
             gl.bind_framebuffer(c::FRAMEBUFFER, FramebufferName::ZERO);
         }
         self.session.panel.frame = Some(PanelFrame { picture, is_behind });
+    }
+
+    /// Draws the output into the image for the panel, and binds that. None where the driver makes no such image.
+    fn draw_on_panel(
+        &mut self,
+        gl: &Gl,
+        image: u32,
+        depth: Option<&Depth>,
+        neutral: &Neutral,
+    ) -> Option<(Output, Placement)> {
+        let placement = self.placement();
+        let format = PanelFormat {
+            size: (placement.width, placement.height),
+            srgb: self.state.window.srgb,
+        };
+        let framebuffer = self.panel_framebuffer(gl, format)?;
+        let output = match self.output() {
+            // The panel's window has one buffer.
+            Output::Quad => Output::View(0),
+            output => output,
+        };
+        gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
+        self.draw_output(gl, image, depth, neutral, (output, placement));
+        Some((output, placement))
+    }
+
+    /// The picture of the whole panel, without the on-screen display. None where the panel has no window of its own. Changes the framebuffers that
+    /// are bound.
+    pub(super) fn panel_picture(
+        &mut self,
+        gl: &Gl,
+        image: u32,
+        depth: Option<&Depth>,
+        neutral: &Neutral,
+    ) -> Option<RgbImage> {
+        let (width, height) = self.session.panel.size?;
+        let (_, placement) = self.draw_on_panel(gl, image, depth, neutral)?;
+        let drawn = capture::read_rgb(gl, neutral, 0, 0, placement.width, placement.height);
+        let mut whole = RgbImage::new(width, height);
+        replace(&mut whole, &drawn, placement.x.into(), placement.y.into());
+        Some(whole)
     }
 
     /// The picture of a frame before, if one has arrived.

@@ -12,6 +12,11 @@ pub enum WindowError {
     /// The X server or the connection to it failed.
     #[error("the X server has closed the window: {0}; start again")]
     Server(String),
+    /// The Wayland compositor failed, or lacks what the window needs.
+    #[error(
+        "the Wayland compositor shows no window of the panel: {0}; unset WAYLAND_DISPLAY to use an X server"
+    )]
+    Compositor(String),
     /// The screen has no 24-bit true colour in pixels of four bytes.
     #[error(
         "the X screen has no 24-bit true colour; use one that has, as the panel shows nothing right without"
@@ -50,7 +55,11 @@ impl WindowError {
     #[must_use]
     pub fn exit_status(&self) -> u8 {
         match self {
-            Self::Connect(_) | Self::Server(_) | Self::Socket(_) | Self::Colours => 3,
+            Self::Connect(_)
+            | Self::Server(_)
+            | Self::Compositor(_)
+            | Self::Socket(_)
+            | Self::Colours => 3,
             Self::Monitor { .. } | Self::TooLarge { .. } => 2,
         }
     }

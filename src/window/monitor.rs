@@ -2,92 +2,34 @@
 #![forbid(unsafe_code)]
 
 use super::WindowError;
-use x11rb::connection::Connection;
-use x11rb::protocol::randr::ConnectionExt as _;
-use x11rb::protocol::xproto::{AtomEnum, ConnectionExt as _, Screen};
-use x11rb::rust_connection::RustConnection;
 
-/// A monitor of an X screen.
+/// A monitor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Monitor {
-    /// The name that `xrandr --listmonitors` prints.
+    /// The name that `xrandr --listmonitors` or `wlr-randr` prints.
     pub name: String,
-    /// Top left corner on the X screen, in pixels.
+    /// Top left corner on the desk, in pixels.
     pub at: (i16, i16),
-    /// Width and height in pixels.
+    /// Width and height in its own pixels, as it is turned.
     pub size: (u32, u32),
-    /// The user has made it the primary monitor.
+    /// The user has made it the primary monitor; under Wayland there is none.
     pub primary: bool,
-    /// What it says of itself, its EDID; empty where the server does not tell.
+    /// What it says of itself, its EDID; empty where nobody tells.
     pub edid: Vec<u8>,
 }
 
-/// The monitors of the X server.
-///
-/// # Errors
-/// There is no X server, or it fails.
-pub fn monitors() -> Result<Vec<Monitor>, WindowError> {
-    let (connection, number) = RustConnection::connect(None)?;
-    let screen = connection.setup().roots.get(number).cloned();
-    all(&connection, &screen.ok_or(WindowError::Colours)?)
-}
-
-/// All monitors. Where the server reports none, the whole screen counts as one.
-pub(super) fn all(
-    connection: &impl Connection,
-    screen: &Screen,
-) -> Result<Vec<Monitor>, WindowError> {
-    let mut found = Vec::new();
-    // A server without RandR 1.5 answers with an error.
-    if let Ok(reply) = connection
-        .randr_get_monitors(screen.root, true)
-        .map_err(x11rb::errors::ReplyError::from)
-        .and_then(|cookie| cookie.reply())
-    {
-        for monitor in reply.monitors {
-            let name = connection.get_atom_name(monitor.name)?.reply()?.name;
-            found.push(Monitor {
-                name: String::from_utf8_lossy(&name).into_owned(),
-                at: (monitor.x, monitor.y),
-                size: (monitor.width.into(), monitor.height.into()),
-                primary: monitor.primary,
-                edid: edid(connection, &monitor.outputs)?,
+impl Monitor {
+    /// [`WindowError::TooLarge`] for a picture that is larger than the monitor.
+    pub fn check(&self, picture: (u32, u32)) -> Result<(), WindowError> {
+        if picture.0 > self.size.0 || picture.1 > self.size.1 {
+            return Err(WindowError::TooLarge {
+                picture,
+                monitor: self.name.clone(),
+                size: self.size,
             });
         }
+        Ok(())
     }
-    if found.is_empty() {
-        found.push(Monitor {
-            name: "screen".to_owned(),
-            at: (0, 0),
-            size: (
-                screen.width_in_pixels.into(),
-                screen.height_in_pixels.into(),
-            ),
-            primary: true,
-            edid: Vec::new(),
-        });
-    }
-    Ok(found)
-}
-
-/// The EDID of the first output that has one.
-fn edid(connection: &impl Connection, outputs: &[u32]) -> Result<Vec<u8>, WindowError> {
-    const NAME: &[u8] = b"EDID";
-    /// Four bytes each; extensions are not needed.
-    const UNITS: u32 = 32;
-    let property = connection.intern_atom(true, NAME)?.reply()?.atom;
-    for &output in outputs.iter().filter(|_| property != x11rb::NONE) {
-        let any: u32 = AtomEnum::ANY.into();
-        let asked =
-            connection.randr_get_output_property(output, property, any, 0, UNITS, false, false)?;
-        // An output without it answers with nothing.
-        if let Ok(reply) = asked.reply()
-            && !reply.data.is_empty()
-        {
-            return Ok(reply.data);
-        }
-    }
-    Ok(Vec::new())
 }
 
 /// The monitor with the `wanted` name or number from 0. Without `wanted`, the first of the panel's size, else the primary one, else the first.

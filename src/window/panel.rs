@@ -1,28 +1,22 @@
 //! The panel's own window: covers a monitor and shows the pictures that the layer in a program sends ([`crate::control::panel`]).
 //!
-//! It belongs to the launcher, so the program never sees its connection to the X server, and neither waits for the other. The X server reads the
-//! pictures from the file that they are written to, where it can.
+//! It belongs to the launcher, so the program never sees its connection to the display server, and neither waits for the other.
+#![forbid(unsafe_code)]
 
-use super::present::{Place, Presenter};
-use super::{Window, WindowError, wake};
-use crate::control::panel::{Frame, Hello, PIXEL, SLOTS, Sent, slot_bytes};
+use super::surface::{Picture, Seen, Surface};
+use super::{WindowError, open, wake};
+use crate::control::panel::{Frame, Hello, SLOTS, Sent, slot_bytes};
 use crate::control::place;
 use crate::display::Wall;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::net::sockopt::socket_peercred;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Write};
-use std::os::fd::AsFd;
-use std::os::unix::fs::{FileExt, OpenOptionsExt};
+use std::os::unix::fs::OpenOptionsExt;
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::PathBuf;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
-use x11rb::connection::Connection;
-use x11rb::protocol::Event as XEvent;
-use x11rb::protocol::shm::{ConnectionExt as _, Seg};
-use x11rb::protocol::xproto::{ImageFormat, Pixmap};
-use x11rb::wrapper::ConnectionExt as _;
 
 const TITLE: &str = "manyview";
 /// Permissions of the files.
@@ -48,15 +42,10 @@ impl PanelServer {
     /// # Errors
     /// There is no X server, no such monitor, or no place for the socket.
     pub fn open(wanted: Option<&str>, panel: Option<(u32, u32)>) -> Result<Self, WindowError> {
-        let window = Window::passive(TITLE, wanted, panel)?;
-        let size = window.monitor().size;
-        let part = Part {
-            presenter: Presenter::new(&window)?,
-            window,
-            at: [0, 0],
-            size,
-        };
-        Self::serve(vec![part], size)
+        let surface = open(TITLE, wanted, panel)?;
+        let size = surface.monitor().size;
+        let at = [0, 0];
+        Self::serve(vec![Part { surface, at, size }], size)
     }
 
     /// Opens a window over the monitor of each panel of a wall.
@@ -66,11 +55,10 @@ impl PanelServer {
     pub fn open_wall(wall: &Wall) -> Result<Self, WindowError> {
         let mut parts = Vec::new();
         for panel in wall.panels() {
-            let window = Window::passive(TITLE, Some(&panel.monitor), None)?;
-            window.check(panel.pixels)?;
+            let surface = open(TITLE, Some(&panel.monitor), None)?;
+            surface.monitor().check(panel.pixels)?;
             parts.push(Part {
-                presenter: Presenter::new(&window)?,
-                window,
+                surface,
                 at: panel.at,
                 size: panel.pixels,
             });
@@ -147,8 +135,7 @@ struct Served {
 
 /// A window, and the part of the picture that it shows.
 struct Part {
-    window: Window,
-    presenter: Presenter,
+    surface: Box<dyn Surface>,
     /// Left and top in the picture, and width and height, in pixels.
     at: [u32; 2],
     size: (u32, u32),
@@ -160,8 +147,6 @@ struct Client {
     stream: UnixStream,
     file: File,
     path: PathBuf,
-    /// The file as the X server knows it, for each window; none where it cannot read files.
-    segments: Vec<Option<Seg>>,
     /// Bytes of a message that are not complete.
     pending: Vec<u8>,
     /// Its process, if the system tells.
@@ -187,8 +172,8 @@ impl Served {
             }
             self.show()?;
             self.wake_idle();
-            for part in &self.parts {
-                part.window.connection.flush()?;
+            for part in &mut self.parts {
+                part.surface.flush()?;
             }
             let ready = self
                 .wait()
@@ -210,18 +195,11 @@ impl Served {
         }
     }
 
-    /// Handles the events of the window. Returns whether it was closed.
+    /// Handles the events of the windows. Returns whether one was closed.
     fn handle_events(&mut self) -> Result<bool, WindowError> {
-        for Part {
-            window, presenter, ..
-        } in &mut self.parts
-        {
-            while let Some(event) = window.connection.poll_for_event()? {
-                match event {
-                    XEvent::Expose(_) => presenter.show_again(window)?,
-                    event if window.is_close(&event) => return Ok(true),
-                    event => presenter.handle(&event),
-                }
+        for part in &mut self.parts {
+            if part.surface.handle_events()? {
+                return Ok(true);
             }
         }
         Ok(false)
@@ -236,11 +214,8 @@ impl Served {
         ];
         let clients = self.clients.iter();
         all.extend(clients.map(|client| PollFd::new(&client.stream, input)));
-        let windows = self
-            .parts
-            .iter()
-            .map(|part| part.window.connection.stream());
-        all.extend(windows.map(|stream| PollFd::new(stream, input)));
+        let windows = self.parts.iter().map(|part| part.surface.connection());
+        all.extend(windows.map(|server| PollFd::from_borrowed_fd(server, input)));
         let timeout = self
             .clients
             .iter()
@@ -283,10 +258,9 @@ impl Served {
             size,
             file: path.clone(),
         };
-        let mut client = Client {
+        let client = Client {
             number: self.count,
             stream: stream.try_clone()?,
-            segments: Vec::new(),
             pending: Vec::new(),
             process: peer(&stream),
             behind: None,
@@ -295,8 +269,9 @@ impl Served {
             file,
         };
         client.file.set_len(slot_bytes(size) * u64::from(SLOTS))?;
-        let windows = self.parts.iter().map(|part| &part.window);
-        client.segments = windows.map(|window| attach(window, &client.file)).collect();
+        for part in &mut self.parts {
+            part.surface.attach(client.number, &client.file);
+        }
         stream.write_all(hello.line().as_bytes())?;
         stream.set_nonblocking(true)?;
         self.clients.push(client);
@@ -346,50 +321,38 @@ impl Served {
 
     /// A program has ended.
     fn dismiss(&mut self, number: u32) -> Result<(), WindowError> {
-        let ended = self
-            .clients
-            .extract_if(.., |client| client.number == number);
-        for client in ended {
-            for (part, segment) in self.parts.iter().zip(&client.segments) {
-                if let Some(segment) = segment {
-                    part.window.connection.shm_detach(*segment)?;
-                }
-            }
+        self.clients.retain(|client| client.number != number);
+        for part in &mut self.parts {
+            part.surface.detach(number)?;
         }
         Ok(())
     }
 
-    /// Shows the picture that waits, if a pixmap is free for it in each window.
+    /// Shows the picture that waits, if each window takes one now.
     fn show(&mut self) -> Result<(), WindowError> {
         let Some((number, frame)) = self.waiting else {
             return Ok(());
         };
-        if !self.parts.iter().all(|part| part.presenter.is_free()) {
+        if !self.parts.iter().all(|part| part.surface.is_free()) {
             return Ok(());
         }
         self.waiting = None;
         let Some(client) = self.clients.iter().find(|client| client.number == number) else {
             return Ok(());
         };
-        let mut buffers = Vec::new();
-        for (part, segment) in self.parts.iter_mut().zip(&client.segments) {
-            let seen = Seen::of(frame, part);
-            let Part {
-                window, presenter, ..
-            } = part;
-            let Some((buffer, pixmap)) = presenter.buffer(window, seen.place)? else {
-                continue;
-            };
-            put(window, (client, *segment, self.size), frame, (seen, pixmap))?;
-            buffers.push(buffer);
-        }
-        for part in &self.parts {
-            // The server has read the picture when it answers.
-            part.window.connection.sync()?;
+        let picture = Picture {
+            program: number,
+            file: &client.file,
+            offset: slot_bytes(self.size) * u64::from(frame.slot),
+            frame,
+        };
+        for part in &mut self.parts {
+            let seen = Seen::of(frame, part.at, part.size);
+            part.surface.take(picture, seen)?;
         }
         free(client, frame.slot);
-        for (part, buffer) in self.parts.iter_mut().zip(buffers) {
-            part.presenter.show(&part.window, buffer)?;
+        for part in &mut self.parts {
+            part.surface.show()?;
         }
         Ok(())
     }
@@ -436,88 +399,4 @@ struct Ready {
 fn free(client: &Client, slot: u8) {
     // A program that does not read has no use for the slot.
     let _ = (&client.stream).write(&[slot]);
-}
-
-/// Lets the X server read a file. None where it cannot, as over a network.
-fn attach(window: &Window, file: &File) -> Option<Seg> {
-    let c = &window.connection;
-    let known = c.shm_query_version().ok()?.reply().ok()?;
-    if (known.major_version, known.minor_version) < (1, 2) || !window.is_bgrx() {
-        return None;
-    }
-    let segment = c.generate_id().ok()?;
-    let file = file.as_fd().try_clone_to_owned().ok()?;
-    c.shm_attach_fd(segment, file, false).ok()?.check().ok()?;
-    Some(segment)
-}
-
-/// The part of a picture that a window shows.
-#[derive(Clone, Copy)]
-struct Seen {
-    /// Left and top in the picture as it lies in its slot.
-    from: [u16; 2],
-    /// Where that is in the window.
-    place: Place,
-}
-
-impl Seen {
-    fn of(frame: Frame, part: &Part) -> Self {
-        let axis = |axis: usize, side: u32| {
-            let (start, end) = (part.at[axis], part.at[axis] + side);
-            let first = u32::from(frame.at[axis]).max(start);
-            let last = (u32::from(frame.at[axis]) + u32::from(frame.size[axis])).min(end);
-            let from = first - u32::from(frame.at[axis]);
-            [from, first - start, last.saturating_sub(first)].map(|n| n as u16)
-        };
-        let ([x, left, width], [y, top, height]) = (axis(0, part.size.0), axis(1, part.size.1));
-        Self {
-            from: [x, y],
-            place: ([left, top], [width, height]),
-        }
-    }
-}
-
-/// Puts the part of a picture that a window shows into a pixmap. `size`: that of the whole picture.
-fn put(
-    window: &Window,
-    (client, segment, size): (&Client, Option<Seg>, (u32, u32)),
-    frame: Frame,
-    (seen, pixmap): (Seen, Pixmap),
-) -> Result<(), WindowError> {
-    let ([x, y], [width, height]) = seen.place;
-    if width == 0 || height == 0 {
-        return Ok(());
-    }
-    let offset = slot_bytes(size) * u64::from(frame.slot);
-    if let Some(segment) = segment {
-        window.connection.shm_put_image(
-            pixmap,
-            window.gc,
-            frame.size[0],
-            frame.size[1],
-            seen.from[0],
-            seen.from[1],
-            width,
-            height,
-            x as i16,
-            y as i16,
-            super::DEPTH,
-            ImageFormat::Z_PIXMAP.into(),
-            false,
-            segment,
-            offset as u32,
-        )?;
-        return Ok(());
-    }
-    let row = usize::from(width) * PIXEL;
-    let mut pixels = vec![0; row * usize::from(height)];
-    for (number, out) in (0..).zip(pixels.chunks_exact_mut(row)) {
-        let texel = u64::from(seen.from[1]) + number;
-        let texel = texel * u64::from(frame.size[0]) + u64::from(seen.from[0]);
-        let read = client
-            .file
-            .read_exact_at(out, offset + texel * PIXEL as u64);
-        read.map_err(|error| WindowError::Socket(error.to_string()))?;
-    }
-    window.put(pixmap, pixels, (width, height), (x as i16, y as i16))
 }

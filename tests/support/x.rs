@@ -142,13 +142,23 @@ impl User {
 
     /// The child of the root window with this name.
     pub(crate) fn window(&self, name: &str) -> Option<Window> {
+        let atom = self.connection.intern_atom(false, b"_NET_WM_NAME");
+        let atom = atom.expect("sent").reply().expect("a name").atom;
         let named = |window: &Window| {
-            let property = (AtomEnum::WM_NAME, AtomEnum::STRING);
-            let cookie = self
-                .connection
-                .get_property(false, *window, property.0, property.1, 0, 99);
-            let value = cookie.expect("sent").reply();
-            value.is_ok_and(|found| found.value == name.as_bytes())
+            [AtomEnum::WM_NAME.into(), atom]
+                .into_iter()
+                .any(|property| {
+                    let cookie = self.connection.get_property(
+                        false,
+                        *window,
+                        property,
+                        AtomEnum::ANY,
+                        0,
+                        99,
+                    );
+                    let value = cookie.expect("sent").reply();
+                    value.is_ok_and(|found| found.value == name.as_bytes())
+                })
         };
         self.windows().into_iter().find(named)
     }
@@ -158,6 +168,17 @@ impl User {
         let to = ConfigureWindowAux::new().x(i32::from(x)).y(i32::from(y));
         let moved = self.connection.configure_window(window, &to);
         moved.expect("sent").check().expect("moved");
+    }
+
+    /// Gives a window left, top, width and height, as a window manager does.
+    pub(crate) fn put(&self, window: Window, [x, y, width, height]: [i16; 4]) {
+        let to = ConfigureWindowAux::new()
+            .x(i32::from(x))
+            .y(i32::from(y))
+            .width(u32::from(width.unsigned_abs()))
+            .height(u32::from(height.unsigned_abs()));
+        let placed = self.connection.configure_window(window, &to);
+        placed.expect("sent").check().expect("placed");
     }
 
     /// Left and top of a child of the root window, in pixels of the screen.

@@ -4,7 +4,9 @@
 //! gets the picture at once.
 #![forbid(unsafe_code)]
 
-use super::{DEPTH, Window, WindowError};
+use super::{DEPTH, Window};
+use crate::window::WindowError;
+use crate::window::surface::Place;
 use x11rb::connection::{Connection, RequestConnection};
 use x11rb::protocol::Event as XEvent;
 use x11rb::protocol::present::{self, ConnectionExt as _, EventMask as PresentMask};
@@ -12,9 +14,6 @@ use x11rb::protocol::xproto::{ChangeGCAux, ConnectionExt as _, Pixmap, Rectangle
 
 /// One that is shown, one that is to be shown next, and one that is written.
 const BUFFERS: usize = 3;
-
-/// Where a picture is in the window: left, top, width and height in pixels.
-pub(super) type Place = ([u16; 2], [u16; 2]);
 
 #[derive(Debug)]
 struct Buffer {

@@ -1,0 +1,183 @@
+//! A Wayland compositor for a test, with monitors of its own, and a user who looks at them.
+#![forbid(unsafe_code)]
+
+use super::support::{Screen, sized_screen};
+use super::x::User;
+use image::RgbImage;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const LIMIT: Duration = Duration::from_secs(20);
+
+/// A monitor.
+#[derive(Clone, Copy)]
+pub(crate) struct Monitor {
+    /// Pixels before it is turned.
+    pub(crate) size: (u16, u16),
+    /// As the compositor's own file calls it.
+    pub(crate) turned: &'static str,
+    pub(crate) scale: &'static str,
+}
+
+/// A compositor that runs until it is dropped.
+pub(crate) struct Compositor {
+    child: Child,
+    folder: TempDir,
+    socket: String,
+    /// What it draws on, where that is an X server.
+    screen: Option<Screen>,
+}
+
+impl Compositor {
+    /// Weston in a window of an X server for each monitor. Its monitors are called X0 and so on.
+    pub(crate) fn weston(monitors: &[Monitor]) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut text = String::from("[core]\nidle-time=0\n[shell]\npanel-position=none\n");
+        for (number, monitor) in monitors.iter().enumerate() {
+            let Monitor {
+                size: (width, height),
+                turned,
+                scale,
+            } = monitor;
+            let _ = writeln!(
+                text,
+                "[output]\nname=X{number}\nmode={width}x{height}\ntransform={turned}\nscale={scale}"
+            );
+        }
+        let file = folder.path().join("weston.ini");
+        std::fs::write(&file, text).expect("written");
+        let screen = sized_screen((2000, 1400));
+        let mut command = Command::new("weston");
+        command
+            .args(["--backend=x11-backend.so", "--use-pixman"])
+            .args(["--socket=wayland-test"])
+            .arg(format!("--output-count={}", monitors.len()))
+            .arg(format!("--config={}", file.display()));
+        screen.give(&mut command);
+        Self::start(command, folder, Some(screen))
+    }
+
+    /// Sway without a screen. Its monitors are called HEADLESS-1 and so on.
+    pub(crate) fn sway(monitors: &[Monitor]) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut text = String::new();
+        for (number, monitor) in (1..).zip(monitors) {
+            let Monitor {
+                size: (width, height),
+                turned,
+                scale,
+            } = monitor;
+            let _ = writeln!(
+                text,
+                "output HEADLESS-{number} mode {width}x{height} transform {turned} scale {scale}"
+            );
+        }
+        let file = folder.path().join("sway.txt");
+        std::fs::write(&file, text).expect("written");
+        // It does not run as root: then it gets a name space where it is another user.
+        let mut command = if rustix::process::geteuid().is_root() {
+            let mut command = Command::new("unshare");
+            command.args(["--user", "--map-user=1000", "--map-group=1000", "sway"]);
+            command
+        } else {
+            Command::new("sway")
+        };
+        command
+            .arg("--config")
+            .arg(&file)
+            .env("WLR_BACKENDS", "headless")
+            .env("WLR_RENDERER", "pixman")
+            .env("WLR_LIBINPUT_NO_DEVICES", "1")
+            .env("WLR_HEADLESS_OUTPUTS", monitors.len().to_string())
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY");
+        Self::start(command, folder, None)
+    }
+
+    fn start(mut command: Command, folder: TempDir, screen: Option<Screen>) -> Self {
+        command
+            .env("XDG_RUNTIME_DIR", folder.path())
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        let child = command.spawn().expect("a compositor");
+        let mut compositor = Self {
+            child,
+            folder,
+            socket: String::new(),
+            screen,
+        };
+        let limit = Instant::now() + LIMIT;
+        compositor.socket = loop {
+            if let Some(name) = compositor.listening() {
+                break name;
+            }
+            assert!(Instant::now() < limit, "the compositor has no socket");
+            std::thread::sleep(Duration::from_millis(20));
+        };
+        compositor
+    }
+
+    /// The socket that it has made.
+    fn listening(&self) -> Option<String> {
+        self.file(|name| name.starts_with("wayland-") && !name.ends_with(".lock"))
+    }
+
+    fn file(&self, is: impl Fn(&str) -> bool) -> Option<String> {
+        let all = std::fs::read_dir(self.folder.path()).expect("a folder");
+        let mut names = all.filter_map(|file| file.ok()?.file_name().into_string().ok());
+        names.find(|name| is(name))
+    }
+
+    /// Lets a program use it, and no X server.
+    pub(crate) fn give<'a>(&self, command: &'a mut Command) -> &'a mut Command {
+        command
+            .env("XDG_RUNTIME_DIR", self.folder.path())
+            .env("WAYLAND_DISPLAY", &self.socket)
+            .env_remove("DISPLAY")
+    }
+
+    /// The pixels of a monitor as they are sent to it, before it is turned.
+    pub(crate) fn pixels(&self, number: usize) -> Option<RgbImage> {
+        if let Some(screen) = &self.screen {
+            let user = User::at(screen.display());
+            let title = format!("Weston Compositor - X{number}");
+            let window = user.window(&title)?;
+            // One below the other, because X has no pixels of what is covered.
+            user.move_to(window, [0, 700 * number as i16]);
+            return Some(user.picture(window));
+        }
+        let file: PathBuf = self.folder.path().join("shown.png");
+        let mut command = Command::new("grim");
+        let name = format!("HEADLESS-{}", number + 1);
+        let taken = self.give(&mut command).args(["-o", &name]).arg(&file);
+        let taken = taken.stderr(Stdio::null()).status().expect("grim");
+        taken.success().then_some(())?;
+        Some(image::open(file).ok()?.into_rgb8())
+    }
+}
+
+impl Compositor {
+    /// The monitor that has the keyboard, where the compositor tells (sway).
+    pub(crate) fn focused(&self) -> Option<String> {
+        let socket = self.file(|name| name.starts_with("sway-ipc"))?;
+        let mut command = Command::new("swaymsg");
+        command.arg("--socket").arg(self.folder.path().join(socket));
+        let output = command.args(["--raw", "-t", "get_outputs"]).output();
+        let text = output.expect("swaymsg").stdout;
+        let all: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
+        let mut all = all.as_array().expect("a list").iter();
+        let focused = all.find(|output| output["focused"] == true)?;
+        Some(focused["name"].as_str()?.to_owned())
+    }
+}
+
+impl Drop for Compositor {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
