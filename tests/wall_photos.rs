@@ -191,15 +191,15 @@ fn patterns(wall: &Path, folder: &Path) -> Vec<RgbImage> {
         .collect()
 }
 
-/// Panels that are up to 5° turned, 20 mm displaced and 3 % darker than described.
-fn askew(random: &mut Random) -> Vec<True> {
+/// Panels that are up to 5° turned, 20 mm displaced and darker than described: their light is at least `low`.
+fn askew(random: &mut Random, low: f64) -> Vec<True> {
     let panels = AT.map(|[x, y]| True {
         at: [
             x + random.between(-20.0, 20.0),
             y + random.between(-20.0, 20.0),
         ],
         turn: random.between(-5.0, 5.0).to_radians(),
-        light: random.between(0.97, 1.0),
+        light: random.between(low, 1.0),
     });
     panels.to_vec()
 }
@@ -255,15 +255,16 @@ fn measured(folder: &Path, wall: &Path, photos: &[PathBuf]) -> (i32, String, Pat
 
 #[test]
 fn a_wall_that_hangs_askew_is_measured() {
-    for (seed, eyes) in [
-        (1_u64, vec![[0.0, 0.0, 1300.0]]),
-        (2, vec![[120.0, 60.0, 1400.0], [-90.0, -40.0, 1350.0]]),
+    // The least light of a panel: 3 % less, and as much less as panels of two makers.
+    for (seed, eyes, low) in [
+        (1_u64, vec![[0.0, 0.0, 1300.0]], 0.97),
+        (2, vec![[120.0, 60.0, 1400.0], [-90.0, -40.0, 1350.0]], 0.6),
     ] {
         let mut random = Random(seed);
         let folder = tempfile::tempdir().expect("a folder");
         let wall = described(folder.path());
         let pictures = patterns(&wall, folder.path());
-        let truth = askew(&mut random);
+        let truth = askew(&mut random, low);
         let k1 = random.between(-0.08, 0.03);
         let photos: Vec<PathBuf> = eyes
             .into_iter()
@@ -288,9 +289,9 @@ fn a_wall_that_hangs_askew_is_measured() {
             100.0 * light
         );
         assert!(pixels <= 0.25, "seed {seed}: {pixels} pixels");
-        assert!(light <= 0.05, "seed {seed}: {light}");
+        assert!(light <= 0.01, "seed {seed}: {light}");
         // What the description says is off by far more.
-        let (before, _) = {
+        let (before, uneven) = {
             let text = std::fs::read_to_string(&wall).expect("text");
             let nominal = text.replace("width = 480\n", "width = 480\nlight = 1.0\n");
             let file = folder.path().join("nominal.toml");
@@ -298,6 +299,7 @@ fn a_wall_that_hangs_askew_is_measured() {
             errors(&file, &truth)
         };
         assert!(before > 20.0, "{before}");
+        assert!(low > 0.9 || uneven > 0.2, "{uneven}");
     }
 }
 

@@ -161,17 +161,15 @@ impl Compositor {
 }
 
 impl Compositor {
-    /// The monitor that has the keyboard, where the compositor tells (sway).
-    pub(crate) fn focused(&self) -> Option<String> {
+    /// Whether it has a window of this title that can get the keyboard. None where the compositor does not tell (weston).
+    pub(crate) fn has_window(&self, title: &str) -> Option<bool> {
         let socket = self.file(|name| name.starts_with("sway-ipc"))?;
         let mut command = Command::new("swaymsg");
         command.arg("--socket").arg(self.folder.path().join(socket));
-        let output = command.args(["--raw", "-t", "get_outputs"]).output();
-        let text = output.expect("swaymsg").stdout;
-        let all: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
-        let mut all = all.as_array().expect("a list").iter();
-        let focused = all.find(|output| output["focused"] == true)?;
-        Some(focused["name"].as_str()?.to_owned())
+        let output = command.args(["--raw", "-t", "get_tree"]).output();
+        let tree = String::from_utf8(output.expect("swaymsg").stdout).expect("text");
+        assert!(tree.contains("HEADLESS-1"), "{tree}");
+        Some(tree.contains(&format!("\"{title}\"")))
     }
 }
 
