@@ -12,7 +12,7 @@ mod x;
 use case::{CAMERAS, CASE, Case, DISPLAYS, STEP, end, still, word, worst};
 use image::RgbImage;
 use manyview::display::Fit;
-use running::Running;
+use running::{Running, until};
 use serde_json::Value;
 use std::io::Read;
 use std::process::{Child, Stdio};
@@ -227,6 +227,24 @@ fn the_window_takes_no_keyboard_and_ends_with_the_program() {
         user.window("manyview").is_none(),
         "the window goes with the program"
     );
+}
+
+/// A program that covers all monitors covers the panel's window only for a moment.
+#[test]
+fn the_window_comes_back_above_a_program_that_covers_it() {
+    let screen = sized_screen(CASE.panel);
+    let expected = CASE.expected();
+    let child = start(&CASE, &screen, &[]);
+    wait_for(&screen, &expected);
+    let user = User::at(screen.display());
+    let (width, height) = (CASE.panel.0 as i16, CASE.panel.1 as i16);
+    let cover = user.open(user.root);
+    user.put(cover, [0, 0, width, height]);
+    user.paint(cover, 0xff_ff00);
+    until("the picture on the screen", || {
+        (worst(&user.picture(user.root), &expected) <= STEP).then_some(())
+    });
+    end(child, "covered");
 }
 
 /// The user closes the panel's window: the program goes on, and shows the picture itself.

@@ -6,8 +6,8 @@ use image::{Rgb, RgbImage};
 use x11rb::connection::Connection;
 use x11rb::protocol::randr::{ConnectionExt as _, MonitorInfo};
 use x11rb::protocol::xproto::{
-    AtomEnum, ConfigureWindowAux, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus,
-    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, PropMode, Window, WindowClass,
+    AtomEnum, ChangeWindowAttributesAux, ConfigureWindowAux, ConnectionExt as _, CreateWindowAux,
+    ImageFormat, InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, PropMode, Window, WindowClass,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -81,6 +81,15 @@ impl User {
             .check()
             .expect("mapped");
         id
+    }
+
+    /// Fills a window with a colour.
+    pub(crate) fn paint(&self, window: Window, colour: u32) {
+        let about = ChangeWindowAttributesAux::new().background_pixel(colour);
+        let set = self.connection.change_window_attributes(window, &about);
+        set.expect("sent").check().expect("set");
+        let cleared = self.connection.clear_area(false, window, 0, 0, 0, 0);
+        cleared.expect("sent").check().expect("cleared");
     }
 
     /// Gives a window the keyboard focus.

@@ -20,9 +20,9 @@ use x11rb::connection::Connection;
 use x11rb::image::{BitsPerPixel, Image, ImageOrder, PixelLayout, ScanlinePad};
 use x11rb::protocol::Event as XEvent;
 use x11rb::protocol::xproto::{
-    AtomEnum, ChangeWindowAttributesAux, ConnectionExt as _, CreateGCAux, CreateWindowAux,
-    EventMask, Gcontext, GetKeyboardMappingReply, InputFocus, KeyButMask, Pixmap, PropMode,
-    Window as Id, WindowClass,
+    AtomEnum, ChangeWindowAttributesAux, ConfigureWindowAux, ConnectionExt as _, CreateGCAux,
+    CreateWindowAux, EventMask, Gcontext, GetKeyboardMappingReply, InputFocus, KeyButMask, Pixmap,
+    PropMode, StackMode, Window as Id, WindowClass,
 };
 use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
@@ -139,7 +139,10 @@ impl Window {
             &CreateWindowAux::new()
                 .background_pixel(screen.black_pixel)
                 .event_mask(
-                    EventMask::KEY_PRESS | EventMask::STRUCTURE_NOTIFY | EventMask::EXPOSURE,
+                    EventMask::KEY_PRESS
+                        | EventMask::STRUCTURE_NOTIFY
+                        | EventMask::EXPOSURE
+                        | EventMask::VISIBILITY_CHANGE,
                 ),
         )?;
         connection.create_gc(gc, id, &CreateGCAux::new())?;
@@ -260,6 +263,13 @@ impl Window {
         // The window keeps a reference of its own.
         c.free_pixmap(pixmap)?;
         c.sync()?;
+        Ok(())
+    }
+
+    /// Puts it above the windows that cover it.
+    fn raise(&self) -> Result<(), WindowError> {
+        let above = ConfigureWindowAux::new().stack_mode(StackMode::ABOVE);
+        self.connection.configure_window(self.id, &above)?;
         Ok(())
     }
 

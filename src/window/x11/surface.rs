@@ -9,11 +9,15 @@ use crate::window::{Monitor, WindowError};
 use rustc_hash::FxHashMap;
 use std::fs::File;
 use std::os::fd::{AsFd, BorrowedFd};
+use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
 use x11rb::protocol::Event as XEvent;
 use x11rb::protocol::shm::{ConnectionExt as _, Seg};
-use x11rb::protocol::xproto::{ImageFormat, Pixmap};
+use x11rb::protocol::xproto::{ImageFormat, Pixmap, Visibility};
 use x11rb::wrapper::ConnectionExt as _;
+
+/// The shortest time between two times that the window puts itself above others.
+const RAISE: Duration = Duration::from_secs(1);
 
 pub(super) struct PanelSurface {
     window: Window,
@@ -22,6 +26,10 @@ pub(super) struct PanelSurface {
     segments: FxHashMap<u32, Seg>,
     /// The number of the pixmap that holds what was taken.
     taken: Option<usize>,
+    /// Another window covers it.
+    covered: bool,
+    /// When it was last put above others.
+    raised: Option<Instant>,
 }
 
 impl PanelSurface {
@@ -31,6 +39,8 @@ impl PanelSurface {
             window,
             segments: FxHashMap::default(),
             taken: None,
+            covered: false,
+            raised: None,
         })
     }
 }
@@ -47,11 +57,15 @@ impl Surface for PanelSurface {
     fn handle_events(&mut self) -> Result<bool, WindowError> {
         while let Some(event) = self.window.connection.poll_for_event()? {
             match event {
+                XEvent::VisibilityNotify(seen) => {
+                    self.covered = seen.state != Visibility::UNOBSCURED;
+                }
                 XEvent::Expose(_) => self.presenter.show_again(&self.window)?,
                 event if self.window.is_close(&event) => return Ok(true),
                 event => self.presenter.handle(&event),
             }
         }
+        self.uncover()?;
         Ok(false)
     }
 
@@ -98,6 +112,16 @@ impl Surface for PanelSurface {
 }
 
 impl PanelSurface {
+    /// Comes back above a program that covers all monitors, as full screen programs without a window manager do; seldom, because another program may do the
+    /// same.
+    fn uncover(&mut self) -> Result<(), WindowError> {
+        if self.covered && self.raised.is_none_or(|at| at.elapsed() >= RAISE) {
+            self.window.raise()?;
+            self.raised = Some(Instant::now());
+        }
+        Ok(())
+    }
+
     /// Puts what is seen of a picture into a pixmap.
     fn put(&self, picture: Picture<'_>, seen: Seen, pixmap: Pixmap) -> Result<(), WindowError> {
         let ([x, y], [width, height]) = seen.place;
