@@ -11,6 +11,8 @@ pub mod bounded;
 
 pub mod display;
 
+pub mod splat;
+
 #[cfg(feature = "cli")]
 pub mod calibrate;
 
