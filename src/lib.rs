@@ -53,6 +53,8 @@ pub mod draw;
 
 pub mod interleave;
 
+pub mod points;
+
 pub mod osd;
 
 pub mod accumulation;

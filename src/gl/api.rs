@@ -4,8 +4,8 @@ use super::consts as c;
 use super::held::Held;
 use super::immediate::{Ends, Recording};
 use super::object_names::{
-    Argument, BufferName, FramebufferName, ListName, ProgramName, QueryName, ShaderName,
-    TextureName, VertexArrayName,
+    Argument, BufferName, FramebufferName, ListName, ProgramName, QueryName, RenderbufferName,
+    ShaderName, TextureName, VertexArrayName,
 };
 use super::real::{Ptr, Real};
 use super::shadow;
@@ -86,6 +86,7 @@ plain! {
     draw_buffer = glDrawBuffer(buffer: u32);
     read_buffer = glReadBuffer(buffer: u32);
     framebuffer_texture = glFramebufferTexture(target: u32, attachment: u32, texture: TextureName, level: i32);
+    framebuffer_renderbuffer = glFramebufferRenderbuffer(target: u32, attachment: u32, kind: u32, name: RenderbufferName);
     framebuffer_texture_layer = glFramebufferTextureLayer(target: u32, attachment: u32, texture: TextureName, level: i32, layer: i32);
     check_framebuffer_status = glCheckFramebufferStatus(target: u32) -> u32;
     blit_framebuffer = glBlitFramebuffer(sx0: i32, sy0: i32, sx1: i32, sy1: i32, dx0: i32, dy0: i32, dx1: i32, dy1: i32, mask: u32, filter: u32);

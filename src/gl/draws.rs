@@ -6,9 +6,15 @@ use super::{BufferName, Gl, Ptr, VertexArrayName, consts as c};
 impl Gl {
     /// A triangle without arrays, from a vertex array of the layer's, which stays bound: it enables none there.
     pub fn draw_triangle(&self, vertex_array: VertexArrayName) {
+        self.draw_triangles(vertex_array, 1);
+    }
+
+    /// The same of several triangles.
+    pub fn draw_triangles(&self, vertex_array: VertexArrayName, triangles: u32) {
         self.bind_vertex_array(vertex_array);
+        let vertices = i32::try_from(triangles.saturating_mul(3)).unwrap_or(i32::MAX);
         // SAFETY: a context is current; without arrays no memory is read.
-        unsafe { self.real.glDrawArrays(c::TRIANGLES, 0, 3) }
+        unsafe { self.real.glDrawArrays(c::TRIANGLES, 0, vertices) }
     }
 
     /// glDrawArrays

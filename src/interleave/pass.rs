@@ -28,6 +28,19 @@ pub enum Pass {
     Accumulate(Step),
     /// Synthesis of views from depth images.
     Synthesis(Synthesis),
+    /// Splats, drawn once for all views.
+    Points(Points),
+}
+
+/// What the fragments of splats are; see `shaders/points.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Points {
+    /// The subpixels of a panel, in a picture of three times the width.
+    Subpixels,
+    /// The pixels of a panel whose pixels each show one view.
+    Pixels,
+    /// The pixels of one view.
+    View,
 }
 
 /// Cases of mask and atlas; see `shaders/texels.wgsl`.
@@ -117,6 +130,7 @@ impl Pass {
             .chain([Self::Wall, Self::Copy])
             .chain(Step::ALL.map(Self::Accumulate))
             .chain(Synthesis::ALL.map(Self::Synthesis))
+            .chain(Points::ALL.map(Self::Points))
     }
 }
 
@@ -143,6 +157,11 @@ impl Synthesis {
     pub(super) const fn panel(whole: bool, source: DisocclusionSource) -> Self {
         Self::Panel { whole, source }
     }
+}
+
+impl Points {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Subpixels, Self::Pixels, Self::View];
 }
 
 impl Step {

@@ -29,14 +29,13 @@ impl Program {
         let current = ProgramName(gl.get_integer(c::CURRENT_PROGRAM) as u32);
         let location = |n: &str| CString::new(n).map_or(-1, |n| gl.uniform_location(name, &n));
         gl.use_program(name);
-        for t in &fragment.textures {
+        for t in vertex.textures.iter().chain(&fragment.textures) {
             gl.uniform_1i(location(&t.name), t.unit as i32);
         }
         gl.use_program(current);
         // Uniforms that the pass does not read have no location.
-        let uniforms = fragment
-            .uniforms
-            .into_iter()
+        let uniforms = vertex.uniforms.into_iter().chain(fragment.uniforms);
+        let uniforms = uniforms
             .map(|u| (location(&u.name), u))
             .filter(|&(location, _)| location >= 0)
             .collect();

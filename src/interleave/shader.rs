@@ -5,7 +5,7 @@
 //! `ADJUST_COORDINATE_SPACE`): the shaders are written for OpenGL's window space, y upwards.
 #![forbid(unsafe_code)]
 
-pub use super::pass::{Pass, SampleAligned, Step, Synthesis, Texels};
+pub use super::pass::{Pass, Points, SampleAligned, Step, Synthesis, Texels};
 pub use super::uniforms::{MaskUniforms, Uniforms};
 use crate::config::DisocclusionSource;
 use naga::back::glsl;
@@ -34,6 +34,7 @@ const THROUGH: &str = include_str!("../../shaders/through.wgsl");
 const THROUGH_REFERENCE: &str = include_str!("../../shaders/through_reference.wgsl");
 const WALL: &str = include_str!("../../shaders/wall.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
+const POINTS: &str = include_str!("../../shaders/points.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
 /// Texture unit of the views: a 2D array texture.
@@ -59,7 +60,7 @@ pub const WARP_UNIT: u32 = 9;
 /// A shader stage of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// One triangle over the window: three vertices, no attributes.
+    /// One triangle over the window, three vertices; of splats six vertices for each. No attributes.
     Vertex,
     /// The pass itself.
     Fragment,
@@ -243,6 +244,7 @@ fn translate_anew(
         ..glsl::Options::default()
     };
     let (shader_stage, entry_point) = match stage {
+        Stage::Vertex if matches!(pass, Pass::Points(_)) => (naga::ShaderStage::Vertex, "corner"),
         Stage::Vertex => (naga::ShaderStage::Vertex, "cover"),
         Stage::Fragment => (naga::ShaderStage::Fragment, entry(pass)),
     };
@@ -315,6 +317,9 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Accumulate(Step::Multiply) => "multiply",
         Pass::Accumulate(Step::Add) => "add",
         Pass::Accumulate(Step::Return) => "give_back",
+        Pass::Points(Points::Subpixels) => "points_subpixels",
+        Pass::Points(Points::Pixels) => "points_pixels",
+        Pass::Points(Points::View) => "points_view",
         Pass::Synthesis(Synthesis::BlockBounds) => "block_bounds",
         Pass::Synthesis(Synthesis::RowMaxima) => "row_maxima",
         Pass::Synthesis(Synthesis::RayRange) => "ray_range",
@@ -340,6 +345,7 @@ pub(super) fn source(pass: Pass) -> String {
         Pass::Wall => [COVER, COMMON, ATLAS, MASK, WALL].join("\n"),
         Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
+        Pass::Points(_) => [POINTS, MASK].join("\n"),
         Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::DistortionMap) => {
             [COVER, COMMON, ATLAS, DISPARITY, PLAIN, DISTORTION].join("\n")
         }

@@ -57,6 +57,25 @@ fn every_step_of_the_accumulation_buffer_translates_for_every_version() {
     }
 }
 
+/// Splats read their texture in the vertex stage, and the mask in the other, where a picture is of a panel.
+#[test]
+fn points_translate_for_every_version() {
+    for points in Points::ALL {
+        for version in GlslVersion::SUPPORTED {
+            let units = |stage| {
+                let got = translate(Pass::Points(points), stage, version).unwrap();
+                got.textures.iter().map(|t| t.unit).collect::<Vec<_>>()
+            };
+            assert_eq!(units(Stage::Vertex), [VIEWS_UNIT], "{points:?}");
+            let mask: &[u32] = match points {
+                Points::View => &[],
+                Points::Subpixels | Points::Pixels => &[MASK_UNIT],
+            };
+            assert_eq!(units(Stage::Fragment), mask, "{points:?}");
+        }
+    }
+}
+
 /// naga writes a choice by a vector of conditions as `mix`, which takes no integers before GLSL 4.50 and GLSL ES 3.10.
 #[test]
 fn no_pass_selects_integers_by_component() {

@@ -10,6 +10,8 @@
 //!
 //! `manyview-probe passes` gives the layer's own passes to the driver, in every version of the shading language that its contexts have. It
 //! prints one line of JSON for each kind of context and version.
+//!
+//! `manyview-probe points` draws random splats and compares each with its reference. It prints one line of JSON.
 
 mod egl;
 mod glx;
@@ -17,6 +19,7 @@ mod interleave;
 mod library;
 mod osmesa;
 mod passes;
+mod points;
 mod rewrite;
 
 use manyview_core::gl::{Gl, Ptr, Real, consts as c};
@@ -40,9 +43,10 @@ fn main() -> ExitCode {
         "interleave" => return interleave::run(),
         "rewrite" => return rewrite::run(),
         "passes" => return passes::run(),
+        "points" => return points::run(),
         _ => {
             eprintln!(
-                "usage: manyview-probe glx|egl|osmesa|passes|interleave [WIDTHxHEIGHT [VIEWS]]|rewrite FILE…"
+                "usage: manyview-probe glx|egl|osmesa|passes|points|interleave [WIDTHxHEIGHT [VIEWS]]|rewrite FILE…"
             );
             return ExitCode::from(2);
         }

@@ -1,0 +1,182 @@
+// Splats, drawn once for all views: a quad for each that holds the disk in every view, and for each subpixel the ray of its own view. The mathematics are those
+// of src/splat, where each step has its reference: `cover` in src/splat/cover.rs, `Parameters` in src/splat/disk.rs.
+
+struct Uniforms {
+    // Size of the picture in pixels.
+    picture: vec2<u32>,
+    // Columns and rows after which the mask repeats.
+    period: vec2<u32>,
+    // Splats in a row of their texture.
+    row: u32,
+    // Value of the mask at black subpixels.
+    black: u32,
+    // N.
+    views: u32,
+    // The view that is drawn, where it is one alone.
+    view: u32,
+    // x: distance of neighbouring cameras. y: depth of the screen. z: depth of the near plane. w: half of the width of the screen.
+    eyes: vec4<f32>,
+    // x, y: by how much a quad is larger than the disk, in pixels of the picture.
+    margin: vec4<f32>,
+}
+
+var<immediate> u: Uniforms;
+
+// Three texels for each splat: centre and radius; normal; colour.
+@group(0) @binding(0) var splats: texture_2d<f32>;
+
+struct Corner {
+    @builtin(position) position: vec4<f32>,
+    // (r·D, s·D, D) for the middle of the screen and of the cameras; n·(p − vp) for the middle camera.
+    @location(0) @interpolate(flat) base: vec4<f32>,
+    // Per unit of x of the screen. And n·(p − vp) per unit of the camera's offset.
+    @location(1) @interpolate(flat) x: vec4<f32>,
+    // Per unit of y. And the colour: red, green and blue in this one and the next two.
+    @location(2) @interpolate(flat) y: vec4<f32>,
+    // Per unit of the offset.
+    @location(3) @interpolate(flat) offset: vec4<f32>,
+    // Per unit of y times that of the offset.
+    @location(4) @interpolate(flat) both: vec4<f32>,
+}
+
+// The least and the largest slope of lines from the eye to a disk before it.
+fn slopes(p: f32, z: f32, n: f32, nz: f32, r: f32) -> vec2<f32> {
+    let a = z * z - r * r * (1.0 - nz * nz);
+    let b = p * z + r * r * n * nz;
+    let aside = z * n - p * nz;
+    let root = r * sqrt(max(z * z + p * p - aside * aside - r * r * (1.0 - n * n - nz * nz), 0.0));
+    return vec2<f32>(b - root, b + root) / a;
+}
+
+// (r·D, s·D) per one, x, y, offset and y·offset, for one of the axes of the plane.
+struct Axis {
+    base: f32,
+    x: f32,
+    y: f32,
+    offset: f32,
+    both: f32,
+}
+
+fn along(axis: vec3<f32>, p: vec3<f32>, n: vec3<f32>, radius: f32) -> Axis {
+    let focal = u.eyes.y;
+    let start = -dot(p, axis);
+    let plane = dot(n, p);
+    return Axis(
+        (n.z * focal * start + plane * axis.z * focal) / radius,
+        (n.x * start + plane * axis.x) / radius,
+        (n.y * start + plane * axis.y) / radius,
+        (n.z * focal * axis.x - n.x * start - plane * axis.x - n.x * axis.z * focal) / radius,
+        (n.y * axis.x - n.x * axis.y) / radius,
+    );
+}
+
+@vertex
+fn corner(@builtin(vertex_index) index: u32) -> Corner {
+    let number = index / 6u;
+    let at = vec2<i32>(i32(number % u.row) * 3, i32(number / u.row));
+    let place = textureLoad(splats, at, 0);
+    let p = place.xyz;
+    let radius = place.w;
+    let n = textureLoad(splats, at + vec2<i32>(1, 0), 0).xyz;
+    let colour = textureLoad(splats, at + vec2<i32>(2, 0), 0).rgb;
+    let focal = u.eyes.y;
+    let half = vec2<f32>(u.eyes.w, u.eyes.w * f32(u.picture.y) / f32(u.picture.x));
+
+    // The quad.
+    let end = 0.5 * f32(u.views - 1u) * abs(u.eyes.x);
+    let tilt = radius * length(n.xy);
+    var low = vec2<f32>(-1.0);
+    var high = vec2<f32>(1.0);
+    if p.z - tilt >= u.eyes.z {
+        let left = slopes(p.x + end, p.z, n.x, n.z, radius) * focal - end;
+        let right = slopes(p.x - end, p.z, n.x, n.z, radius) * focal + end;
+        let up = slopes(p.y, p.z, n.y, n.z, radius) * focal;
+        let margin = 2.0 * u.margin.xy / vec2<f32>(u.picture);
+        low = max(vec2<f32>(min(left.x, right.x), up.x) / half - margin, low);
+        high = min(vec2<f32>(max(left.y, right.y), up.y) / half + margin, high);
+    }
+    // Two triangles: corners 0, 1, 2 and 2, 1, 3.
+    let which = index % 6u;
+    let number_of = select(which, 5u - which, which > 2u) + select(0u, 1u, which > 2u);
+    let is_right = number_of == 1u || number_of == 3u;
+    let is_upper = number_of >= 2u;
+    var out: Corner;
+    out.position = vec4<f32>(select(low.x, high.x, is_right), select(low.y, high.y, is_upper), 0.0, 1.0);
+    if p.z + tilt < u.eyes.z || low.x >= high.x || low.y >= high.y {
+        // Outside of the picture.
+        out.position = vec4<f32>(2.0, 2.0, 0.0, 1.0);
+    }
+
+    // Its plane (Equation 3).
+    let across = select(vec3<f32>(-n.z, 0.0, n.x), vec3<f32>(0.0, -n.z, n.y), length(n.yz) >= 0.5);
+    let axis = normalize(across);
+    let r = along(axis, p, n, radius);
+    let s = along(cross(n, axis), p, n, radius);
+    out.base = vec4<f32>(r.base, s.base, n.z * focal, dot(n, p));
+    out.x = vec4<f32>(r.x, s.x, n.x, -n.x);
+    out.y = vec4<f32>(r.y, s.y, n.y, colour.r);
+    out.offset = vec4<f32>(r.offset, s.offset, -n.x, colour.g);
+    out.both = vec4<f32>(r.both, s.both, 0.0, colour.b);
+    return out;
+}
+
+// Whether the ray of a view through a place of the screen meets the disk, and 1 − near/depth there.
+struct Hit {
+    meets: bool,
+    depth: f32,
+}
+
+fn hit(c: Corner, view: u32, pixel: vec2<u32>) -> Hit {
+    let size = vec2<f32>(u.picture);
+    // Pixels count from the lower left corner.
+    let place = (vec2<f32>(pixel) + 0.5 - size / 2.0) * (2.0 * u.eyes.w / size.x);
+    let offset = (f32(view) - 0.5 * f32(u.views - 1u)) * u.eyes.x;
+    let at = c.base.xyz + c.x.xyz * place.x + (c.y.xyz + c.both.xyz * offset) * place.y + c.offset.xyz * offset;
+    let plane = c.base.w + c.x.w * offset;
+    let side = abs(at.z);
+    let ahead = u.eyes.y * plane * sign(at.z);
+    let inside = dot(at.xy, at.xy) <= at.z * at.z && side > 0.0 && ahead >= u.eyes.z * side;
+    return Hit(inside, 1.0 - u.eyes.z * side / ahead);
+}
+
+struct Seen {
+    @location(0) colour: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+// A picture of three times the width, whose pixels are the subpixels of the panel: red holds the colour of each.
+@fragment
+fn points_subpixels(c: Corner) -> Seen {
+    let at = vec2<u32>(c.position.xy);
+    let x = u32((c.position.x) / 3.0);
+    let channel = at.x - 3u * x;
+    let view = mask(vec2<u32>(x, u.picture.y - 1u - at.y))[channel];
+    let hit = hit(c, view, vec2<u32>(x, at.y));
+    if view >= u.black || !hit.meets {
+        discard;
+    }
+    let colour = vec3<f32>(c.y.w, c.offset.w, c.both.w);
+    return Seen(vec4<f32>(colour[channel]), hit.depth);
+}
+
+// A picture whose pixels each show one view.
+@fragment
+fn points_pixels(c: Corner) -> Seen {
+    let at = vec2<u32>(c.position.xy);
+    let view = mask(vec2<u32>(at.x, u.picture.y - 1u - at.y)).r;
+    let hit = hit(c, view, at);
+    if view >= u.black || !hit.meets {
+        discard;
+    }
+    return Seen(vec4<f32>(c.y.w, c.offset.w, c.both.w, 1.0), hit.depth);
+}
+
+// One view alone.
+@fragment
+fn points_view(c: Corner) -> Seen {
+    let hit = hit(c, u.view, vec2<u32>(c.position.xy));
+    if !hit.meets {
+        discard;
+    }
+    return Seen(vec4<f32>(c.y.w, c.offset.w, c.both.w, 1.0), hit.depth);
+}

@@ -1,0 +1,187 @@
+//! Random splats, drawn by the GPU one by one and all together, compared with [`crate::splat`] subpixel by subpixel.
+#![forbid(unsafe_code)]
+
+use super::{Cloud, Renderer, Target};
+use crate::display::{Display, Mask, Placement};
+use crate::gl::{Gl, PixelStore};
+use crate::interleave::glsl_version;
+use crate::interleave::shader::Points;
+use crate::splat::disk::on_plane;
+use crate::splat::reference::{Surface, picture};
+use crate::splat::{Eyes, Fault, Screen, Splat};
+use glam::DVec3;
+use serde::Serialize;
+
+const SPLATS: usize = 1000;
+/// Of the picture of one splat.
+const SCREEN: Screen = Screen {
+    size: (48, 32),
+    half: 2.0,
+};
+/// Of the picture of all splats.
+const LARGE: Screen = Screen {
+    size: (320, 240),
+    half: 2.0,
+};
+const EYES: Eyes = Eyes {
+    views: 8,
+    spacing: 0.1,
+    focal: 4.0,
+    near: 0.05,
+};
+/// How far a float is off, as a share of it, after the sums that a fragment makes.
+const ROUNDING: f64 = 2e-6;
+
+/// What was found.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Compared {
+    /// Splats that were drawn.
+    pub splats: usize,
+    /// Splats that were left out, because a number of theirs is infinite or none.
+    pub refused: usize,
+    /// Subpixels that were compared, each splat alone.
+    pub subpixels: u64,
+    /// Of these, those in which the splat is seen.
+    pub seen: u64,
+    /// Of these, those in which a rounding decides: at the edge of a disk, or of one that is seen from its edge.
+    pub at_the_edge: u64,
+    /// Of these, those that are seen though they should not be, or not though they should.
+    pub wrong: u64,
+    /// Subpixels of the picture of all splats.
+    pub together: u64,
+    /// Of these, those that differ from the reference by more than one step of 255.
+    pub together_wrong: u64,
+}
+
+/// Draws and compares in the context that is current.
+///
+/// # Errors
+/// The text of the driver, which refuses a program.
+pub fn compare(gl: &Gl) -> Result<Compared, String> {
+    let renderer = Renderer::new(gl, glsl_version(gl))?;
+    let store = PixelStore::enter(gl);
+    let display = Display::named("huebner8").map_err(|error| error.to_string())?;
+    let mask = |screen: Screen| {
+        let (width, height) = screen.size;
+        let placement = Placement::full_screen(width, height);
+        let mask = display.mask(&placement, EYES.views);
+        mask.map_err(|error| error.to_string())
+    };
+    let mut random = Random(30);
+    let mut splats = Vec::new();
+    let mut found = Compared::default();
+    while splats.len() < SPLATS {
+        match random.splat() {
+            Ok(splat) => splats.push(splat),
+            Err(_) => found.refused += 1,
+        }
+    }
+    found.splats = splats.len();
+    let small = mask(SCREEN)?;
+    let target = Target::new(gl, &store, (Points::Subpixels, SCREEN), &small);
+    for splat in &splats {
+        let white = Splat {
+            colour: [1.0; 3],
+            ..*splat
+        };
+        let shown = draw(gl, &store, (&renderer, &target), &[white]);
+        found.add(splat, &small, |x, y| shown[y as usize][x as usize] > 0);
+    }
+    let large = mask(LARGE)?;
+    let target = Target::new(gl, &store, (Points::Subpixels, LARGE), &large);
+    let shown = draw(gl, &store, (&renderer, &target), &splats);
+    let expected = picture(&splats, (&EYES, &LARGE), &large, Surface::Opaque);
+    for (shown, expected) in shown.iter().zip(expected.rows()) {
+        let expected = expected.flat_map(|pixel| pixel.0);
+        found.together += shown.len() as u64;
+        let off = shown
+            .iter()
+            .zip(expected)
+            .filter(|(a, b)| a.abs_diff(*b) > 1);
+        found.together_wrong += off.count() as u64;
+    }
+    store.leave(gl);
+    Ok(found)
+}
+
+/// The subpixels of the picture of splats, rows from the top.
+fn draw(
+    gl: &Gl,
+    store: &PixelStore,
+    (renderer, target): (&Renderer, &Target),
+    splats: &[Splat],
+) -> Vec<Vec<u8>> {
+    let cloud = Cloud::new(gl, store, splats);
+    renderer.draw(gl, &cloud, (target, 0), &EYES);
+    cloud.delete(gl);
+    let (width, height) = target.size();
+    let pixels = gl.read_rgb(store, 0, 0, width, height);
+    let rows = pixels.chunks_exact(3 * width as usize).rev();
+    let red = |row: &[u8]| row.iter().step_by(3).copied().collect();
+    rows.map(red).collect()
+}
+
+impl Compared {
+    /// Counts the subpixels of one splat.
+    fn add(&mut self, splat: &Splat, mask: &Mask, shown: impl Fn(u32, u32) -> bool) {
+        let (width, height) = SCREEN.size;
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let place = SCREEN.place([f64::from(x) + 0.5, f64::from(y) + 0.5]);
+            for (channel, view) in (0..).zip(mask.at(x, y).unwrap_or_default()) {
+                let offset = EYES.offset(view.into());
+                let point = on_plane(splat, &EYES, offset, place);
+                let away = point.map(|point| point.distance(splat.centre) / splat.radius);
+                // What a rounding does to the place in the plane, in radii.
+                let sight = place.extend(EYES.focal) - DVec3::X * offset;
+                let steep = splat.normal.dot(sight.normalize()).abs();
+                let near = ROUNDING * (splat.centre.length() + 1.0) / (splat.radius * steep);
+                let expected = away.is_some_and(|away| away <= 1.0);
+                let shown = shown(3 * x + channel, y);
+                let eye = DVec3::X * offset;
+                let depth =
+                    EYES.focal * splat.normal.dot(splat.centre - eye) / splat.normal.dot(sight);
+                let edge = near > 0.5
+                    || away.is_some_and(|away| (away - 1.0).abs() < near)
+                    || (depth - EYES.near).abs() < near * splat.radius;
+                self.subpixels += 1;
+                self.seen += u64::from(expected);
+                self.at_the_edge += u64::from(edge);
+                self.wrong += u64::from(!edge && shown != expected);
+            }
+        }
+    }
+}
+
+/// Random numbers that are the same in every run: xorshift.
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    /// A splat before or behind the viewer, as small as a subpixel or larger than the screen. Some are seen from their edge, and some are none.
+    fn splat(&mut self) -> Result<Splat, Fault> {
+        let mut centre = DVec3::new(
+            self.between(-3.0, 3.0),
+            self.between(-2.0, 2.0),
+            self.between(-0.5, 12.0),
+        );
+        let mut normal = [(); 3].map(|()| self.between(-1.0, 1.0));
+        let mut radius = 10.0_f64.powf(self.between(-2.5, 0.7));
+        match self.between(0.0, 100.0) as u32 {
+            0 => centre.x = f64::NAN,
+            1 => normal[1] = f64::INFINITY,
+            2 => radius = 0.0,
+            // At the near plane.
+            3..10 => centre.z = EYES.near + radius * self.between(-1.0, 1.0),
+            10..20 => normal = [-centre.z, self.between(-0.01, 0.01), centre.x],
+            _ => {}
+        }
+        let colour = [(); 3].map(|()| self.between(0.2, 1.0) as f32);
+        Splat::new(centre, DVec3::from_array(normal), radius, colour)
+    }
+}

@@ -1,0 +1,212 @@
+//! Splats drawn by the GPU, once for all views, straight into the pixels of a panel (`shaders/points.wgsl`; the mathematics are those of [`crate::splat`]).
+#![forbid(unsafe_code)]
+
+pub mod compare;
+
+use crate::display::{GUARD, Mask};
+use crate::gl::{
+    FramebufferName, Gl, PixelStore, RenderbufferName, TextureName, VertexArrayName, consts as c,
+};
+use crate::interleave::Program;
+use crate::interleave::shader::{MASK_UNIT, Pass, Points, VIEWS_UNIT};
+use crate::splat::{Eyes, Screen, Splat};
+
+/// Splats in a row of their texture.
+const ROW: u32 = 1024;
+/// Texels of a splat.
+const TEXELS: usize = 3;
+/// Pixels by which a quad is larger than its disk, for what the GPU rounds.
+const MARGIN: f32 = 0.01;
+
+/// Splats in the memory of the GPU.
+#[derive(Debug)]
+pub struct Cloud {
+    texture: TextureName,
+    count: u32,
+}
+
+impl Cloud {
+    /// Sends splats to the GPU. Changes the texture that is bound.
+    #[must_use]
+    pub fn new(gl: &Gl, store: &PixelStore, splats: &[Splat]) -> Self {
+        let count = splats.len() as u32;
+        let rows = count.div_ceil(ROW).max(1);
+        let mut texels = Vec::with_capacity((rows * ROW) as usize * TEXELS);
+        for splat in splats {
+            let [p, n] = [splat.centre, splat.normal].map(|v| v.as_vec3());
+            let [r, g, b] = splat.colour;
+            texels.extend([
+                [p.x, p.y, p.z, splat.radius as f32],
+                [n.x, n.y, n.z, 0.0],
+                [r, g, b, 1.0],
+            ]);
+        }
+        texels.resize((rows * ROW) as usize * TEXELS, [0.0; 4]);
+        let texture = picture(gl);
+        let width = ROW as usize * TEXELS;
+        gl.tex_image_rgba32f(store, width as i32, rows as i32, &texels);
+        Self { texture, count }
+    }
+
+    /// Gives the memory back.
+    pub fn delete(self, gl: &Gl) {
+        gl.delete_texture(self.texture);
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+}
+
+/// A picture with depths that splats are drawn into.
+#[derive(Debug)]
+pub struct Target {
+    points: Points,
+    screen: Screen,
+    framebuffer: FramebufferName,
+    mask: TextureName,
+    _depths: RenderbufferName,
+}
+
+impl Target {
+    /// For a screen, with what its subpixels show. Changes the bindings.
+    #[must_use]
+    pub fn new(
+        gl: &Gl,
+        store: &PixelStore,
+        (points, screen): (Points, Screen),
+        mask: &Mask,
+    ) -> Self {
+        let (width, height) = size(points, &screen);
+        let colour = picture(gl);
+        gl.tex_image_rgba8_empty(c::TEXTURE_2D, width as i32, height as i32);
+        let framebuffer = gl.gen_framebuffer();
+        gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
+        gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, colour, 0);
+        let format = [c::DEPTH_COMPONENT32F as i32, width as i32, height as i32, 0];
+        let depths = gl.renderbuffer(format);
+        gl.framebuffer_renderbuffer(c::FRAMEBUFFER, c::DEPTH_ATTACHMENT, c::RENDERBUFFER, depths);
+        let texels: Vec<[u16; 4]> = mask
+            .rows()
+            .flat_map(|row| row.iter().map(|&[r, g, b]| [r, g, b, 0]))
+            .collect();
+        let (wide, high) = (mask.width() as i32, mask.height() as i32);
+        let mask = picture(gl);
+        gl.tex_image_rgba16ui(store, wide, high, &texels);
+        Self {
+            points,
+            screen,
+            framebuffer,
+            mask,
+            _depths: depths,
+        }
+    }
+
+    /// Width and height of the picture in pixels.
+    #[must_use]
+    pub fn size(&self) -> (u32, u32) {
+        size(self.points, &self.screen)
+    }
+
+    /// Binds its framebuffer.
+    pub fn bind(&self, gl: &Gl) {
+        gl.bind_framebuffer(c::FRAMEBUFFER, self.framebuffer);
+    }
+}
+
+fn size(points: Points, screen: &Screen) -> (u32, u32) {
+    let (width, height) = screen.size;
+    match points {
+        Points::Subpixels => (3 * width, height),
+        Points::Pixels | Points::View => (width, height),
+    }
+}
+
+/// A 2D texture that is bound, without filters.
+fn picture(gl: &Gl) -> TextureName {
+    let texture = gl.gen_texture();
+    gl.bind_texture(c::TEXTURE_2D, texture);
+    for name in [c::TEXTURE_MIN_FILTER, c::TEXTURE_MAG_FILTER] {
+        gl.tex_parameteri(c::TEXTURE_2D, name, c::NEAREST as i32);
+    }
+    texture
+}
+
+/// The programs that draw splats.
+#[derive(Debug)]
+pub struct Renderer {
+    programs: [(Points, Program); Points::ALL.len()],
+    /// Without arrays.
+    vertices: VertexArrayName,
+}
+
+impl Renderer {
+    /// For a context whose shading language has this version × 100.
+    ///
+    /// # Errors
+    /// The text of the driver, which refuses a program.
+    pub fn new(gl: &Gl, glsl: u32) -> Result<Self, String> {
+        let program =
+            |points| Ok::<_, String>((points, Program::new(gl, glsl, Pass::Points(points))?));
+        let [a, b, c] = Points::ALL.map(program);
+        Ok(Self {
+            programs: [a?, b?, c?],
+            vertices: gl.gen_vertex_array(),
+        })
+    }
+
+    /// Draws splats as opaque disks over a cleared picture. `view`: the one that is drawn, where the target holds one alone. Leaves the target's framebuffer,
+    /// its viewport and the depth test set.
+    pub fn draw(&self, gl: &Gl, cloud: &Cloud, (target, view): (&Target, u32), eyes: &Eyes) {
+        let (width, height) = target.size();
+        target.bind(gl);
+        gl.viewport(0, 0, width as i32, height as i32);
+        gl.enable(c::DEPTH_TEST);
+        gl.clear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
+        for (unit, texture) in [(VIEWS_UNIT, cloud.texture), (MASK_UNIT, target.mask)] {
+            gl.active_texture(c::TEXTURE0 + unit);
+            gl.bind_texture(c::TEXTURE_2D, texture);
+        }
+        let found = self
+            .programs
+            .iter()
+            .find(|(points, _)| *points == target.points);
+        if let Some((_, program)) = found {
+            program.bind(gl, &words((target.points, &target.screen), eyes, view));
+            gl.draw_triangles(self.vertices, 2 * cloud.count);
+        }
+    }
+}
+
+/// The words of `Uniforms` in `shaders/points.wgsl`.
+fn words((points, screen): (Points, &Screen), eyes: &Eyes, view: u32) -> [u32; 16] {
+    let (width, height) = screen.size;
+    let aside = match points {
+        // The ray of a subpixel is that of its pixel, whose middle is up to a third aside.
+        Points::Subpixels => 1.0 / 3.0 + MARGIN,
+        Points::Pixels | Points::View => MARGIN,
+    };
+    let [spacing, focal, near, half] =
+        [eyes.spacing, eyes.focal, eyes.near, screen.half].map(|value| (value as f32).to_bits());
+    [
+        width,
+        height,
+        // The mask is as large as the picture.
+        width,
+        height,
+        ROW,
+        GUARD.into(),
+        eyes.views,
+        view,
+        spacing,
+        focal,
+        near,
+        half,
+        aside.to_bits(),
+        MARGIN.to_bits(),
+        0,
+        0,
+    ]
+}

@@ -1,0 +1,26 @@
+//! Splats that the GPU draws once for all views are those of the reference, subpixel by subpixel.
+#![forbid(unsafe_code)]
+
+mod support;
+
+use serde_json::Value;
+use std::process::Command;
+use support::{succeed, target_folder};
+
+/// A thousand random splats: at grazing angles, behind the viewer, at the near plane, larger than the screen.
+#[test]
+fn the_gpu_draws_the_splats_of_the_reference() {
+    let mut probe = Command::new(target_folder().join("manyview-probe"));
+    probe.arg("points").env("EGL_PLATFORM", "surfaceless");
+    let output = succeed(&mut probe);
+    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let number = |name: &str| found[name].as_u64().expect("a number");
+    assert_eq!(found["errors"], serde_json::json!([]), "{found}");
+    assert_eq!(number("splats"), 1000, "{found}");
+    assert!(number("refused") > 10, "{found}");
+    assert!(20 * number("seen") > number("subpixels"), "{found}");
+    assert!(500 * number("at_the_edge") < number("subpixels"), "{found}");
+    assert_eq!(number("wrong"), 0, "{found}");
+    let bound = number("together") / 5000;
+    assert!(number("together_wrong") <= bound, "0.02 %: {found}");
+}
