@@ -27,15 +27,15 @@ var<immediate> u: Uniforms;
 
 struct Corner {
     @builtin(position) position: vec4<f32>,
-    // (r·D, s·D, D) for the middle of the screen and of the cameras; n·(p − vp) for the middle camera.
+    // (r·D, s·D, D) for the lower left corner of the picture and view 0; n·(p − vp) for view 0.
     @location(0) @interpolate(flat) base: vec4<f32>,
-    // Per unit of x of the screen. And n·(p − vp) per unit of the camera's offset.
+    // Per pixel to the right. And n·(p − vp) per view.
     @location(1) @interpolate(flat) x: vec4<f32>,
-    // Per unit of y. And the colour: red, green and blue in this one and the next two.
+    // Per pixel upwards. And the colour: red, green and blue in this one and the next two.
     @location(2) @interpolate(flat) y: vec4<f32>,
-    // Per unit of the offset.
-    @location(3) @interpolate(flat) offset: vec4<f32>,
-    // Per unit of y times that of the offset.
+    // Per view.
+    @location(3) @interpolate(flat) view: vec4<f32>,
+    // Per view and pixel upwards.
     @location(4) @interpolate(flat) both: vec4<f32>,
 }
 
@@ -48,7 +48,7 @@ fn slopes(p: f32, z: f32, n: f32, nz: f32, r: f32) -> vec2<f32> {
     return vec2<f32>(b - root, b + root) / a;
 }
 
-// (r·D, s·D) per one, x, y, offset and y·offset, for one of the axes of the plane.
+// r·D or s·D per one, x, y, offset and y·offset (`Parameters`).
 struct Axis {
     base: f32,
     x: f32,
@@ -112,31 +112,31 @@ fn corner(@builtin(vertex_index) index: u32) -> Corner {
     let axis = normalize(across);
     let r = along(axis, p, n, radius);
     let s = along(cross(n, axis), p, n, radius);
-    out.base = vec4<f32>(r.base, s.base, n.z * focal, dot(n, p));
-    out.x = vec4<f32>(r.x, s.x, n.x, -n.x);
-    out.y = vec4<f32>(r.y, s.y, n.y, colour.r);
-    out.offset = vec4<f32>(r.offset, s.offset, -n.x, colour.g);
-    out.both = vec4<f32>(r.both, s.both, 0.0, colour.b);
+    // In pixels and views, so that a fragment has the least to do.
+    let pixel = 2.0 * half.x / f32(u.picture.x);
+    let step = u.eyes.x;
+    let first = -0.5 * f32(u.views - 1u) * step;
+    let both = vec3<f32>(r.both, s.both, 0.0);
+    let x = vec3<f32>(r.x, s.x, n.x);
+    let y = vec3<f32>(r.y, s.y, n.y) + both * first;
+    let offset = vec3<f32>(r.offset, s.offset, -n.x);
+    let base = vec3<f32>(r.base, s.base, n.z * focal) + offset * first - x * half.x - y * half.y;
+    out.base = vec4<f32>(base, dot(n, p) - n.x * first);
+    out.x = vec4<f32>(x * pixel, -n.x * step);
+    out.y = vec4<f32>(y * pixel, colour.r);
+    out.view = vec4<f32>((offset - both * half.y) * step, colour.g);
+    out.both = vec4<f32>(both * pixel * step, colour.b);
     return out;
 }
 
-// Whether the ray of a view through a place of the screen meets the disk, and 1 − near/depth there.
-struct Hit {
-    meets: bool,
-    depth: f32,
-}
-
-fn hit(c: Corner, view: u32, pixel: vec2<u32>) -> Hit {
-    let size = vec2<f32>(u.picture);
-    // Pixels count from the lower left corner.
-    let place = (vec2<f32>(pixel) + 0.5 - size / 2.0) * (2.0 * u.eyes.w / size.x);
-    let offset = (f32(view) - 0.5 * f32(u.views - 1u)) * u.eyes.x;
-    let at = c.base.xyz + c.x.xyz * place.x + (c.y.xyz + c.both.xyz * offset) * place.y + c.offset.xyz * offset;
-    let plane = c.base.w + c.x.w * offset;
-    let side = abs(at.z);
-    let ahead = u.eyes.y * plane * sign(at.z);
-    let inside = dot(at.xy, at.xy) <= at.z * at.z && side > 0.0 && ahead >= u.eyes.z * side;
-    return Hit(inside, 1.0 - u.eyes.z * side / ahead);
+// 1 − near/depth where the ray of a view through the middle of a pixel meets the disk; below 0 where it does not.
+fn depth(c: Corner, view: u32, middle: vec2<f32>) -> f32 {
+    let i = f32(view);
+    let at = c.base.xyz + c.x.xyz * middle.x + c.y.xyz * middle.y + (c.view.xyz + c.both.xyz * middle.y) * i;
+    let ahead = u.eyes.y * (c.base.w + c.x.w * i) * sign(at.z);
+    let near = u.eyes.z * abs(at.z);
+    let meets = dot(at.xy, at.xy) <= at.z * at.z && ahead >= near && near > 0.0;
+    return select(-1.0, 1.0 - near / ahead, meets);
 }
 
 struct Seen {
@@ -148,15 +148,15 @@ struct Seen {
 @fragment
 fn points_subpixels(c: Corner) -> Seen {
     let at = vec2<u32>(c.position.xy);
-    let x = u32((c.position.x) / 3.0);
-    let channel = at.x - 3u * x;
-    let view = mask(vec2<u32>(x, u.picture.y - 1u - at.y))[channel];
-    let hit = hit(c, view, vec2<u32>(x, at.y));
-    if view >= u.black || !hit.meets {
+    let x = floor(c.position.x / 3.0);
+    let channel = at.x - 3u * u32(x);
+    let view = mask(vec2<u32>(u32(x), u.picture.y - 1u - at.y))[channel];
+    let depth = depth(c, view, vec2<f32>(x + 0.5, c.position.y));
+    if view >= u.black || depth < 0.0 {
         discard;
     }
-    let colour = vec3<f32>(c.y.w, c.offset.w, c.both.w);
-    return Seen(vec4<f32>(colour[channel]), hit.depth);
+    let colour = vec3<f32>(c.y.w, c.view.w, c.both.w);
+    return Seen(vec4<f32>(colour[channel]), depth);
 }
 
 // A picture whose pixels each show one view.
@@ -164,19 +164,19 @@ fn points_subpixels(c: Corner) -> Seen {
 fn points_pixels(c: Corner) -> Seen {
     let at = vec2<u32>(c.position.xy);
     let view = mask(vec2<u32>(at.x, u.picture.y - 1u - at.y)).r;
-    let hit = hit(c, view, at);
-    if view >= u.black || !hit.meets {
+    let depth = depth(c, view, c.position.xy);
+    if view >= u.black || depth < 0.0 {
         discard;
     }
-    return Seen(vec4<f32>(c.y.w, c.offset.w, c.both.w, 1.0), hit.depth);
+    return Seen(vec4<f32>(c.y.w, c.view.w, c.both.w, 1.0), depth);
 }
 
 // One view alone.
 @fragment
 fn points_view(c: Corner) -> Seen {
-    let hit = hit(c, u.view, vec2<u32>(c.position.xy));
-    if !hit.meets {
+    let depth = depth(c, u.view, c.position.xy);
+    if depth < 0.0 {
         discard;
     }
-    return Seen(vec4<f32>(c.y.w, c.offset.w, c.both.w, 1.0), hit.depth);
+    return Seen(vec4<f32>(c.y.w, c.view.w, c.both.w, 1.0), depth);
 }

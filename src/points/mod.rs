@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod compare;
+pub mod cost;
 
 use crate::display::{GUARD, Mask};
 use crate::gl::{

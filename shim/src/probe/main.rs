@@ -44,6 +44,7 @@ fn main() -> ExitCode {
         "rewrite" => return rewrite::run(),
         "passes" => return passes::run(),
         "points" => return points::run(),
+        "points-cost" => return points::costs(),
         _ => {
             eprintln!(
                 "usage: manyview-probe glx|egl|osmesa|passes|points|interleave [WIDTHxHEIGHT [VIEWS]]|rewrite FILE…"

@@ -1,0 +1,136 @@
+//! The time of splats that are drawn once for all views, beside that of one view and of a pass for each view; timed in turns.
+//!
+//! After Hübner et al., charts 1 to 3: windows of 256 to 1024 pixels, 137 000, 303 000 and 1 100 000 points. Their scans are not part of this project: a surface
+//! with as many points stands for each.
+#![forbid(unsafe_code)]
+
+use super::{Cloud, Renderer, Target};
+use crate::display::{Display, Mask, Placement};
+use crate::gl::{Gl, PixelStore};
+use crate::interleave::glsl_version;
+use crate::interleave::shader::Points;
+use crate::splat::{Eyes, Screen, Splat};
+use glam::DVec3;
+use serde::Serialize;
+use std::time::Instant;
+
+/// Camera x of the outermost views, in the units of [`surface`]: they are the same for any number of views, as on one display.
+const END: f64 = 0.1;
+const ROUNDS: usize = 5;
+
+/// One line of JSON of `manyview-probe points-cost`: medians in milliseconds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    /// Splats.
+    pub points: u32,
+    /// Width and height of the picture in pixels.
+    pub size: u32,
+    /// N.
+    pub views: u32,
+    /// One view.
+    pub single: f64,
+    /// One view after another, all of them, without the interleaving that they need; not measured of more than eight, which take as much longer.
+    pub passes: Option<f64>,
+    /// All views at once, for a panel whose pixels each show one view.
+    pub pixels: f64,
+    /// The same for a panel whose subpixels do.
+    pub subpixels: f64,
+}
+
+/// Measures in a context that nobody else uses.
+///
+/// # Errors
+/// The driver refuses a program, or the display has no such mask.
+pub fn measure(gl: &Gl, (points, size, views): (u32, u32, u32)) -> Result<Cost, String> {
+    let renderer = Renderer::new(gl, glsl_version(gl))?;
+    let store = PixelStore::enter(gl);
+    let screen = Screen {
+        size: (size, size),
+        half: 1.5,
+    };
+    let eyes = Eyes {
+        views,
+        spacing: 2.0 * END / f64::from(views - 1),
+        focal: 4.0,
+        near: 0.1,
+    };
+    let mask = |display: &str| {
+        let display = Display::named(display).map_err(|error| error.to_string())?;
+        let mask = display.mask(&Placement::full_screen(size, size), views);
+        mask.map_err(|error| error.to_string())
+    };
+    let (columns, slanted) = (by_pixel(size, views)?, mask("slanted8"));
+    let slanted = slanted.or_else(|_| by_pixel(size, views))?;
+    let cloud = Cloud::new(gl, &store, &surface(points));
+    let target = |points, mask: &Mask| Target::new(gl, &store, (points, screen), mask);
+    let one = target(Points::View, &columns);
+    let pixels = target(Points::Pixels, &columns);
+    let subpixels = target(Points::Subpixels, &slanted);
+    let draw = |target: &Target, view: u32| renderer.draw(gl, &cloud, (target, view), &eyes);
+    let narrow = Eyes {
+        spacing: 0.0,
+        ..eyes
+    };
+    let milliseconds = |work: &dyn Fn()| {
+        gl.finish();
+        let start = Instant::now();
+        work();
+        gl.finish();
+        start.elapsed().as_secs_f64() * 1000.0
+    };
+    // One view needs no room for others in its quads.
+    let single = |view: u32| renderer.draw(gl, &cloud, (&one, view), &narrow);
+    let timed = if views <= 8 { views } else { 0 };
+    let works: [&dyn Fn(); 4] = [
+        &|| single(0),
+        &|| (0..timed).for_each(single),
+        &|| draw(&pixels, 0),
+        &|| draw(&subpixels, 0),
+    ];
+    works.iter().for_each(|work| work());
+    let mut times = [const { Vec::new() }; 4];
+    for _ in 0..ROUNDS {
+        for (times, work) in times.iter_mut().zip(works) {
+            times.push(milliseconds(work));
+        }
+    }
+    cloud.delete(gl);
+    store.leave(gl);
+    let [single, passes, pixels, subpixels] = times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[ROUNDS / 2]
+    });
+    Ok(Cost {
+        points,
+        size,
+        views,
+        single,
+        passes: (timed > 0).then_some(passes),
+        pixels,
+        subpixels,
+    })
+}
+
+/// A mask whose columns each show one view.
+fn by_pixel(size: u32, views: u32) -> Result<Mask, String> {
+    let row = (0..size).map(|x| [(x % views) as u16; 3]);
+    let data = (0..size).flat_map(|_| row.clone()).collect();
+    Mask::new(size, size, data).ok_or_else(|| "the picture is too large".to_owned())
+}
+
+/// A ball with dents, as large as the picture, whose splats overlap a little.
+#[must_use]
+pub fn surface(points: u32) -> Vec<Splat> {
+    let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let radius = 2.0 * 1.2 / f64::from(points).sqrt() * 1.3;
+    let all = (0..points).filter_map(|number| {
+        let y = 1.0 - (2.0 * f64::from(number) + 1.0) / f64::from(points);
+        let flat = (1.0 - y * y).sqrt();
+        let (sine, cosine) = (turn * f64::from(number)).sin_cos();
+        let normal = DVec3::new(flat * cosine, y, flat * sine);
+        let dent = 1.2 * (1.0 + 0.05 * (9.0 * normal.x).sin() * (7.0 * normal.y).cos());
+        let colour = (normal * 0.5 + 0.5).as_vec3().to_array();
+        Splat::new(DVec3::Z * 4.0 + normal * dent, normal, radius, colour).ok()
+    });
+    all.collect()
+}
