@@ -72,7 +72,7 @@ fn along(axis: vec3<f32>, p: vec3<f32>, n: vec3<f32>, radius: f32) -> Axis {
 
 @vertex
 fn corner(@builtin(vertex_index) index: u32) -> Corner {
-    let number = index / 6u;
+    let number = index / 3u;
     let at = vec2<i32>(i32(number % u.row) * 3, i32(number / u.row));
     let place = textureLoad(splats, at, 0);
     let p = place.xyz;
@@ -95,11 +95,11 @@ fn corner(@builtin(vertex_index) index: u32) -> Corner {
         low = max(vec2<f32>(min(left.x, right.x), up.x) / half - margin, low);
         high = min(vec2<f32>(max(left.y, right.y), up.y) / half + margin, high);
     }
-    // Two triangles: corners 0, 1, 2 and 2, 1, 3.
-    let which = index % 6u;
-    let number_of = select(which, 5u - which, which > 2u) + select(0u, 1u, which > 2u);
-    let is_right = number_of == 1u || number_of == 3u;
-    let is_upper = number_of >= 2u;
+    // A triangle that holds the quad: for splats of a few pixels its vertices cost more than its pixels.
+    let which = index % 3u;
+    high = select(low, low + 2.0 * (high - low), high > low);
+    let is_right = which == 1u;
+    let is_upper = which == 2u;
     var out: Corner;
     out.position = vec4<f32>(select(low.x, high.x, is_right), select(low.y, high.y, is_upper), 0.0, 1.0);
     if p.z + tilt < u.eyes.z || low.x >= high.x || low.y >= high.y {

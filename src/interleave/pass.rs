@@ -30,6 +30,8 @@ pub enum Pass {
     Synthesis(Synthesis),
     /// Splats, drawn once for all views.
     Points(Points),
+    /// The picture of a panel from its subpixels.
+    Subpixels,
 }
 
 /// What the fragments of splats are; see `shaders/points.wgsl`.
@@ -127,7 +129,7 @@ impl Pass {
     pub fn all() -> impl Iterator<Item = Self> {
         Self::OUTPUTS
             .into_iter()
-            .chain([Self::Wall, Self::Copy])
+            .chain([Self::Wall, Self::Copy, Self::Subpixels])
             .chain(Step::ALL.map(Self::Accumulate))
             .chain(Synthesis::ALL.map(Self::Synthesis))
             .chain(Points::ALL.map(Self::Points))

@@ -35,6 +35,7 @@ const THROUGH_REFERENCE: &str = include_str!("../../shaders/through_reference.wg
 const WALL: &str = include_str!("../../shaders/wall.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const POINTS: &str = include_str!("../../shaders/points.wgsl");
+const SUBPIXELS: &str = include_str!("../../shaders/subpixels.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
 /// Texture unit of the views: a 2D array texture.
@@ -317,6 +318,7 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Accumulate(Step::Multiply) => "multiply",
         Pass::Accumulate(Step::Add) => "add",
         Pass::Accumulate(Step::Return) => "give_back",
+        Pass::Subpixels => "together",
         Pass::Points(Points::Subpixels) => "points_subpixels",
         Pass::Points(Points::Pixels) => "points_pixels",
         Pass::Points(Points::View) => "points_view",
@@ -346,6 +348,7 @@ pub(super) fn source(pass: Pass) -> String {
         Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
         Pass::Points(_) => [POINTS, MASK].join("\n"),
+        Pass::Subpixels => [COVER, SUBPIXELS].join("\n"),
         Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::DistortionMap) => {
             [COVER, COMMON, ATLAS, DISPARITY, PLAIN, DISTORTION].join("\n")
         }

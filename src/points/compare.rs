@@ -10,6 +10,7 @@ use crate::splat::disk::on_plane;
 use crate::splat::reference::{Surface, picture};
 use crate::splat::{Eyes, Fault, Screen, Splat};
 use glam::DVec3;
+use image::RgbImage;
 use serde::Serialize;
 
 const SPLATS: usize = 1000;
@@ -84,50 +85,45 @@ pub fn compare(gl: &Gl) -> Result<Compared, String> {
             colour: [1.0; 3],
             ..*splat
         };
-        let shown = draw(gl, &store, (&renderer, &target), &[white]);
-        found.add(splat, &small, |x, y| shown[y as usize][x as usize] > 0);
+        let shown = draw(gl, &store, (&renderer, &target, SCREEN), &[white]);
+        found.add(splat, &small, &shown);
     }
     let large = mask(LARGE)?;
     let target = Target::new(gl, &store, (Points::Subpixels, LARGE), &large);
-    let shown = draw(gl, &store, (&renderer, &target), &splats);
+    let shown = draw(gl, &store, (&renderer, &target, LARGE), &splats);
     let expected = picture(&splats, (&EYES, &LARGE), &large, Surface::Opaque);
-    for (shown, expected) in shown.iter().zip(expected.rows()) {
-        let expected = expected.flat_map(|pixel| pixel.0);
-        found.together += shown.len() as u64;
-        let off = shown
-            .iter()
-            .zip(expected)
-            .filter(|(a, b)| a.abs_diff(*b) > 1);
-        found.together_wrong += off.count() as u64;
-    }
+    let off = shown.iter().zip(expected.iter());
+    found.together = shown.len() as u64;
+    found.together_wrong = off.filter(|(a, b)| a.abs_diff(**b) > 1).count() as u64;
     store.leave(gl);
     Ok(found)
 }
 
-/// The subpixels of the picture of splats, rows from the top.
+/// The picture of splats on a panel.
 fn draw(
     gl: &Gl,
     store: &PixelStore,
-    (renderer, target): (&Renderer, &Target),
+    (renderer, target, screen): (&Renderer, &Target, Screen),
     splats: &[Splat],
-) -> Vec<Vec<u8>> {
+) -> RgbImage {
     let cloud = Cloud::new(gl, store, splats);
     renderer.draw(gl, &cloud, (target, 0), &EYES);
     cloud.delete(gl);
-    let (width, height) = target.size();
+    let (width, height) = screen.size;
     let pixels = gl.read_rgb(store, 0, 0, width, height);
-    let rows = pixels.chunks_exact(3 * width as usize).rev();
-    let red = |row: &[u8]| row.iter().step_by(3).copied().collect();
-    rows.map(red).collect()
+    let mut picture = RgbImage::from_raw(width, height, pixels).unwrap_or_default();
+    image::imageops::flip_vertical_in_place(&mut picture);
+    picture
 }
 
 impl Compared {
     /// Counts the subpixels of one splat.
-    fn add(&mut self, splat: &Splat, mask: &Mask, shown: impl Fn(u32, u32) -> bool) {
+    fn add(&mut self, splat: &Splat, mask: &Mask, shown: &RgbImage) {
         let (width, height) = SCREEN.size;
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             let place = SCREEN.place([f64::from(x) + 0.5, f64::from(y) + 0.5]);
-            for (channel, view) in (0..).zip(mask.at(x, y).unwrap_or_default()) {
+            let views = mask.at(x, y).unwrap_or_default();
+            for (view, shown) in views.into_iter().zip(shown.get_pixel(x, y).0) {
                 let offset = EYES.offset(view.into());
                 let point = on_plane(splat, &EYES, offset, place);
                 let away = point.map(|point| point.distance(splat.centre) / splat.radius);
@@ -136,7 +132,6 @@ impl Compared {
                 let steep = splat.normal.dot(sight.normalize()).abs();
                 let near = ROUNDING * (splat.centre.length() + 1.0) / (splat.radius * steep);
                 let expected = away.is_some_and(|away| away <= 1.0);
-                let shown = shown(3 * x + channel, y);
                 let eye = DVec3::X * offset;
                 let depth =
                     EYES.focal * splat.normal.dot(splat.centre - eye) / splat.normal.dot(sight);
@@ -146,7 +141,7 @@ impl Compared {
                 self.subpixels += 1;
                 self.seen += u64::from(expected);
                 self.at_the_edge += u64::from(edge);
-                self.wrong += u64::from(!edge && shown != expected);
+                self.wrong += u64::from(!edge && (shown > 0) != expected);
             }
         }
     }

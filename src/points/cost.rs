@@ -14,8 +14,11 @@ use glam::DVec3;
 use serde::Serialize;
 use std::time::Instant;
 
-/// Camera x of the outermost views, in the units of [`surface`]: they are the same for any number of views, as on one display.
-const END: f64 = 0.1;
+/// Depth of the screen, and of the nearest point of [`surface`].
+const FOCAL: f64 = 4.0;
+const NEAREST: f64 = FOCAL - 1.2 * 1.05;
+/// Pixels by which that point moves from view to view of eight: what a panel of eight views has by default (√(8/3)).
+const BUDGET: f64 = 1.63;
 const ROUNDS: usize = 5;
 
 /// One line of JSON of `manyview-probe points-cost`: medians in milliseconds.
@@ -48,10 +51,12 @@ pub fn measure(gl: &Gl, (points, size, views): (u32, u32, u32)) -> Result<Cost, 
         size: (size, size),
         half: 1.5,
     };
+    // More views are as far apart together as eight, as on one display.
+    let apart = 7.0 * BUDGET * screen.pixel() / (FOCAL / NEAREST - 1.0);
     let eyes = Eyes {
         views,
-        spacing: 2.0 * END / f64::from(views - 1),
-        focal: 4.0,
+        spacing: apart / f64::from(views - 1),
+        focal: FOCAL,
         near: 0.1,
     };
     let mask = |display: &str| {
@@ -130,7 +135,7 @@ pub fn surface(points: u32) -> Vec<Splat> {
         let normal = DVec3::new(flat * cosine, y, flat * sine);
         let dent = 1.2 * (1.0 + 0.05 * (9.0 * normal.x).sin() * (7.0 * normal.y).cos());
         let colour = (normal * 0.5 + 0.5).as_vec3().to_array();
-        Splat::new(DVec3::Z * 4.0 + normal * dent, normal, radius, colour).ok()
+        Splat::new(DVec3::Z * FOCAL + normal * dent, normal, radius, colour).ok()
     });
     all.collect()
 }

@@ -66,9 +66,41 @@ impl Cloud {
 pub struct Target {
     points: Points,
     screen: Screen,
-    framebuffer: FramebufferName,
+    image: Image,
     mask: TextureName,
     _depths: RenderbufferName,
+    /// The picture of the panel, where that is made of subpixels.
+    panel: Option<Image>,
+}
+
+/// A texture of colours with its framebuffer.
+#[derive(Debug)]
+struct Image {
+    texture: TextureName,
+    framebuffer: FramebufferName,
+    /// Width and height in pixels.
+    size: (u32, u32),
+}
+
+impl Image {
+    /// Leaves it bound.
+    fn new(gl: &Gl, size: (u32, u32)) -> Self {
+        let texture = picture(gl);
+        gl.tex_image_rgba8_empty(c::TEXTURE_2D, size.0 as i32, size.1 as i32);
+        let framebuffer = gl.gen_framebuffer();
+        gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
+        gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, texture, 0);
+        Self {
+            texture,
+            framebuffer,
+            size,
+        }
+    }
+
+    fn bind(&self, gl: &Gl) {
+        gl.bind_framebuffer(c::FRAMEBUFFER, self.framebuffer);
+        gl.viewport(0, 0, self.size.0 as i32, self.size.1 as i32);
+    }
 }
 
 impl Target {
@@ -80,13 +112,11 @@ impl Target {
         (points, screen): (Points, Screen),
         mask: &Mask,
     ) -> Self {
-        let (width, height) = size(points, &screen);
-        let colour = picture(gl);
-        gl.tex_image_rgba8_empty(c::TEXTURE_2D, width as i32, height as i32);
-        let framebuffer = gl.gen_framebuffer();
-        gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
-        gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, colour, 0);
-        let format = [c::DEPTH_COMPONENT32F as i32, width as i32, height as i32, 0];
+        let (width, height) = screen.size;
+        let panel = (points == Points::Subpixels).then(|| Image::new(gl, screen.size));
+        let wide = if panel.is_some() { 3 * width } else { width };
+        let image = Image::new(gl, (wide, height));
+        let format = [c::DEPTH_COMPONENT32F as i32, wide as i32, height as i32, 0];
         let depths = gl.renderbuffer(format);
         gl.framebuffer_renderbuffer(c::FRAMEBUFFER, c::DEPTH_ATTACHMENT, c::RENDERBUFFER, depths);
         let texels: Vec<[u16; 4]> = mask
@@ -99,29 +129,11 @@ impl Target {
         Self {
             points,
             screen,
-            framebuffer,
+            image,
             mask,
             _depths: depths,
+            panel,
         }
-    }
-
-    /// Width and height of the picture in pixels.
-    #[must_use]
-    pub fn size(&self) -> (u32, u32) {
-        size(self.points, &self.screen)
-    }
-
-    /// Binds its framebuffer.
-    pub fn bind(&self, gl: &Gl) {
-        gl.bind_framebuffer(c::FRAMEBUFFER, self.framebuffer);
-    }
-}
-
-fn size(points: Points, screen: &Screen) -> (u32, u32) {
-    let (width, height) = screen.size;
-    match points {
-        Points::Subpixels => (3 * width, height),
-        Points::Pixels | Points::View => (width, height),
     }
 }
 
@@ -139,6 +151,7 @@ fn picture(gl: &Gl) -> TextureName {
 #[derive(Debug)]
 pub struct Renderer {
     programs: [(Points, Program); Points::ALL.len()],
+    together: Program,
     /// Without arrays.
     vertices: VertexArrayName,
 }
@@ -154,29 +167,34 @@ impl Renderer {
         let [a, b, c] = Points::ALL.map(program);
         Ok(Self {
             programs: [a?, b?, c?],
+            together: Program::new(gl, glsl, Pass::Subpixels)?,
             vertices: gl.gen_vertex_array(),
         })
     }
 
-    /// Draws splats as opaque disks over a cleared picture. `view`: the one that is drawn, where the target holds one alone. Leaves the target's framebuffer,
-    /// its viewport and the depth test set.
+    /// Draws splats as opaque disks over a black picture. `view`: the one that is drawn, where the target holds one alone. Leaves the framebuffer of the picture
+    /// bound.
     pub fn draw(&self, gl: &Gl, cloud: &Cloud, (target, view): (&Target, u32), eyes: &Eyes) {
-        let (width, height) = target.size();
-        target.bind(gl);
-        gl.viewport(0, 0, width as i32, height as i32);
+        target.image.bind(gl);
         gl.enable(c::DEPTH_TEST);
         gl.clear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
-        for (unit, texture) in [(VIEWS_UNIT, cloud.texture), (MASK_UNIT, target.mask)] {
+        let bind = |unit: u32, texture: TextureName| {
             gl.active_texture(c::TEXTURE0 + unit);
             gl.bind_texture(c::TEXTURE_2D, texture);
-        }
-        let found = self
-            .programs
-            .iter()
-            .find(|(points, _)| *points == target.points);
-        if let Some((_, program)) = found {
+        };
+        bind(VIEWS_UNIT, cloud.texture);
+        bind(MASK_UNIT, target.mask);
+        let mut all = self.programs.iter();
+        if let Some((_, program)) = all.find(|(points, _)| *points == target.points) {
             program.bind(gl, &words((target.points, &target.screen), eyes, view));
-            gl.draw_triangles(self.vertices, 2 * cloud.count);
+            gl.draw_triangles(self.vertices, cloud.count);
+        }
+        gl.disable(c::DEPTH_TEST);
+        if let Some(panel) = &target.panel {
+            panel.bind(gl);
+            bind(VIEWS_UNIT, target.image.texture);
+            self.together.bind(gl, &[]);
+            gl.draw_triangle(self.vertices);
         }
     }
 }
