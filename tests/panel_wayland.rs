@@ -14,7 +14,7 @@ use image::RgbImage;
 use image::imageops::{rotate90, rotate270};
 use std::time::{Duration, Instant};
 use support::has;
-use wayland::{Compositor, Monitor};
+use wayland::{Compositor, Monitor, has_sway};
 
 const LIMIT: Duration = Duration::from_secs(60);
 
@@ -123,7 +123,7 @@ fn the_monitor_is_the_one_that_is_named() {
 /// A desk of one and a half times the size shows each pixel as it is, and the panel has no window that the keyboard could go to.
 #[test]
 fn scaled_desks_show_each_pixel() {
-    if !has("sway") || !has("grim") {
+    if !has_sway() {
         return;
     }
     let scaled = Monitor {

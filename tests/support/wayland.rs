@@ -1,7 +1,7 @@
 //! A Wayland compositor for a test, with monitors of its own, and a user who looks at them.
 #![forbid(unsafe_code)]
 
-use super::support::{Screen, sized_screen};
+use super::support::{Screen, has, sized_screen};
 use super::x::User;
 use image::RgbImage;
 use std::fmt::Write as _;
@@ -29,6 +29,26 @@ pub(crate) struct Compositor {
     socket: String,
     /// What it draws on, where that is an X server.
     screen: Option<Screen>,
+}
+
+/// Whether sway can run here, with the program that looks at its monitors.
+pub(crate) fn has_sway() -> bool {
+    let may = || {
+        as_user("true")
+            .status()
+            .is_ok_and(|status| status.success())
+    };
+    has("sway") && has("grim") && may()
+}
+
+/// A program that does not run as root: root gives it a name space of users.
+fn as_user(program: &str) -> Command {
+    if !rustix::process::geteuid().is_root() {
+        return Command::new(program);
+    }
+    let mut command = Command::new("unshare");
+    command.args(["--user", "--map-user=1000", "--map-group=1000", program]);
+    command
 }
 
 impl Compositor {
@@ -77,14 +97,7 @@ impl Compositor {
         }
         let file = folder.path().join("sway.txt");
         std::fs::write(&file, text).expect("written");
-        // It does not run as root: then it gets a name space where it is another user.
-        let mut command = if rustix::process::geteuid().is_root() {
-            let mut command = Command::new("unshare");
-            command.args(["--user", "--map-user=1000", "--map-group=1000", "sway"]);
-            command
-        } else {
-            Command::new("sway")
-        };
+        let mut command = as_user("sway");
         command
             .arg("--config")
             .arg(&file)
