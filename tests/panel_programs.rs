@@ -9,7 +9,7 @@ mod support;
 #[path = "support/x.rs"]
 mod x;
 
-use case::{CAMERAS, CASE, STEP, still, worst};
+use case::{CAMERAS, CASE, STEP, worst};
 use image::{GenericImageView, RgbImage};
 use manyview::config::panel::load;
 use manyview::display::Fit;
@@ -178,17 +178,7 @@ fn captures_are_of_the_panel() {
     let screen = sized_screen(CASE.panel);
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("panel.png");
-    let (width, height) = CASE.window;
-    let mut command = manyview();
-    command
-        .args(["capture", "--frame", "3", "--panel", "auto", "--views"])
-        .args([&CASE.views.to_string(), "--display", CASE.display])
-        .args(CAMERAS)
-        .arg("--out")
-        .arg(&out)
-        .arg("--")
-        .arg(still())
-        .args([width.to_string(), height.to_string()]);
+    let mut command = CASE.capture(&["--panel", "auto"], &out);
     succeed(screen.give(&mut command));
     assert!(worst(&rgb(&out), &expected) <= STEP);
     let user = User::at(screen.display());

@@ -2,11 +2,11 @@
 #![forbid(unsafe_code)]
 
 use super::shader::{Pass, VIEWS_UNIT};
-use super::{Interleaver, PanelPlacement, Program, Source};
+use super::{Interleaver, PanelPlacement, Picture, Program, Source};
 use crate::atlas::{Atlas, Grid, Limits, Names, Tiles};
 use crate::config::{Config, Output};
 use crate::display::Placement;
-use crate::gl::{FramebufferName, Gl, TextureName, consts as c};
+use crate::gl::{Gl, consts as c};
 use crate::state::{Buffers, Neutral, Window};
 use crate::view::ViewIndex;
 use serde::{Deserialize, Serialize};
@@ -65,7 +65,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
     };
     let shown = picture(one)?;
     let atlas = picture(tiles)?;
-    let source = Plain::new(gl, names.texture(gl), size);
+    let source = Picture::new(gl, names.texture(gl), size);
     let mut interleaver = Interleaver::new(gl, &mut names, glsl, false, None);
     let copy = Program::new(gl, glsl, Pass::Copy)?;
     // Memory that was never written may not be backed by pages, and would cost nothing to read.
@@ -139,38 +139,6 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
             interleave: median(interleaved),
             ratio: median(ratios),
         }),
-    }
-}
-
-/// A picture in a 2D texture.
-struct Plain {
-    texture: TextureName,
-    framebuffer: FramebufferName,
-}
-
-impl Plain {
-    fn new(gl: &Gl, texture: TextureName, (width, height): (u32, u32)) -> Self {
-        let framebuffer = gl.gen_framebuffer();
-        gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
-        gl.bind_texture(c::TEXTURE_2D, texture);
-        gl.tex_image_rgba8_empty(c::TEXTURE_2D, width as i32, height as i32);
-        for (p, v) in [
-            (c::TEXTURE_MIN_FILTER, c::NEAREST),
-            (c::TEXTURE_MAG_FILTER, c::NEAREST),
-            (c::TEXTURE_MAX_LEVEL, 0),
-        ] {
-            gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
-        }
-        gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, texture, 0);
-        Self {
-            texture,
-            framebuffer,
-        }
-    }
-
-    fn delete(self, gl: &Gl) {
-        gl.delete_framebuffer(self.framebuffer);
-        gl.delete_texture(self.texture);
     }
 }
 

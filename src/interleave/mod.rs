@@ -12,6 +12,7 @@ mod disparities;
 mod gpu;
 mod layout;
 mod pass;
+mod picture;
 mod program;
 #[cfg(feature = "cli")]
 pub mod quilt;
@@ -31,6 +32,7 @@ pub use depth::{Depth, rgbd};
 pub use disparities::{Cleared, Disparities, Places};
 pub use gpu::{Interleaver, PanelPlacement, Source, bind_reference, glsl_version};
 pub use layout::Layout;
+pub use picture::Picture;
 pub use program::Program;
 pub use sources::Sources;
 

@@ -318,7 +318,7 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Accumulate(Step::Multiply) => "multiply",
         Pass::Accumulate(Step::Add) => "add",
         Pass::Accumulate(Step::Return) => "give_back",
-        Pass::Subpixels => "together",
+        Pass::Subpixels => "join_subpixels",
         Pass::Points(Points::Subpixels) => "points_subpixels",
         Pass::Points(Points::Pixels) => "points_pixels",
         Pass::Points(Points::View) => "points_view",

@@ -7,6 +7,7 @@ use crate::gl::{Gl, PixelStore};
 use crate::interleave::glsl_version;
 use crate::interleave::shader::Points;
 use crate::splat::disk::on_plane;
+use crate::splat::random::Random;
 use crate::splat::reference::{Surface, picture};
 use crate::splat::{Eyes, Fault, Screen, Splat};
 use glam::DVec3;
@@ -68,11 +69,11 @@ pub fn compare(gl: &Gl) -> Result<Compared, String> {
         let mask = display.mask(&placement, EYES.views);
         mask.map_err(|error| error.to_string())
     };
-    let mut random = Random(30);
+    let mut random = Random::new(30);
     let mut splats = Vec::new();
     let mut found = Compared::default();
     while splats.len() < SPLATS {
-        match random.splat() {
+        match random_splat(&mut random) {
             Ok(splat) => splats.push(splat),
             Err(_) => found.refused += 1,
         }
@@ -88,6 +89,7 @@ pub fn compare(gl: &Gl) -> Result<Compared, String> {
         let shown = draw(gl, &store, (&renderer, &target, SCREEN), &[white]);
         found.add(splat, &small, &shown);
     }
+    target.delete(gl);
     let large = mask(LARGE)?;
     let target = Target::new(gl, &store, (Points::Subpixels, LARGE), &large);
     let shown = draw(gl, &store, (&renderer, &target, LARGE), &splats);
@@ -95,6 +97,7 @@ pub fn compare(gl: &Gl) -> Result<Compared, String> {
     let off = shown.iter().zip(expected.iter());
     found.together = shown.len() as u64;
     found.together_wrong = off.filter(|(a, b)| a.abs_diff(**b) > 1).count() as u64;
+    target.delete(gl);
     store.leave(gl);
     Ok(found)
 }
@@ -147,36 +150,24 @@ impl Compared {
     }
 }
 
-/// Random numbers that are the same in every run: xorshift.
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+/// A splat before or behind the viewer, as small as a subpixel or larger than the screen. Some are seen from their edge, and some are none.
+fn random_splat(random: &mut Random) -> Result<Splat, Fault> {
+    let mut centre = DVec3::new(
+        random.between(-3.0, 3.0),
+        random.between(-2.0, 2.0),
+        random.between(-0.5, 12.0),
+    );
+    let mut normal = [(); 3].map(|()| random.between(-1.0, 1.0));
+    let mut radius = 10.0_f64.powf(random.between(-2.5, 0.7));
+    match random.between(0.0, 100.0) as u32 {
+        0 => centre.x = f64::NAN,
+        1 => normal[1] = f64::INFINITY,
+        2 => radius = 0.0,
+        // At the near plane.
+        3..10 => centre.z = EYES.near + radius * random.between(-1.0, 1.0),
+        10..20 => normal = [-centre.z, random.between(-0.01, 0.01), centre.x],
+        _ => {}
     }
-
-    /// A splat before or behind the viewer, as small as a subpixel or larger than the screen. Some are seen from their edge, and some are none.
-    fn splat(&mut self) -> Result<Splat, Fault> {
-        let mut centre = DVec3::new(
-            self.between(-3.0, 3.0),
-            self.between(-2.0, 2.0),
-            self.between(-0.5, 12.0),
-        );
-        let mut normal = [(); 3].map(|()| self.between(-1.0, 1.0));
-        let mut radius = 10.0_f64.powf(self.between(-2.5, 0.7));
-        match self.between(0.0, 100.0) as u32 {
-            0 => centre.x = f64::NAN,
-            1 => normal[1] = f64::INFINITY,
-            2 => radius = 0.0,
-            // At the near plane.
-            3..10 => centre.z = EYES.near + radius * self.between(-1.0, 1.0),
-            10..20 => normal = [-centre.z, self.between(-0.01, 0.01), centre.x],
-            _ => {}
-        }
-        let colour = [(); 3].map(|()| self.between(0.2, 1.0) as f32);
-        Splat::new(centre, DVec3::from_array(normal), radius, colour)
-    }
+    let colour = [(); 3].map(|()| random.between(0.2, 1.0) as f32);
+    Splat::new(centre, DVec3::from_array(normal), radius, colour)
 }

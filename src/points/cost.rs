@@ -5,9 +5,8 @@
 #![forbid(unsafe_code)]
 
 use super::{Cloud, Renderer, Target};
-use crate::display::{Display, Mask, Placement};
+use crate::display::Mask;
 use crate::gl::{Gl, PixelStore};
-use crate::interleave::glsl_version;
 use crate::interleave::shader::Points;
 use crate::splat::{Eyes, Screen, Splat};
 use glam::DVec3;
@@ -43,9 +42,12 @@ pub struct Cost {
 /// Measures in a context that nobody else uses.
 ///
 /// # Errors
-/// The driver refuses a program, or the display has no such mask.
-pub fn measure(gl: &Gl, (points, size, views): (u32, u32, u32)) -> Result<Cost, String> {
-    let renderer = Renderer::new(gl, glsl_version(gl))?;
+/// There is no mask of this size.
+pub fn measure(
+    gl: &Gl,
+    renderer: &Renderer,
+    (points, size, views): (u32, u32, u32),
+) -> Result<Cost, String> {
     let store = PixelStore::enter(gl);
     let screen = Screen {
         size: (size, size),
@@ -59,13 +61,9 @@ pub fn measure(gl: &Gl, (points, size, views): (u32, u32, u32)) -> Result<Cost, 
         focal: FOCAL,
         near: 0.1,
     };
-    let mask = |display: &str| {
-        let display = Display::named(display).map_err(|error| error.to_string())?;
-        let mask = display.mask(&Placement::full_screen(size, size), views);
-        mask.map_err(|error| error.to_string())
-    };
-    let (columns, slanted) = (by_pixel(size, views)?, mask("slanted8"));
-    let slanted = slanted.or_else(|_| by_pixel(size, views))?;
+    // Columns, and lenses at a slant of one subpixel per row.
+    let columns = mask(size, |x, _, _| x % views)?;
+    let slanted = mask(size, |x, row, channel| (3 * x + channel + row) % views)?;
     let cloud = Cloud::new(gl, &store, &surface(points));
     let target = |points, mask: &Mask| Target::new(gl, &store, (points, screen), mask);
     let one = target(Points::View, &columns);
@@ -99,6 +97,9 @@ pub fn measure(gl: &Gl, (points, size, views): (u32, u32, u32)) -> Result<Cost, 
             times.push(milliseconds(work));
         }
     }
+    for target in [one, pixels, subpixels] {
+        target.delete(gl);
+    }
     cloud.delete(gl);
     store.leave(gl);
     let [single, passes, pixels, subpixels] = times.map(|mut times| {
@@ -116,10 +117,11 @@ pub fn measure(gl: &Gl, (points, size, views): (u32, u32, u32)) -> Result<Cost, 
     })
 }
 
-/// A mask whose columns each show one view.
-fn by_pixel(size: u32, views: u32) -> Result<Mask, String> {
-    let row = (0..size).map(|x| [(x % views) as u16; 3]);
-    let data = (0..size).flat_map(|_| row.clone()).collect();
+/// A square mask, from the view at a column, a row and a channel.
+fn mask(size: u32, view: impl Fn(u32, u32, u32) -> u32) -> Result<Mask, String> {
+    let pixels = (0..size).flat_map(|row| (0..size).map(move |x| (x, row)));
+    let data = pixels.map(|(x, row)| [0, 1, 2].map(|channel| view(x, row, channel) as u16));
+    let data = data.collect();
     Mask::new(size, size, data).ok_or_else(|| "the picture is too large".to_owned())
 }
 

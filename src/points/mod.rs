@@ -5,11 +5,9 @@ pub mod compare;
 pub mod cost;
 
 use crate::display::{GUARD, Mask};
-use crate::gl::{
-    FramebufferName, Gl, PixelStore, RenderbufferName, TextureName, VertexArrayName, consts as c,
-};
-use crate::interleave::Program;
+use crate::gl::{Gl, PixelStore, RenderbufferName, TextureName, VertexArrayName, consts as c};
 use crate::interleave::shader::{MASK_UNIT, Pass, Points, VIEWS_UNIT};
+use crate::interleave::{Picture, Program};
 use crate::splat::{Eyes, Screen, Splat};
 
 /// Splats in a row of their texture.
@@ -43,7 +41,7 @@ impl Cloud {
             ]);
         }
         texels.resize((rows * ROW) as usize * TEXELS, [0.0; 4]);
-        let texture = picture(gl);
+        let texture = data_texture(gl);
         let width = ROW as usize * TEXELS;
         gl.tex_image_rgba32f(store, width as i32, rows as i32, &texels);
         Self { texture, count }
@@ -53,12 +51,6 @@ impl Cloud {
     pub fn delete(self, gl: &Gl) {
         gl.delete_texture(self.texture);
     }
-
-    /// How many there are.
-    #[must_use]
-    pub fn count(&self) -> u32 {
-        self.count
-    }
 }
 
 /// A picture with depths that splats are drawn into.
@@ -66,41 +58,11 @@ impl Cloud {
 pub struct Target {
     points: Points,
     screen: Screen,
-    image: Image,
+    image: Picture,
+    depths: RenderbufferName,
     mask: TextureName,
-    _depths: RenderbufferName,
     /// The picture of the panel, where that is made of subpixels.
-    panel: Option<Image>,
-}
-
-/// A texture of colours with its framebuffer.
-#[derive(Debug)]
-struct Image {
-    texture: TextureName,
-    framebuffer: FramebufferName,
-    /// Width and height in pixels.
-    size: (u32, u32),
-}
-
-impl Image {
-    /// Leaves it bound.
-    fn new(gl: &Gl, size: (u32, u32)) -> Self {
-        let texture = picture(gl);
-        gl.tex_image_rgba8_empty(c::TEXTURE_2D, size.0 as i32, size.1 as i32);
-        let framebuffer = gl.gen_framebuffer();
-        gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
-        gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, texture, 0);
-        Self {
-            texture,
-            framebuffer,
-            size,
-        }
-    }
-
-    fn bind(&self, gl: &Gl) {
-        gl.bind_framebuffer(c::FRAMEBUFFER, self.framebuffer);
-        gl.viewport(0, 0, self.size.0 as i32, self.size.1 as i32);
-    }
+    panel: Option<Picture>,
 }
 
 impl Target {
@@ -113,9 +75,10 @@ impl Target {
         mask: &Mask,
     ) -> Self {
         let (width, height) = screen.size;
-        let panel = (points == Points::Subpixels).then(|| Image::new(gl, screen.size));
+        let panel = (points == Points::Subpixels)
+            .then(|| Picture::new(gl, gl.gen_texture(), (width, height)));
         let wide = if panel.is_some() { 3 * width } else { width };
-        let image = Image::new(gl, (wide, height));
+        let image = Picture::new(gl, gl.gen_texture(), (wide, height));
         let format = [c::DEPTH_COMPONENT32F as i32, wide as i32, height as i32, 0];
         let depths = gl.renderbuffer(format);
         gl.framebuffer_renderbuffer(c::FRAMEBUFFER, c::DEPTH_ATTACHMENT, c::RENDERBUFFER, depths);
@@ -124,21 +87,30 @@ impl Target {
             .flat_map(|row| row.iter().map(|&[r, g, b]| [r, g, b, 0]))
             .collect();
         let (wide, high) = (mask.width() as i32, mask.height() as i32);
-        let mask = picture(gl);
+        let mask = data_texture(gl);
         gl.tex_image_rgba16ui(store, wide, high, &texels);
         Self {
             points,
             screen,
             image,
+            depths,
             mask,
-            _depths: depths,
             panel,
+        }
+    }
+
+    /// Gives the memory back.
+    pub fn delete(self, gl: &Gl) {
+        gl.delete_texture(self.mask);
+        gl.delete_renderbuffer(self.depths);
+        for picture in [Some(self.image), self.panel].into_iter().flatten() {
+            picture.delete(gl);
         }
     }
 }
 
-/// A 2D texture that is bound, without filters.
-fn picture(gl: &Gl) -> TextureName {
+/// A 2D texture of numbers, which it leaves bound.
+fn data_texture(gl: &Gl) -> TextureName {
     let texture = gl.gen_texture();
     gl.bind_texture(c::TEXTURE_2D, texture);
     for name in [c::TEXTURE_MIN_FILTER, c::TEXTURE_MAG_FILTER] {
@@ -151,7 +123,7 @@ fn picture(gl: &Gl) -> TextureName {
 #[derive(Debug)]
 pub struct Renderer {
     programs: [(Points, Program); Points::ALL.len()],
-    together: Program,
+    join_subpixels: Program,
     /// Without arrays.
     vertices: VertexArrayName,
 }
@@ -167,7 +139,7 @@ impl Renderer {
         let [a, b, c] = Points::ALL.map(program);
         Ok(Self {
             programs: [a?, b?, c?],
-            together: Program::new(gl, glsl, Pass::Subpixels)?,
+            join_subpixels: Program::new(gl, glsl, Pass::Subpixels)?,
             vertices: gl.gen_vertex_array(),
         })
     }
@@ -175,7 +147,14 @@ impl Renderer {
     /// Draws splats as opaque disks over a black picture. `view`: the one that is drawn, where the target holds one alone. Leaves the framebuffer of the picture
     /// bound.
     pub fn draw(&self, gl: &Gl, cloud: &Cloud, (target, view): (&Target, u32), eyes: &Eyes) {
-        target.image.bind(gl);
+        let (width, height) = (target.screen.size.0 as i32, target.screen.size.1 as i32);
+        let wide = if target.panel.is_some() {
+            3 * width
+        } else {
+            width
+        };
+        gl.bind_framebuffer(c::FRAMEBUFFER, target.image.framebuffer);
+        gl.viewport(0, 0, wide, height);
         gl.enable(c::DEPTH_TEST);
         gl.clear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
         let bind = |unit: u32, texture: TextureName| {
@@ -191,9 +170,10 @@ impl Renderer {
         }
         gl.disable(c::DEPTH_TEST);
         if let Some(panel) = &target.panel {
-            panel.bind(gl);
+            gl.bind_framebuffer(c::FRAMEBUFFER, panel.framebuffer);
+            gl.viewport(0, 0, width, height);
             bind(VIEWS_UNIT, target.image.texture);
-            self.together.bind(gl, &[]);
+            self.join_subpixels.bind(gl, &[]);
             gl.draw_triangle(self.vertices);
         }
     }
@@ -202,7 +182,7 @@ impl Renderer {
 /// The words of `Uniforms` in `shaders/points.wgsl`.
 fn words((points, screen): (Points, &Screen), eyes: &Eyes, view: u32) -> [u32; 16] {
     let (width, height) = screen.size;
-    let aside = match points {
+    let margin = match points {
         // The ray of a subpixel is that of its pixel, whose middle is up to a third aside.
         Points::Subpixels => 1.0 / 3.0 + MARGIN,
         Points::Pixels | Points::View => MARGIN,
@@ -223,7 +203,7 @@ fn words((points, screen): (Points, &Screen), eyes: &Eyes, view: u32) -> [u32; 1
         focal,
         near,
         half,
-        aside.to_bits(),
+        margin.to_bits(),
         MARGIN.to_bits(),
         0,
         0,

@@ -12,6 +12,7 @@
 pub mod cover;
 pub mod disk;
 pub mod groups;
+pub(crate) mod random;
 pub mod reference;
 #[cfg(test)]
 mod tests;

@@ -1,25 +1,16 @@
 use super::cover::{Cover, cover, facing};
 use super::disk::{Parameters, axes, hit, on_plane};
 use super::groups::Groups;
+use super::random::Random;
 use super::reference::{Surface, picture, weight};
 use super::{Eyes, Fault, Screen, Splat};
 use crate::display::{Display, Placement};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// Random numbers that are the same in every run: xorshift.
-struct Random(u64);
-
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
+        self.between(0.0, 1.0)
     }
 
     fn direction(&mut self) -> DVec3 {
@@ -70,7 +61,7 @@ fn seen(point: DVec3, offset: f64) -> DVec2 {
 
 #[test]
 fn the_axes_of_a_disk_are_at_right_angles() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let along = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::Z];
     let any = (0..SPLATS).map(|_| random.direction());
     for normal in along.into_iter().chain(any) {
@@ -90,7 +81,7 @@ fn the_axes_of_a_disk_are_at_right_angles() {
 /// A ray through a point of the disk meets that point, and one beside the disk does not.
 #[test]
 fn rays_meet_the_points_that_they_go_through() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     let mut met = 0;
     for _ in 0..SPLATS {
         let splat = random.splat();
@@ -120,7 +111,7 @@ fn rays_meet_the_points_that_they_go_through() {
 /// The parameters find what the ray finds, wherever on the screen and for every camera.
 #[test]
 fn parameters_are_the_ray() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let mut met = 0;
     for _ in 0..SPLATS {
         let splat = random.splat();
@@ -179,7 +170,7 @@ fn a_disk_that_is_seen_from_its_edge_is_not_seen() {
 #[test]
 fn the_cover_is_the_smallest_one() {
     const STEPS: u32 = 2000;
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     let mut bounded = 0;
     for _ in 0..SPLATS {
         let splat = random.splat();
@@ -284,7 +275,7 @@ fn sheet(random: &mut Random, side: u32) -> Vec<Splat> {
 
 #[test]
 fn splats_of_a_group_do_not_overlap() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let mut splats = sheet(&mut random, 30);
     splats.extend((0..300).map(|_| random.splat()));
     let groups = Groups::new(&splats);
@@ -303,7 +294,7 @@ fn splats_of_a_group_do_not_overlap() {
 /// On one surface all ways to blend agree, and views differ from each other.
 #[test]
 fn deferred_blending_is_blending_where_nothing_is_hidden() {
-    let mut random = Random(6);
+    let mut random = Random::new(6);
     let splats = sheet(&mut random, 24);
     let screen = Screen {
         size: (48, 32),

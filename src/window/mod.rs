@@ -23,8 +23,8 @@ use surface::Surface;
 /// # Errors
 /// There is neither, or it fails.
 pub fn monitors() -> Result<Vec<Monitor>, WindowError> {
-    match wayland::Desk::find() {
-        Some(desk) => Ok(desk?.monitors()),
+    match wayland::Compositor::find() {
+        Some(compositor) => Ok(compositor?.monitors()),
         None => x11::monitors(),
     }
 }
@@ -46,8 +46,8 @@ fn open(
     wanted: Option<&str>,
     panel: Option<(u32, u32)>,
 ) -> Result<Box<dyn Surface>, WindowError> {
-    match wayland::Desk::find() {
-        Some(desk) => desk?.open(title, wanted, panel),
+    match wayland::Compositor::find() {
+        Some(compositor) => compositor?.open(title, wanted, panel),
         None => x11::panel(title, wanted, panel),
     }
 }

@@ -8,7 +8,7 @@ use manyview::config::panel::load;
 use manyview::display::{Display, Fit};
 use manyview::interleave::reference;
 use std::io::Read;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 pub(crate) const CAMERAS: [&str; 4] = ["--separation", "0.02", "--convergence", "8"];
@@ -59,20 +59,8 @@ impl Case {
     fn views(&self) -> Vec<RgbImage> {
         let folder = tempfile::tempdir().expect("a folder");
         let out = folder.path().join("atlas.png");
-        let (width, height) = self.size();
-        let mut command = manyview();
-        command
-            .args(["capture", "--frame", "3", "--what", "atlas", "--views"])
-            .arg(self.views.to_string())
-            .args(["--display", &named(self.display)])
-            .args(CAMERAS)
-            .arg("--out")
-            .arg(&out)
-            .arg("--")
-            .arg(still())
-            .args([width.to_string(), height.to_string()]);
-        succeed(&mut command);
-        let all = rgb(&out);
+        succeed(&mut self.capture(&["--what", "atlas"], &out));
+        let (all, (width, height)) = (rgb(&out), self.size());
         let view = |i| all.view(i * width, 0, width, height).to_image();
         (0..self.views).map(view).collect()
     }
@@ -87,6 +75,24 @@ impl Case {
         let mut whole = RgbImage::new(panel.0, panel.1);
         image::imageops::replace(&mut whole, &picture, place.x.into(), place.y.into());
         whole
+    }
+
+    /// Captures the third frame.
+    pub(crate) fn capture(&self, more: &[&str], out: &Path) -> Command {
+        let (width, height) = self.size();
+        let mut command = manyview();
+        command
+            .args(["capture", "--frame", "3", "--views"])
+            .arg(self.views.to_string())
+            .args(["--display", &named(self.display)])
+            .args(CAMERAS)
+            .args(more)
+            .arg("--out")
+            .arg(out)
+            .arg("--")
+            .arg(still())
+            .args([width.to_string(), height.to_string()]);
+        command
     }
 
     /// Starts the program, with its panel's window on this monitor, once it knows its screen.

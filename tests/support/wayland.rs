@@ -4,7 +4,6 @@
 use super::support::{Screen, has, sized_screen};
 use super::x::User;
 use image::RgbImage;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -20,6 +19,18 @@ pub(crate) struct Monitor {
     /// As the compositor's own file calls it.
     pub(crate) turned: &'static str,
     pub(crate) scale: &'static str,
+}
+
+impl Monitor {
+    /// Its mode, turn and scale for a compositor's own file.
+    fn words(&self) -> [String; 3] {
+        let (width, height) = self.size;
+        [
+            format!("{width}x{height}"),
+            self.turned.to_owned(),
+            self.scale.to_owned(),
+        ]
+    }
 }
 
 /// A compositor that runs until it is dropped.
@@ -55,18 +66,12 @@ impl Compositor {
     /// Weston in a window of an X server for each monitor. Its monitors are called X0 and so on.
     pub(crate) fn weston(monitors: &[Monitor]) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut text = String::from("[core]\nidle-time=0\n[shell]\npanel-position=none\n");
-        for (number, monitor) in monitors.iter().enumerate() {
-            let Monitor {
-                size: (width, height),
-                turned,
-                scale,
-            } = monitor;
-            let _ = writeln!(
-                text,
-                "[output]\nname=X{number}\nmode={width}x{height}\ntransform={turned}\nscale={scale}"
-            );
-        }
+        let output = |(number, monitor): (usize, &Monitor)| {
+            let [mode, turned, scale] = monitor.words();
+            format!("[output]\nname=X{number}\nmode={mode}\ntransform={turned}\nscale={scale}\n")
+        };
+        let outputs: String = monitors.iter().enumerate().map(output).collect();
+        let text = format!("[core]\nidle-time=0\n[shell]\npanel-position=none\n{outputs}");
         let file = folder.path().join("weston.ini");
         std::fs::write(&file, text).expect("written");
         let screen = sized_screen((2000, 1400));
@@ -83,18 +88,11 @@ impl Compositor {
     /// Sway without a screen. Its monitors are called HEADLESS-1 and so on.
     pub(crate) fn sway(monitors: &[Monitor]) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut text = String::new();
-        for (number, monitor) in (1..).zip(monitors) {
-            let Monitor {
-                size: (width, height),
-                turned,
-                scale,
-            } = monitor;
-            let _ = writeln!(
-                text,
-                "output HEADLESS-{number} mode {width}x{height} transform {turned} scale {scale}"
-            );
-        }
+        let output = |(number, monitor): (usize, &Monitor)| {
+            let [mode, turned, scale] = monitor.words();
+            format!("output HEADLESS-{number} mode {mode} transform {turned} scale {scale}\n")
+        };
+        let text: String = (1..).zip(monitors).map(output).collect();
         let file = folder.path().join("sway.txt");
         std::fs::write(&file, text).expect("written");
         let mut command = as_user("sway");

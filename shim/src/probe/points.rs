@@ -2,7 +2,8 @@
 
 use crate::egl;
 use manyview_core::gl::Gl;
-use manyview_core::points::{compare, cost};
+use manyview_core::interleave::glsl_version;
+use manyview_core::points::{Renderer, compare, cost};
 use std::process::ExitCode;
 
 /// Prints what was found.
@@ -60,8 +61,15 @@ pub(crate) fn costs() -> ExitCode {
     };
     // SAFETY: the context was just made current on this thread and stays so until the process ends.
     let gl = unsafe { Gl::new(context.real) };
+    let renderer = match Renderer::new(&gl, glsl_version(&gl)) {
+        Ok(renderer) => renderer,
+        Err(error) => {
+            eprintln!("{error}");
+            return ExitCode::FAILURE;
+        }
+    };
     for case in cases {
-        let cost = cost::measure(&gl, case)
+        let cost = cost::measure(&gl, &renderer, case)
             .and_then(|cost| serde_json::to_string(&cost).map_err(|error| error.to_string()));
         match cost {
             Ok(line) => println!("{line}"),

@@ -17,7 +17,7 @@ use wayland_client::protocol::wl_registry::{self, WlRegistry};
 use wayland_client::{Connection, Dispatch, EventQueue, QueueHandle};
 
 /// A connection to a compositor, whose monitors are known.
-pub(super) struct Desk {
+pub(super) struct Compositor {
     connection: Connection,
     globals: GlobalList,
     queue: EventQueue<State>,
@@ -28,10 +28,10 @@ pub(super) struct Desk {
 #[derive(Default)]
 struct State {
     outputs: Vec<Output>,
-    window: surface::Told,
+    window: surface::WindowState,
 }
 
-impl Desk {
+impl Compositor {
     /// Connects to the compositor of `WAYLAND_DISPLAY`. None where there is none.
     pub(super) fn find() -> Option<Result<Self, WindowError>> {
         std::env::var_os("WAYLAND_DISPLAY").filter(|name| !name.is_empty())?;

@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 
 use super::buffers::{BUFFERS, Buffers};
-use super::{Desk, State, failed};
+use super::{Compositor, State, failed};
 use crate::window::surface::{Picture, Seen, Surface};
 use crate::window::{Monitor, WindowError};
 use std::fs::File;
@@ -30,7 +30,7 @@ use wayland_protocols_wlr::layer_shell::v1::client::zwlr_layer_surface_v1::{
 
 /// What the compositor has said of the window.
 #[derive(Default)]
-pub(super) struct Told {
+pub(super) struct WindowState {
     /// Which pictures it reads.
     pub(super) busy: [bool; BUFFERS],
     /// The last picture is not on the monitor yet.
@@ -63,13 +63,17 @@ pub(super) struct PanelSurface {
 }
 
 impl PanelSurface {
-    pub(super) fn open(desk: Desk, title: &str, monitor: Monitor) -> Result<Self, WindowError> {
-        let Desk {
+    pub(super) fn open(
+        compositor: Compositor,
+        title: &str,
+        monitor: Monitor,
+    ) -> Result<Self, WindowError> {
+        let Compositor {
             connection,
             globals,
             queue,
             state,
-        } = desk;
+        } = compositor;
         let handle = queue.handle();
         let chosen = state
             .outputs
@@ -109,7 +113,7 @@ impl PanelSurface {
                 .map_err(failed)?;
         }
         window.attach_buffer(0);
-        window.answer();
+        window.acknowledge();
         window.flush()?;
         Ok(window)
     }
@@ -121,7 +125,7 @@ impl PanelSurface {
     }
 
     /// Takes the size on the desk that the compositor has given the window.
-    fn answer(&mut self) {
+    fn acknowledge(&mut self) {
         let Some(serial) = self.state.window.configured.take() else {
             return;
         };
@@ -201,7 +205,7 @@ impl Surface for PanelSurface {
         self.queue
             .dispatch_pending(&mut self.state)
             .map_err(failed)?;
-        self.answer();
+        self.acknowledge();
         Ok(self.state.window.closed)
     }
 
@@ -332,7 +336,7 @@ impl Dispatch<ZwlrLayerSurfaceV1, ()> for State {
     }
 }
 
-impl Told {
+impl WindowState {
     /// Without a size the window keeps that of its picture.
     fn resize(&mut self, width: i32, height: i32) {
         self.size = (width > 0 && height > 0).then_some((width, height));
