@@ -125,7 +125,7 @@ fn mask(size: u32, view: impl Fn(u32, u32, u32) -> u32) -> Result<Mask, String> 
     Mask::new(size, size, data).ok_or_else(|| "the picture is too large".to_owned())
 }
 
-/// A ball with dents, as large as the picture, whose splats overlap a little.
+/// A ball with dents, as large as the picture. Its splats overlap, but not all of them where the dents are steepest: there a few pixels show its back.
 #[must_use]
 pub fn surface(points: u32) -> Vec<Splat> {
     let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
