@@ -64,10 +64,15 @@ help: ## list the targets
 # The unit tests of the hooks need the driver that records calls. This does not touch libmanyview.so, which `build` alone makes.
 FAKE_DRIVER := --features manyview-shim/fake-driver
 
-# Two calls on purpose: one would give the library the features, and the code, of the command.
-build: rust ## build the command, the library and the probe
+# The viewer is built and tested by itself: together with the others it would give their crates the features, and the code, of its own.
+CRATES := --workspace --exclude manyview-viewer
+VIEWER := -p manyview-viewer
+
+# Three calls on purpose: one would give the library the features, and the code, of the command.
+build: rust ## build the command, the library, the probe and the viewer of point clouds
 	$(CARGO) build --release -p manyview
 	$(CARGO) build --release -p manyview-shim
+	$(CARGO) build --release $(VIEWER)
 
 release: rust ## build what runs on systems with glibc 2.28 and later (needs cargo-zigbuild and zig); target/release-2.28
 	@sh scripts/release.sh $(GLIBC) $(RELEASE)
@@ -108,15 +113,16 @@ gallery: packages build demos ## make the pictures of docs/gallery.md
 
 test: packages build demos ## run the tests
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER); \
-	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER); \
+	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests; fi
+	$(CARGO) test --release $(VIEWER) --lib --bins
 	$(CARGO) test --release -p manyview --doc
 
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak)_/)'; \
-	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak)_/)'; \
+	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
 packages-32: packages ## install the i386 packages that are missing
@@ -136,8 +142,8 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak)_/)'; \
-	else $(CARGO) test --release --no-fail-fast --workspace $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak)_/)'; \
+	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
 	$(MAKE) check-shadow
@@ -232,8 +238,10 @@ book: ## build the manual as HTML in target/book (needs mdbook)
 lint: rust ## check format, clippy, documentation, and the crates where cargo-deny is there
 	$(CARGO) fmt --all --check
 	$(CARGO) fmt --manifest-path fuzz/Cargo.toml --check
-	$(CARGO) clippy --release --workspace --all-targets $(FAKE_DRIVER) -- -D warnings
+	$(CARGO) clippy --release $(CRATES) --all-targets $(FAKE_DRIVER) -- -D warnings
+	$(CARGO) clippy --release $(VIEWER) --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --no-deps -p manyview
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --no-deps $(VIEWER) --lib
 	@if $(CARGO) deny --version >/dev/null 2>&1; then $(CARGO) deny --workspace check licenses bans sources; \
 	else echo "licences and versions of crates are not checked: run cargo install cargo-deny to have that" >&2; fi
 
@@ -247,13 +255,14 @@ rust:
 
 # Installing does not build, so that `sudo make install` leaves no files of root in target/.
 install: ## install to PREFIX after `make build` (default /usr/local)
-	@test -x $(BIN)/manyview && test -f $(BIN)/libmanyview.so && test -x $(BIN)/manyview-probe || \
+	@test -x $(BIN)/manyview && test -f $(BIN)/libmanyview.so && test -x $(BIN)/manyview-probe && test -x $(BIN)/manyview-points || \
 		{ echo "Nothing to install: run make build first" >&2; exit 1; }
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/manyview \
 		$(DESTDIR)$(PREFIX)/lib/manyview/profiles $(DESTDIR)$(PREFIX)/share/manyview/shaders $(DESTDIR)$(PREFIX)/share/doc/manyview
 	install -s -m 755 $(BIN)/manyview $(DESTDIR)$(PREFIX)/bin/manyview
 	install -s -m 644 $(BIN)/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/libmanyview.so
 	install -s -m 755 $(BIN)/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/manyview-probe
+	install -s -m 755 $(BIN)/manyview-points $(DESTDIR)$(PREFIX)/lib/manyview/manyview-points
 	@for scene in $(SCENES); do test -x $(DEMOS)/$$scene || \
 		{ echo "The scenes of manyview bench are not built: run make demos first to install them as well" >&2; exit 0; }; done; \
 		install -d $(DESTDIR)$(PREFIX)/lib/manyview/scenes && \
@@ -270,7 +279,7 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 
 # Debuggers look for .debug/NAME.debug beside a binary that has a debug link, which holds the file's checksum.
 install-debug: install ## install the debug information of what install has stripped, beside it
-	@set -e; for binary in bin/manyview lib/manyview/libmanyview.so lib/manyview/manyview-probe; do \
+	@set -e; for binary in bin/manyview lib/manyview/libmanyview.so lib/manyview/manyview-probe lib/manyview/manyview-points; do \
 		folder=$(DESTDIR)$(PREFIX)/$$(dirname $$binary); name=$$(basename $$binary); \
 		install -d $$folder/.debug; \
 		objcopy --only-keep-debug $(BIN)/$$name $$folder/.debug/$$name.debug; \

@@ -27,7 +27,7 @@ const OTHERS: [&str; 6] = ["APACHE", "BSL", "BOOST", "ZLIB", "UNLICENSE", "LGPL"
 const HEAD: &str = "\
 Notices of third parties
 
-manyview, libmanyview.so and manyview-probe contain the crates below. Under the names of crates, with the licences that they may be used under, are
+manyview, libmanyview.so, manyview-probe and manyview-points contain the crates below. Under the names of crates, with the licences that they may be used under, are
 the texts that the crates come with; of a crate with a choice of licences only those of the MIT licence, which is chosen. `make notices` writes this file.
 
 They contain the Rust standard library as well, under the MIT licence; its authors are the contributors to the Rust project, https://www.rust-lang.org.
@@ -61,7 +61,7 @@ fn cargo(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
-/// Crates that the command, the library and the probe are linked with, as name and version.
+/// Crates that the command, the library, the probe and the viewer are linked with, as name and version.
 fn linked() -> BTreeSet<(String, String)> {
     let mut arguments = vec![
         "tree",
@@ -70,7 +70,14 @@ fn linked() -> BTreeSet<(String, String)> {
         "--edges",
         "normal,no-proc-macro",
     ];
-    arguments.extend(["-p", "manyview", "-p", "manyview-shim"]);
+    arguments.extend([
+        "-p",
+        "manyview",
+        "-p",
+        "manyview-shim",
+        "-p",
+        "manyview-viewer",
+    ]);
     for target in TARGETS {
         arguments.extend(["--target", target]);
     }

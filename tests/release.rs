@@ -92,7 +92,12 @@ fn versions_are_compared_by_their_numbers() {
 #[ignore = "of make release"]
 fn release_needs_no_newer_c_library_than_it_says() {
     let folder = std::env::var_os("MANYVIEW_RELEASE").expect("MANYVIEW_RELEASE; run make release");
-    for name in ["manyview", "libmanyview.so", "manyview-probe"] {
+    for name in [
+        "manyview",
+        "libmanyview.so",
+        "manyview-probe",
+        "manyview-points",
+    ] {
         let path = Path::new(&folder).join(name);
         let file =
             std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));

@@ -14,6 +14,7 @@ mod layer;
 mod man;
 mod mask;
 mod panel;
+mod points;
 mod run;
 mod sheet;
 mod show;
@@ -54,6 +55,8 @@ struct Arguments {
 enum Action {
     /// Run a program in N views.
     Run(run::Arguments),
+    /// Show a point cloud.
+    Points(points::Arguments),
     /// Run a program until the frames asked for are written as PNG, then end it.
     Capture(capture::Arguments),
     /// Read and change the views of a program that runs with --control.
@@ -87,6 +90,7 @@ type Outcome = Result<ExitCode, CommandError>;
 pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Action::Run(arguments) => run::run(&arguments),
+        Action::Points(arguments) => points::run(&arguments),
         Action::Capture(arguments) => capture::run(&arguments),
         Action::Ctl(arguments) => ctl::run(&arguments),
         Action::Mask(arguments) => mask::run(&arguments),

@@ -27,7 +27,12 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let mut settings = arguments.layer.settings()?;
+    start(&arguments.layer, &arguments.command)
+}
+
+/// Runs a program and its arguments under the layer.
+pub(super) fn start(layer: &LayerArguments, command: &[OsString]) -> Outcome {
+    let mut settings = layer.settings()?;
     let chosen = panel::choose(&mut settings)?;
     let status = match settings.get(OptionId::Prove) {
         Some(_) => Some(StatusFile::new(&mut settings)?),
@@ -41,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             Origin::Default,
         );
     }
-    let launch = Launch::prepare(&arguments.command, &settings)?;
+    let launch = Launch::prepare(command, &settings)?;
     let panel = panel::open(&launch.config)?;
     if let Some(chosen) = chosen {
         tell(&chosen);

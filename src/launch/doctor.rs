@@ -56,7 +56,7 @@ impl Findings {
         let display = std::env::var("DISPLAY")
             .ok()
             .filter(|display| !display.is_empty());
-        let helper = library::find_helper(HELPER);
+        let helper = library::helper(HELPER).ok();
         let screen = (display.is_none() && helper.is_some())
             .then(Xvfb::start)
             .and_then(Result::ok);

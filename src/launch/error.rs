@@ -48,6 +48,17 @@ pub enum LaunchError {
         /// The folders that were searched.
         searched: Vec<PathBuf>,
     },
+    /// A program of ours is not found.
+    #[error(
+        "{name} is not in {}; build it with `make build`",
+        searched.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(" nor in ")
+    )]
+    NoHelper {
+        /// Its name.
+        name: &'static str,
+        /// The folders that were searched.
+        searched: Vec<PathBuf>,
+    },
     /// The library cannot be preloaded.
     #[error("the library {} cannot be preloaded: {reason}", path.display())]
     BadLibrary {
@@ -141,6 +152,7 @@ impl LaunchError {
         match self {
             Self::Config(_) | Self::NotWritable { .. } => 2,
             Self::NoLibrary { .. }
+            | Self::NoHelper { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }
             | Self::NoOpenGl

@@ -24,13 +24,15 @@ pub fn find() -> Result<PathBuf, LaunchError> {
     }
 }
 
-/// Finds one of our helper programs, beside the command or in `../lib/manyview` of its folder.
-#[must_use]
-pub fn find_helper(name: &str) -> Option<PathBuf> {
-    folders()
-        .into_iter()
-        .map(|folder| folder.join(name))
-        .find(|path| path.is_file())
+/// Finds one of our programs, beside the command or in `../lib/manyview` of its folder.
+///
+/// # Errors
+/// It is not there.
+pub fn helper(name: &'static str) -> Result<PathBuf, LaunchError> {
+    let searched = folders();
+    let mut paths = searched.iter().map(|folder| folder.join(name));
+    let found = paths.find(|path| path.is_file());
+    found.ok_or(LaunchError::NoHelper { name, searched })
 }
 
 /// The folders of the scenes of `manyview bench`: `scenes` beside an installed library, and `demos` beside the build folder that holds the

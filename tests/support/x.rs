@@ -6,8 +6,9 @@ use image::{Rgb, RgbImage};
 use x11rb::connection::Connection;
 use x11rb::protocol::randr::{ConnectionExt as _, MonitorInfo};
 use x11rb::protocol::xproto::{
-    AtomEnum, ChangeWindowAttributesAux, ConfigureWindowAux, ConnectionExt as _, CreateWindowAux,
-    ImageFormat, InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, PropMode, Window, WindowClass,
+    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ChangeWindowAttributesAux,
+    ConfigureWindowAux, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus,
+    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, PropMode, Window, WindowClass,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -57,6 +58,21 @@ impl User {
                 .xtest_fake_input(kind, code, 0, self.root, 0, 0, 0);
             sent.expect("sent").check().expect("XTEST");
         }
+        self.connection.sync().expect("a server");
+    }
+
+    /// Moves the mouse from one place of the screen to another with its left button down.
+    pub(crate) fn drag(&self, from: [i16; 2], to: [i16; 2]) {
+        let send = |kind, detail, [x, y]: [i16; 2]| {
+            let sent = self
+                .connection
+                .xtest_fake_input(kind, detail, 0, self.root, x, y, 0);
+            sent.expect("sent").check().expect("XTEST");
+        };
+        send(MOTION_NOTIFY_EVENT, 0, from);
+        send(BUTTON_PRESS_EVENT, 1, from);
+        send(MOTION_NOTIFY_EVENT, 0, to);
+        send(BUTTON_RELEASE_EVENT, 1, to);
         self.connection.sync().expect("a server");
     }
 

@@ -1,0 +1,164 @@
+//! `manyview points`: the viewer of point clouds under the layer.
+#![forbid(unsafe_code)]
+
+#[path = "control/running.rs"]
+mod running;
+mod support;
+#[path = "support/x.rs"]
+mod x;
+
+use image::RgbImage;
+use manyview::report::Summary;
+use running::until;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::Command;
+use support::{library, manyview, own_screen, run, screen, succeed, target_folder};
+use x::User;
+
+const VIEWER: &str = "manyview-points";
+const LEFT: u32 = 0xff51;
+const HOME: u32 = 0xff50;
+const PAGE_UP: u32 = 0xff55;
+
+/// A ball of points, whose colours are their places.
+fn ball(file: &Path) {
+    let mut text = "ply\nformat ascii 1.0\nelement vertex 4000\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
+                    property uchar green\nproperty uchar blue\nend_header\n"
+        .to_owned();
+    for n in 0..4000 {
+        // A spiral from pole to pole.
+        let z = 1.0 - 2.0 * (f64::from(n) + 0.5) / 4000.0;
+        let (radius, angle) = ((1.0 - z * z).sqrt(), 2.399_963 * f64::from(n));
+        let (x, y) = (radius * angle.cos(), radius * angle.sin());
+        let [r, g, b] = [x, y, z].map(|value| (128.0 + 120.0 * value) as u8);
+        writeln!(text, "{x} {y} {z} {r} {g} {b}").expect("a string");
+    }
+    std::fs::write(file, text).expect("written");
+}
+
+fn points(options: &[&str], file: &Path, viewers: &[&str]) -> Command {
+    library();
+    let mut command = manyview();
+    command.arg("points").args(options).arg(file).args(viewers);
+    command
+}
+
+#[test]
+fn every_view_is_what_the_viewer_draws_with_its_projection() {
+    library();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name| folder.path().join(name);
+    let (file, report) = (path("ball.ply"), path("report.json"));
+    ball(&file);
+    let mut command = manyview();
+    command
+        .args([
+            "capture", "--views", "5", "--prove", "5", "--frame", "22", "--report",
+        ])
+        .args([
+            &report,
+            Path::new("--out"),
+            &path("picture.png"),
+            Path::new("--"),
+        ])
+        .arg(target_folder().join(VIEWER))
+        .arg(&file)
+        .args(["--turn", "30", "--size", "320x240"]);
+    succeed(screen().give(&mut command));
+    let text = std::fs::read_to_string(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let proof: Summary = serde_json::from_value(report["proof"].clone()).expect("a proof");
+    assert_eq!((proof.frames, proof.verdict()), (4, "equal"), "{proof:?}");
+    // In front of the middle and behind it: points are drawn in different places.
+    let [least, most] = ["min", "max"].map(|end| report["disparity"]["px"][end].as_f64());
+    assert!(
+        least < Some(-0.1) && most > Some(0.1),
+        "{}",
+        report["disparity"]
+    );
+}
+
+/// Where a picture is not as dark as where nothing is drawn.
+fn lit(picture: &RgbImage) -> usize {
+    picture
+        .pixels()
+        .filter(|pixel| pixel.0.iter().any(|&value| value > 40))
+        .count()
+}
+
+#[test]
+fn keys_and_mouse_move_what_is_seen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("ball.ply");
+    ball(&file);
+    let screen = own_screen();
+    let user = User::at(screen.display());
+    let options = ["--views", "1"];
+    let mut command = points(&options, &file, &["--size", "320x240"]);
+    let mut viewer = screen.give(&mut command).spawn().expect("started");
+    let title = "ball.ply - 4,000 points";
+    let window = until("the whole cloud", || user.window(title));
+    user.focus(window);
+    let until_seen = |what: &str, is_so: &dyn Fn(&RgbImage) -> bool| {
+        until(what, || {
+            Some(user.picture(window)).filter(|picture| is_so(picture))
+        })
+    };
+    let first = until_seen("a picture", &|picture| lit(picture) > 5000);
+    user.press(&[LEFT]);
+    let turned = until_seen("a turn", &|picture| *picture != first);
+    user.press(&[PAGE_UP]);
+    until_seen("a larger ball", &|picture| {
+        lit(picture) > lit(&turned) * 5 / 4
+    });
+    user.press(&[HOME]);
+    until_seen("the start", &|picture| *picture == first);
+    for _ in 0..8 {
+        user.press(&[u32::from('-')]);
+    }
+    until_seen("smaller points", &|picture| {
+        lit(picture) < lit(&first) * 99 / 100
+    });
+    user.press(&[HOME]);
+    until_seen("the start", &|picture| *picture == first);
+    user.drag([160, 120], [190, 150]);
+    until_seen("a turn by the mouse", &|picture| *picture != first);
+    user.press(&[u32::from('q')]);
+    let ended = viewer.wait().expect("an end");
+    assert!(ended.success(), "{ended}");
+}
+
+#[test]
+fn a_spoilt_file_is_refused_with_the_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let screen = screen();
+    let refused = |name: &str, text: Option<&str>, part: &str| {
+        let file = folder.path().join(name);
+        if let Some(text) = text {
+            std::fs::write(&file, text).expect("written");
+        }
+        let (status, _, said) = run(screen.give(&mut points(&[], &file, &[])));
+        assert_eq!(status, 2, "{said}");
+        assert!(said.contains(part), "{said}");
+    };
+    refused("none.ply", None, "none.ply, start: No such file");
+    let part = "bad.xyz, line 2: 2 numbers are no place; three are";
+    refused("bad.xyz", Some("# x y z\n1 2\n"), part);
+}
+
+#[test]
+fn its_help_names_every_option_of_the_viewer() {
+    let viewer = target_folder().join(VIEWER);
+    let own = succeed(Command::new(viewer).arg("--help"));
+    let all = succeed(manyview().args(["points", "--help"]));
+    let [own, all] = [own, all].map(|output| String::from_utf8(output.stdout).expect("UTF-8"));
+    let words = own.split(|c: char| !c.is_ascii_alphanumeric() && c != '-');
+    let flags: Vec<_> = words
+        .filter(|word| word.len() > 3 && word.starts_with("--"))
+        .collect();
+    assert!(flags.len() > 4, "{own}");
+    for flag in flags {
+        assert!(all.contains(flag), "{flag} is not in the help of points");
+    }
+}

@@ -1,0 +1,69 @@
+//! From where the cloud is seen, and how large its points are.
+
+use super::arguments::Arguments;
+use super::input::Change;
+use crate::camera::Camera;
+use crate::octree::Octree;
+use crate::read::Up;
+
+/// Sizes of points that the user can have, as factors.
+const SIZES: [f32; 2] = [0.1, 10.0];
+
+/// What the user changes.
+pub(super) struct Viewpoint {
+    up: Up,
+    /// Once there are points.
+    pub(super) camera: Option<Camera>,
+    /// By how much points are larger.
+    pub(super) scale: f32,
+    /// Radians for a frame.
+    turn: f32,
+}
+
+impl Viewpoint {
+    pub(super) fn new(up: Up, arguments: &Arguments) -> Self {
+        Self {
+            up,
+            camera: None,
+            scale: 1.0,
+            turn: arguments.turn.to_radians() / arguments.fps as f32,
+        }
+    }
+
+    /// Whether it changes by itself.
+    pub(super) fn is_turning(&self) -> bool {
+        self.turn != 0.0
+    }
+
+    /// A frame was drawn.
+    pub(super) fn advance(&mut self) {
+        if let Some(camera) = &mut self.camera {
+            camera.turn_by(self.turn);
+        }
+    }
+
+    pub(super) fn change(&mut self, change: Change) {
+        let Some(camera) = &mut self.camera else {
+            return;
+        };
+        match change {
+            Change::Turn(way) => camera.turn(way),
+            Change::Shift(way) => camera.shift(way),
+            Change::Approach(factor) => camera.approach(factor),
+            Change::Size(factor) => self.scale = (self.scale * factor).clamp(SIZES[0], SIZES[1]),
+            Change::Whole => {
+                self.camera = None;
+                self.scale = 1.0;
+            }
+        }
+    }
+
+    /// Follows a cloud while it grows, or at the start.
+    pub(super) fn follow(&mut self, tree: &Octree, is_growing: bool) {
+        match &mut self.camera {
+            Some(camera) if is_growing => camera.set_cloud(tree.extent()),
+            Some(_) => {}
+            None => self.camera = Some(Camera::new(tree.extent(), self.up)),
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Reads a file into the tree, in threads.
+
+use crate::octree::Octree;
+use crate::read::{Cloud, Part, Point, ReadError};
+use crate::vertex::Vertex;
+use glam::DVec3;
+use std::io;
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::thread;
+
+/// Why a file is not read to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// The file.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Points that do not fit into memory.
+    #[error("the temporary file for points that do not fit into memory: {0}")]
+    Store(#[from] io::Error),
+}
+
+/// What is known of a file that is being read.
+#[derive(Debug, Default)]
+pub struct Progress {
+    /// Points that the file says it has.
+    pub expected: Option<u64>,
+    /// Points that were read.
+    read: AtomicU64,
+    /// Points that are nowhere: a number is infinite or none.
+    skipped: AtomicU64,
+    /// Threads that read.
+    readers: AtomicU32,
+    stop: AtomicBool,
+    error: Mutex<Option<LoadError>>,
+}
+
+impl Progress {
+    /// How much of the file was read, 0 to 1; none where nobody knows.
+    #[must_use]
+    pub fn share(&self) -> Option<f32> {
+        let expected = self.expected.filter(|&expected| expected > 0)?;
+        Some(self.read.load(Ordering::Relaxed) as f32 / expected as f32)
+    }
+
+    /// Points that were left out.
+    #[must_use]
+    pub fn skipped(&self) -> u64 {
+        self.skipped.load(Ordering::Relaxed)
+    }
+
+    /// Whether nothing more comes.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        self.readers.load(Ordering::Acquire) == 0
+    }
+
+    /// The first fault, once.
+    pub fn take_error(&self) -> Option<LoadError> {
+        lock(&self.error).take()
+    }
+
+    fn fail(&self, error: LoadError) {
+        self.stop.store(true, Ordering::Relaxed);
+        lock(&self.error).get_or_insert(error);
+    }
+}
+
+/// A file that is read into a tree.
+#[derive(Clone, Debug)]
+pub struct Loading {
+    /// How far it is.
+    pub progress: Arc<Progress>,
+    tree: Arc<OnceLock<Mutex<Octree>>>,
+}
+
+impl Loading {
+    /// Starts to read a file. The tree holds so many bytes of points in memory.
+    #[must_use]
+    pub fn start(cloud: Cloud, memory: u64) -> Self {
+        let loading = Self {
+            progress: Arc::new(Progress {
+                expected: cloud.points,
+                readers: AtomicU32::new(cloud.parts.len() as u32),
+                ..Progress::default()
+            }),
+            tree: Arc::default(),
+        };
+        for part in cloud.parts {
+            let loading = loading.clone();
+            thread::spawn(move || {
+                if let Err(error) = loading.read(part, memory) {
+                    loading.progress.fail(error);
+                }
+                loading.progress.readers.fetch_sub(1, Ordering::Release);
+            });
+        }
+        loading
+    }
+
+    /// The tree, once there are points.
+    #[must_use]
+    pub fn tree(&self) -> Option<MutexGuard<'_, Octree>> {
+        self.tree.get().map(lock)
+    }
+
+    fn read(&self, mut part: Box<dyn Part>, memory: u64) -> Result<(), LoadError> {
+        let (mut vertices, mut fault) = (Vec::new(), None);
+        let read = part.read(&mut |points| {
+            self.progress
+                .read
+                .fetch_add(points.len() as u64, Ordering::Relaxed);
+            match self.insert(points, &mut vertices, memory) {
+                Ok(()) => !self.progress.stop.load(Ordering::Relaxed),
+                Err(error) => {
+                    fault = Some(error);
+                    false
+                }
+            }
+        });
+        // What was read is kept, also of a part that ends with a fault.
+        fault.map_or(Ok(()), |error| Err(LoadError::Store(error)))?;
+        Ok(read?)
+    }
+
+    fn insert(
+        &self,
+        points: &mut Vec<Point>,
+        vertices: &mut Vec<Vertex>,
+        memory: u64,
+    ) -> io::Result<()> {
+        let is_finite = |point: &&Point| point.place.as_vec3().is_finite();
+        let Some(first) = points.iter().find(is_finite) else {
+            self.progress
+                .skipped
+                .fetch_add(points.len() as u64, Ordering::Relaxed);
+            points.clear();
+            return Ok(());
+        };
+        if self.tree.get().is_none() {
+            let (origin, size) = (first.place, size(points, first.place));
+            // Of two threads that make one, the first one's is kept.
+            let _ = self
+                .tree
+                .set(Mutex::new(Octree::new(origin, size, memory)?));
+        }
+        let Some(origin) = self.tree().map(|tree| tree.origin()) else {
+            return Ok(());
+        };
+        vertices.clear();
+        vertices.extend(points.iter().filter_map(|point| Vertex::new(point, origin)));
+        let skipped = points.len() - vertices.len();
+        self.progress
+            .skipped
+            .fetch_add(skipped as u64, Ordering::Relaxed);
+        points.clear();
+        for some in vertices.chunks(AT_ONCE) {
+            if let Some(mut tree) = self.tree() {
+                tree.insert(some)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// So many points go into the tree before others may use it: a frame never waits long.
+const AT_ONCE: usize = 4096;
+
+/// Twice the distance of the farthest of a few points, so that the tree seldom grows.
+fn size(points: &[Point], origin: DVec3) -> f32 {
+    let far = points
+        .iter()
+        .map(|point| (point.place - origin).abs().max_element() as f32);
+    let far = far.filter(|far| far.is_finite()).fold(0.0, f32::max);
+    2.0 * far
+}
+
+/// A thread that has panicked leaves the points as they were.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

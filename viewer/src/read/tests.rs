@@ -1,0 +1,287 @@
+use super::{Place, Point, ReadError, open};
+use glam::{DVec3, Vec3};
+use std::io::Write;
+use std::path::Path;
+use tempfile::NamedTempFile;
+
+fn file(bytes: &[u8]) -> NamedTempFile {
+    let mut file = NamedTempFile::new().expect("a file");
+    file.write_all(bytes).expect("written");
+    file
+}
+
+/// All points, and the fault at the end.
+fn read(path: &Path) -> (Vec<Point>, Option<ReadError>) {
+    let mut all = Vec::new();
+    let cloud = match open(path, 2) {
+        Ok(cloud) => cloud,
+        Err(error) => return (all, Some(error)),
+    };
+    for mut part in cloud.parts {
+        let read = part.read(&mut |points| {
+            all.append(points);
+            true
+        });
+        if let Err(error) = read {
+            return (all, Some(error));
+        }
+    }
+    (all, None)
+}
+
+fn whole(bytes: &[u8]) -> Vec<Point> {
+    let (points, fault) = read(file(bytes).path());
+    assert!(fault.is_none(), "{fault:?}");
+    points
+}
+
+fn fault(bytes: &[u8]) -> (Place, String) {
+    let (_, fault) = read(file(bytes).path());
+    let fault = fault.expect("a fault");
+    (fault.at, fault.what)
+}
+
+const ASCII: &str = "ply\nformat ascii 1.0\nelement other 1\nproperty list uchar int a\nelement vertex 2\nproperty float x\nproperty double y\nproperty float z\n\
+property float nx\nproperty float ny\nproperty float nz\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty float radius\nend_header\n";
+
+#[test]
+fn text_of_ply() {
+    let points = whole(
+        format!("{ASCII}2 7 8\n1 2 3 0 0 2 255 128 0 0.5\n4 5 6 1 0 0 1 2 3 0.25\n").as_bytes(),
+    );
+    let first = Point {
+        place: DVec3::new(1.0, 2.0, 3.0),
+        colour: Some([255, 128, 0]),
+        normal: Some(Vec3::new(0.0, 0.0, 2.0)),
+        radius: Some(0.5),
+    };
+    assert_eq!(points[0], first);
+    assert_eq!(points[1].place, DVec3::new(4.0, 5.0, 6.0));
+}
+
+#[test]
+fn faults_of_text_have_their_line() {
+    let start = format!("{ASCII}2 7 8\n1 2 3 0 0 2 255 128 0 0.5\n");
+    let lines = ASCII.lines().count() as u64;
+    let (at, what) = fault(format!("{start}4 5 x 1 0 0 1 2 3 0.25\n").as_bytes());
+    assert_eq!(
+        (at, what.as_str()),
+        (Place::Line(lines + 3), "\"x\" is no number")
+    );
+    let (at, what) = fault(format!("{start}4 5 6\n").as_bytes());
+    assert_eq!(at, Place::Line(lines + 3), "{what}");
+    let (at, what) = fault(start.as_bytes());
+    assert_eq!(at, Place::Line(lines + 3), "{what}");
+    assert!(what.contains("2 points"), "{what}");
+}
+
+/// Binary PLY with more vertices than a block has.
+fn binary(big: bool, list: bool, count: u32) -> Vec<u8> {
+    let order = if big { "big" } else { "little" };
+    let extra = if list {
+        "property list uchar short extra\n"
+    } else {
+        "property short extra\n"
+    };
+    let mut bytes = format!(
+        "ply\nformat binary_{order}_endian 1.0\nelement vertex {count}\n{extra}property double x\nproperty float y\nproperty int z\n\
+         property ushort red\nproperty ushort green\nproperty ushort blue\nend_header\n"
+    )
+    .into_bytes();
+    for n in 0..count {
+        if list {
+            bytes.push(1);
+        }
+        macro_rules! put {
+            ($value:expr) => {
+                bytes.extend(if big {
+                    $value.to_be_bytes()
+                } else {
+                    $value.to_le_bytes()
+                })
+            };
+        }
+        put!(-1_i16);
+        put!(f64::from(n) + 0.1);
+        put!(n as f32 * 2.0);
+        put!(-(n as i32));
+        for _ in 0..3 {
+            put!(0x8080_u16);
+        }
+    }
+    bytes
+}
+
+#[test]
+fn binary_ply_in_both_orders_and_with_lists() {
+    for (big, list) in [(false, false), (true, false), (false, true), (true, true)] {
+        let mut points = whole(&binary(big, list, 40_000));
+        points.sort_by(|a, b| a.place.x.total_cmp(&b.place.x));
+        assert_eq!(points.len(), 40_000);
+        for (n, point) in points.iter().enumerate() {
+            let n = n as f64;
+            let place = DVec3::new(n + 0.1, n * 2.0, -n);
+            assert_eq!((point.place, point.colour), (place, Some([128; 3])));
+        }
+    }
+}
+
+#[test]
+fn a_file_that_is_cut_off_is_refused_with_the_place() {
+    let bytes = binary(false, false, 1000);
+    let (at, what) = fault(&bytes[..bytes.len() - 1]);
+    assert_eq!(at, Place::Point(1000), "{what}");
+    let lists = binary(false, true, 1000);
+    let (at, what) = fault(&lists[..lists.len() - 1]);
+    assert_eq!(at, Place::Point(1000), "{what}");
+    for cut in [3, 10, 60] {
+        let (at, what) = fault(&bytes[..cut]);
+        assert_eq!(at, Place::Header, "{what}");
+    }
+}
+
+#[test]
+fn ply_without_places_is_refused() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n";
+    assert_eq!(
+        fault(text.as_bytes()),
+        (Place::Header, "a vertex has no x, y and z".to_owned())
+    );
+    let text = "ply\nformat ascii 1.0\nelement face 1\nproperty float x\nend_header\n1\n";
+    assert_eq!(fault(text.as_bytes()).0, Place::Header);
+}
+
+#[test]
+fn lines_of_text() {
+    let points =
+        whole(b"x,y,z\n# comment\n1,2,3\n4 5 6 10 20 30\n7;8;9;100;1;2;3\n\n1 2 3 0.5 -0.5 0\n");
+    let seen: Vec<_> = points
+        .iter()
+        .map(|p| (p.place.x, p.colour, p.normal))
+        .collect();
+    let normal = Some(Vec3::new(0.5, -0.5, 0.0));
+    let want = [
+        (1.0, None, None),
+        (4.0, Some([10, 20, 30]), None),
+        (7.0, Some([1, 2, 3]), None),
+        (1.0, None, normal),
+    ];
+    assert_eq!(seen, want);
+    assert_eq!(
+        fault(b"1 2 3\n1 2\n"),
+        (
+            Place::Line(2),
+            "2 numbers are no place; three are".to_owned()
+        )
+    );
+    assert_eq!(
+        fault(b"1 2 3\n1 2 three\n"),
+        (Place::Line(2), "\"three\" is no number".to_owned())
+    );
+    assert_eq!(fault(b"# nothing\n").0, Place::Line(2));
+    assert_eq!(fault(&[b'1'; 10_000]).0, Place::Line(1));
+    assert_eq!(fault(b"\0\0\0").0, Place::Start);
+}
+
+fn las_bytes(compressed: bool, count: u32) -> Vec<u8> {
+    let mut builder = las::Builder::from((1, 4));
+    builder.point_format = las::point::Format::new(2).expect("a format");
+    builder.point_format.is_compressed = compressed;
+    let header = builder.into_header().expect("a header");
+    let cursor = std::io::Cursor::new(Vec::new());
+    let mut writer = las::Writer::new(cursor, header).expect("a writer");
+    for n in 0..count {
+        let point = las::Point {
+            x: f64::from(n),
+            y: 2.0,
+            z: -3.0,
+            color: Some(las::Color::new(0x1010, 0x2020, n as u16)),
+            ..Default::default()
+        };
+        writer.write_point(point).expect("written");
+    }
+    writer.close().expect("closed");
+    writer.into_inner().expect("bytes").into_inner()
+}
+
+#[test]
+fn las_and_laz() {
+    for compressed in [false, true] {
+        let mut points = whole(&las_bytes(compressed, 120_000));
+        points.sort_by(|a, b| a.place.x.total_cmp(&b.place.x));
+        assert_eq!(points.len(), 120_000);
+        for (n, point) in points.iter().enumerate() {
+            assert_eq!(point.place, DVec3::new(n as f64, 2.0, -3.0));
+            let [r, g, b] = point.colour.expect("a colour");
+            assert_eq!((r, g, b), (16, 32, ((n as u16) / 257) as u8));
+        }
+    }
+}
+
+#[test]
+fn las_that_is_cut_off_is_refused_with_the_place() {
+    for compressed in [false, true] {
+        let bytes = las_bytes(compressed, 120_000);
+        let (at, what) = fault(&bytes[..bytes.len() * 3 / 4]);
+        assert!(
+            matches!(at, Place::Point(_) | Place::Header),
+            "{at}: {what}"
+        );
+        assert_eq!(fault(&bytes[..100]).0, Place::Header);
+    }
+}
+
+#[test]
+fn pcd() {
+    let header = "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb normal_x normal_y normal_z\nSIZE 4 4 4 4 4 4 4\nTYPE F F F U F F F\nCOUNT 1 1 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\n\
+                  VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\n";
+    let points =
+        whole(format!("{header}DATA ascii\n1 2 3 1122867 0 1 0\n4 5 6 0 1 0 0\n").as_bytes());
+    assert_eq!(points[0].place, DVec3::new(1.0, 2.0, 3.0));
+    assert_eq!(points[0].colour, Some([0x11, 0x22, 0x33]));
+    assert_eq!(points[0].normal, Some(Vec3::Y));
+    assert_eq!(points[1].place, DVec3::new(4.0, 5.0, 6.0));
+    let (at, what) =
+        fault(format!("{header}DATA ascii\n1 2 3 1122867 0 1 0\n4 5 x 0 1 0 0\n").as_bytes());
+    assert_eq!(at, Place::Point(2), "{what}");
+    assert_eq!(fault(b"# .PCD v0.7\nFIELDS x\n").0, Place::Header);
+}
+
+fn e57_bytes() -> Vec<u8> {
+    let file = NamedTempFile::new().expect("a file");
+    let mut writer = e57::E57Writer::from_file(file.path(), "file").expect("a writer");
+    let prototype = vec![
+        e57::Record::CARTESIAN_X_F64,
+        e57::Record::CARTESIAN_Y_F64,
+        e57::Record::CARTESIAN_Z_F64,
+        e57::Record::COLOR_RED_U8,
+        e57::Record::COLOR_GREEN_U8,
+        e57::Record::COLOR_BLUE_U8,
+    ];
+    let mut scan = writer.add_pointcloud("scan", prototype).expect("a scan");
+    for n in 0..3000 {
+        let values = [f64::from(n), 2.0, 3.0].map(e57::RecordValue::Double);
+        let colour = [10, 20, 30].map(e57::RecordValue::Integer);
+        let point = values.into_iter().chain(colour).collect();
+        scan.add_point(point).expect("a point");
+    }
+    scan.finalize().expect("a scan");
+    writer.finalize().expect("a file");
+    std::fs::read(file.path()).expect("bytes")
+}
+
+#[test]
+fn e57() {
+    let bytes = e57_bytes();
+    let points = whole(&bytes);
+    assert_eq!(points.len(), 3000);
+    assert_eq!(points[7].place, DVec3::new(7.0, 2.0, 3.0));
+    assert_eq!(points[7].colour, Some([10, 20, 30]));
+    let (at, what) = fault(&bytes[..bytes.len() / 2]);
+    assert_eq!(at, Place::Header, "{what}");
+    // A byte in the middle of the points.
+    let mut spoilt = bytes.clone();
+    spoilt[30_000] ^= 0x55;
+    let (at, what) = fault(&spoilt);
+    assert!(matches!(at, Place::Point(_)), "{at}: {what}");
+}
