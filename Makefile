@@ -55,7 +55,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build release demos demo bench overhead panel-cost points-cost pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
+.PHONY: help build release demos demo bench overhead panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -219,6 +219,9 @@ panel-cost: build demos ## what the panel's window and the on-screen display cos
 
 points-cost: build ## the time of splats drawn once for all views, beside one view and a pass for each (five minutes)
 	@EGL_PLATFORM=surfaceless $(BIN)/manyview-probe points-cost
+
+points-large: build ## show a point cloud of a hundred million points (three minutes, a file of 560 MB)
+	$(CARGO) test --release --test viewer full_ -- --ignored --nocapture
 
 overhead: packages build demos ## measure the layer where it does nothing: switched off, and with one view (ten minutes)
 	@sh scripts/overhead.sh $(BIN) $(TARGET)/overhead $(DEMOS)

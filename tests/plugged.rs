@@ -226,3 +226,14 @@ fn what_cannot_be_set_up_is_one_line() {
     .expect("a file");
     refused(&["run", "--", "true"], "display in");
 }
+
+#[test]
+fn one_view_needs_no_panel() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = plain();
+    command
+        .env("XDG_CONFIG_HOME", folder.path())
+        .args(["run", "--views", "1", "--", "true"]);
+    let (status, _, said) = run(&mut command);
+    assert_eq!((status, said.as_str()), (0, ""));
+}

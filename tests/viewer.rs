@@ -13,7 +13,8 @@ use running::until;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
-use support::{library, manyview, own_screen, run, screen, succeed, target_folder};
+use std::time::{Duration, Instant};
+use support::{library, manyview, own_screen, run, scratch, screen, succeed, target_folder};
 use x::User;
 
 const VIEWER: &str = "manyview-points";
@@ -145,6 +146,89 @@ fn a_spoilt_file_is_refused_with_the_place() {
     refused("none.ply", None, "none.ply, start: No such file");
     let part = "bad.xyz, line 2: 2 numbers are no place; three are";
     refused("bad.xyz", Some("# x y z\n1 2\n"), part);
+}
+
+/// Bytes of memory that the viewer has, which the command has started, of those that are not files.
+fn memory(command: u32) -> Option<u64> {
+    let children = format!("/proc/{command}/task/{command}/children");
+    let children = std::fs::read_to_string(children).ok()?;
+    let viewer = children.split_whitespace().next()?;
+    let text = std::fs::read_to_string(format!("/proc/{viewer}/status")).ok()?;
+    let line = text.lines().find(|line| line.starts_with("RssAnon:"))?;
+    let number: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(number * 1024)
+}
+
+/// What a program has without points: the driver's threads, the views, the blocks of a file that are read.
+const OTHERWISE: u64 = 450 << 20;
+const POINTS: &str = "100000000";
+
+#[test]
+#[ignore = "of test-full: it makes a file of 560 MB"]
+fn full_a_hundred_million_points_are_shown() {
+    let file = scratch("viewer").join("land.laz");
+    if !file.is_file() {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo
+            .args([
+                "run",
+                "--release",
+                "-p",
+                "manyview-viewer",
+                "--example",
+                "cloud",
+                "land",
+                POINTS,
+            ])
+            .arg(&file);
+        succeed(&mut cargo);
+    }
+    let report = file.with_extension("json");
+    let screen = own_screen();
+    let user = User::at(screen.display());
+    let viewers = [
+        "--turn", "20", "--memory", "600M", "--size", "1280x720", "--fps", "30",
+    ];
+    let options = ["--views", "8", "--report", report.to_str().expect("UTF-8")];
+    let mut command = points(&options, &file, &viewers);
+    // As a user has it, because its time counts.
+    for name in [
+        "LP_NUM_THREADS",
+        "GALLIVM_PERF",
+        "MANYVIEW_STRATEGY",
+        "MANYVIEW_AUTO_DEPTH",
+    ] {
+        command.env_remove(name);
+    }
+    let start = Instant::now();
+    let mut viewer = screen.give(&mut command).spawn().expect("started");
+    let window = until("a window", || user.windows().first().copied());
+    until("a picture", || {
+        (lit(&user.picture(window)) > 1000).then_some(())
+    });
+    let first = start.elapsed().as_secs_f64();
+    let (mut most, mut read) = (0, None);
+    while start.elapsed() < Duration::from_secs(100) {
+        most = most.max(memory(viewer.id()).expect("it runs"));
+        if read.is_none() && user.window("land.laz - 100,000,000 points").is_some() {
+            read = Some(start.elapsed().as_secs_f64());
+        }
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    user.focus(window);
+    user.press(&[u32::from('q')]);
+    assert!(viewer.wait().expect("an end").success());
+    let text = std::fs::read_to_string(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let [median, p95] = ["median", "p95"].map(|part| report["frame_ms"][part].as_f64());
+    println!(
+        "first picture {first:.1} s, all read {read:.0?} s, frames {median:.0?} and {p95:.0?} ms (median, 95 %), memory {} MiB",
+        most >> 20
+    );
+    assert!(first < 3.0, "{first}");
+    assert!(read.is_some(), "not all were read");
+    assert!(median < Some(1000.0 / 12.0), "{median:?}");
+    assert!(most < (600 << 20) + OTHERWISE, "{most}");
 }
 
 #[test]

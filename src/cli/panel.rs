@@ -13,7 +13,7 @@ const ANAGLYPH: &str = "anaglyph";
 /// Without a display and an output, takes the panel that is set up or plugged in, else an anaglyph. Returns the line that says so, for when the program is started.
 pub(super) fn choose(settings: &mut Settings) -> Result<Option<String>, CommandError> {
     let given = |id| settings.get(id).is_some();
-    if given(OptionId::Display) || given(OptionId::Output) {
+    if given(OptionId::Display) || given(OptionId::Output) || is_one_view(settings) {
         return Ok(None);
     }
     if let Some(chosen) = Chosen::read()? {
@@ -52,11 +52,15 @@ pub(super) fn choose(settings: &mut Settings) -> Result<Option<String>, CommandE
     Ok(Some(said))
 }
 
-/// Sets the monitor of the panel's window, unless the user has; one view stays in the program's window.
-fn give_window(settings: &mut Settings, monitor: String, origin: Origin) {
+/// One view needs no panel: it stays in the program's window, as it is.
+fn is_one_view(settings: &Settings) -> bool {
     let views = settings.field(OptionId::Views);
-    let is_one = views.is_some_and(|(_, views)| views == "1");
-    if settings.get(OptionId::Panel).is_none() && !is_one {
+    views.is_some_and(|(_, views)| views == "1")
+}
+
+/// Sets the monitor of the panel's window, unless the user has.
+fn give_window(settings: &mut Settings, monitor: String, origin: Origin) {
+    if settings.get(OptionId::Panel).is_none() {
         settings.set(OptionId::Panel, monitor, origin);
     }
 }

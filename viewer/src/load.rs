@@ -92,7 +92,12 @@ impl Loading {
                 if let Err(error) = loading.read(part, memory) {
                     loading.progress.fail(error);
                 }
-                loading.progress.readers.fetch_sub(1, Ordering::Release);
+                let readers = &loading.progress.readers;
+                if readers.fetch_sub(1, Ordering::AcqRel) == 1
+                    && let Some(mut tree) = loading.tree()
+                {
+                    tree.finish();
+                }
             });
         }
         loading

@@ -84,7 +84,7 @@ impl Octree {
             (node.centre, node.half) = (root.centre, root.half);
             return Ok(());
         }
-        root.open();
+        self.store.open(&mut root)?;
         root.children[root.octant(node.centre)] = Some(old);
         node.parent = Some(id);
         let points = self.store.points(node)?;

@@ -9,6 +9,8 @@ pub type Id = u32;
 /// Cells of an inner node along each axis; each holds one point.
 pub const CELLS: u32 = 64;
 const WORDS: usize = (CELLS * CELLS * CELLS / u64::BITS) as usize;
+/// Of the cells of an inner node.
+pub(super) const CELL_BYTES: u64 = WORDS as u64 * 8;
 
 /// Points in the file.
 #[derive(Clone, Copy, Debug)]
@@ -35,8 +37,9 @@ pub struct Node {
     pub(super) points: Vec<Vertex>,
     /// Points in the file.
     pub(super) pieces: Vec<Piece>,
-    /// Which cells are taken; a leaf has none.
+    /// Which cells are taken; a leaf has none, nor has a finished tree.
     pub(super) cells: Option<Box<[u64]>>,
+    is_leaf: bool,
 }
 
 impl Node {
@@ -51,13 +54,14 @@ impl Node {
             points: Vec::new(),
             pieces: Vec::new(),
             cells: None,
+            is_leaf: true,
         }
     }
 
     /// Whether it has no nodes below.
     #[must_use]
     pub fn is_leaf(&self) -> bool {
-        self.cells.is_none()
+        self.is_leaf
     }
 
     /// Distance of neighbouring points where nothing below is drawn. Of a leaf it is estimated for a surface through its middle, on which the nodes above
@@ -109,6 +113,7 @@ impl Node {
     /// Makes it an inner node without points. Returns those that were in memory.
     pub(super) fn open(&mut self) -> Vec<Vertex> {
         self.cells = Some(vec![0; WORDS].into());
+        self.is_leaf = false;
         self.count = 0;
         self.pieces.clear();
         std::mem::take(&mut self.points)

@@ -1,6 +1,6 @@
 //! Points that do not fit into memory, in a temporary file.
 
-use super::node::{Node, Piece};
+use super::node::{CELL_BYTES, Node, Piece};
 use crate::vertex::Vertex;
 use std::fs::File;
 use std::io;
@@ -12,7 +12,7 @@ pub(super) struct Store {
     file: File,
     /// Its length.
     end: u64,
-    /// Bytes of points in memory.
+    /// Bytes of points and cells in memory.
     resident: u64,
     /// At most so many.
     memory: u64,
@@ -62,6 +62,7 @@ impl Store {
     pub(super) fn open(&mut self, node: &mut Node) -> io::Result<Vec<Vertex>> {
         let points = self.points(node)?;
         let in_memory = node.open();
+        self.resident += CELL_BYTES;
         self.resident -= bytes(in_memory.len());
         Ok(points)
     }
@@ -74,6 +75,15 @@ impl Store {
         node.version = node.version.wrapping_add(1);
         node.pieces.clear();
         node.points = points;
+    }
+
+    /// Gives the cells back, which only the insertion of points needs.
+    pub(super) fn finish(&mut self, nodes: &mut [Node]) {
+        for node in nodes {
+            if node.cells.take().is_some() {
+                self.resident -= CELL_BYTES;
+            }
+        }
     }
 
     /// Writes the nodes with the most points in memory to the file, until a half of what is allowed is left.

@@ -50,10 +50,15 @@ impl Octree {
         self.count
     }
 
-    /// Bytes of points that are in memory.
+    /// Bytes of it that are in memory.
     #[must_use]
     pub fn resident(&self) -> u64 {
         self.store.resident()
+    }
+
+    /// No more points come.
+    pub fn finish(&mut self) {
+        self.store.finish(&mut self.nodes);
     }
 
     /// A node.
