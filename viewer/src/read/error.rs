@@ -44,7 +44,22 @@ impl ReadError {
         Self {
             file: file.to_owned(),
             at,
-            what: what.to_string(),
+            what: one_line(&what.to_string()),
         }
     }
 }
+
+/// The beginning of what a library says, which may have many lines.
+fn one_line(text: &str) -> String {
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let line = lines.take(2).collect::<Vec<_>>().join(" ");
+    let short: String = line.chars().take(LONGEST).collect();
+    if short.len() < line.len() {
+        short + "…"
+    } else {
+        short
+    }
+}
+
+/// Characters of a sentence.
+const LONGEST: usize = 200;

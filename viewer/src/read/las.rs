@@ -5,6 +5,8 @@ use super::cloud::{Cloud, Part, Point, Up};
 use super::error::{Place, ReadError};
 use glam::DVec3;
 use las::{PointData, Reader};
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// Points of a chunk of LAZ, after which it can be read from any other: what most programs write.
@@ -12,6 +14,7 @@ const BLOCK: u64 = 50_000;
 
 pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
     let wrong = |error: &dyn std::fmt::Display| ReadError::new(path, Place::Header, error);
+    check_chunks(path).map_err(|error| wrong(&error))?;
     let mut reader = Reader::from_path(path).map_err(|error| wrong(&error))?;
     let points = reader.header().number_of_points();
     // Many files hold colours of 8 bits in the 16 that the format has. The first points tell.
@@ -40,6 +43,55 @@ pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
         parts: (0..threads).map(|_| part()).collect(),
     })
 }
+
+/// Refuses a table of the chunks of LAZ that is larger than the file: the library would ask for as much memory.
+fn check_chunks(path: &Path) -> io::Result<()> {
+    let mut file = File::open(path)?;
+    let length = file.metadata()?.len();
+    let mut start = [0; FORMAT + 1];
+    if length < start.len() as u64 {
+        return Ok(());
+    }
+    file.read_exact(&mut start)?;
+    if start[FORMAT] & COMPRESSED == 0 {
+        return Ok(());
+    }
+    let mut word = [0; 4];
+    word.copy_from_slice(&start[POINTS..POINTS + 4]);
+    let points = u64::from(u32::from_le_bytes(word));
+    let mut place = [0; 8];
+    file.seek(SeekFrom::Start(points))?;
+    file.read_exact(&mut place)?;
+    let mut table = u64::from_le_bytes(place);
+    if table == u64::MAX {
+        // A writer that could not go back has put it at the end.
+        file.seek(SeekFrom::End(-8))?;
+        file.read_exact(&mut place)?;
+        table = u64::from_le_bytes(place);
+    }
+    let mut head = [0; 8];
+    if table > length {
+        return Err(io::Error::other(
+            "the table of chunks is behind the end of the file",
+        ));
+    }
+    file.seek(SeekFrom::Start(table))?;
+    file.read_exact(&mut head)?;
+    word.copy_from_slice(&head[4..]);
+    let chunks = u64::from(u32::from_le_bytes(word));
+    if chunks > length {
+        return Err(io::Error::other(format!(
+            "{chunks} chunks are more than the file can have"
+        )));
+    }
+    Ok(())
+}
+
+/// Where a file says where its points begin, and in which format they are (LAS 1.4, table 3).
+const POINTS: usize = 96;
+const FORMAT: usize = 104;
+/// Of the format, for LAZ.
+const COMPRESSED: u8 = 0x80;
 
 #[derive(Clone, Copy)]
 struct Scale {

@@ -3,6 +3,7 @@
 //! A format is known by how a file begins, whatever its name is. Each has one file here, which makes a [`Cloud`].
 
 mod blocks;
+mod caught;
 mod cloud;
 mod e57;
 mod error;
@@ -16,6 +17,7 @@ mod text;
 pub use cloud::{Cloud, Part, Point, Up};
 pub use error::{Place, ReadError};
 
+use caught::{Caught, catch};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -33,7 +35,21 @@ pub fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
     let mut start = Vec::new();
     let head = file.by_ref().take(SIGNATURE);
     { head }.read_to_end(&mut start).map_err(no)?;
-    let threads = threads.max(1);
+    let mut cloud = catch(
+        path,
+        || Place::Header,
+        || known(path, &start, threads.max(1)),
+    )?;
+    let caught = |part| -> Box<dyn Part> {
+        let path = path.to_owned();
+        Box::new(Caught { path, part })
+    };
+    cloud.parts = cloud.parts.into_iter().map(caught).collect();
+    Ok(cloud)
+}
+
+/// Opens a file of the format that its start tells.
+fn known(path: &Path, start: &[u8], threads: usize) -> Result<Cloud, ReadError> {
     if start.starts_with(b"ply") {
         ply::open(path, threads)
     } else if start.starts_with(b"LASF") {

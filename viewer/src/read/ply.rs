@@ -20,7 +20,13 @@ pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
     let length = file.metadata().map_err(|error| wrong(&error))?.len();
     let mut reader = Reader::new(BufReader::new(&mut file));
     let header = Parser::<DefaultElement>::new().read_header(&mut reader);
-    let header = header.map_err(|error| wrong(&error))?;
+    let header = header.map_err(|error| {
+        let text = error.to_string();
+        match (error.line(), text.split_once(": ")) {
+            (Some(line), Some((_, what))) => ReadError::new(path, Place::Line(line as u64), what),
+            _ => wrong(&text),
+        }
+    })?;
     let line = reader.line().saturating_sub(1) as u64;
     let start = reader.into_inner().stream_position();
     let start = start.map_err(|error| wrong(&error))?;
