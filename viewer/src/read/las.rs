@@ -11,12 +11,26 @@ use std::path::{Path, PathBuf};
 
 /// Points of a chunk of LAZ, after which it can be read from any other: what most programs write.
 const BLOCK: u64 = 50_000;
+/// Bytes of a compressed point; the largest format has 67, and programs add some of their own.
+const LONGEST: u64 = 2000;
 
 pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
     let wrong = |error: &dyn std::fmt::Display| ReadError::new(path, Place::Header, error);
-    check_chunks(path).map_err(|error| wrong(&error))?;
+    check_places(path).map_err(|error| wrong(&error))?;
     let mut reader = Reader::from_path(path).map_err(|error| wrong(&error))?;
     let points = reader.header().number_of_points();
+    let format = reader.header().point_format();
+    let (record, is_compressed) = (u64::from(format.len()), format.is_compressed);
+    if is_compressed && record > LONGEST {
+        return Err(wrong(&format!(
+            "a point of {record} bytes is more than a point can have"
+        )));
+    }
+    let room = length(path).map_err(|error| wrong(&error))? / record.max(1);
+    if !is_compressed && room < points {
+        let what = format!("the file ends before this point, and has {points} by its header");
+        return Err(ReadError::new(path, Place::Point(room + 1), what));
+    }
     // Many files hold colours of 8 bits in the 16 that the format has. The first points tell.
     let first = reader.read_points(BLOCK.min(points));
     let first = first.map_err(|error| ReadError::new(path, Place::Point(1), error))?;
@@ -44,8 +58,18 @@ pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
     })
 }
 
-/// Refuses a table of the chunks of LAZ that is larger than the file: the library would ask for as much memory.
-fn check_chunks(path: &Path) -> io::Result<()> {
+/// Bytes of the points of a file, if they are not compressed.
+fn length(path: &Path) -> io::Result<u64> {
+    let mut file = File::open(path)?;
+    let mut word = [0; 4];
+    file.seek(SeekFrom::Start(POINTS as u64))?;
+    file.read_exact(&mut word)?;
+    let all = file.metadata()?.len();
+    Ok(all.saturating_sub(u64::from(u32::from_le_bytes(word))))
+}
+
+/// Refuses points that begin behind the end of the file, and a table of the chunks of LAZ that is larger than the file: the library would ask for as much memory.
+fn check_places(path: &Path) -> io::Result<()> {
     let mut file = File::open(path)?;
     let length = file.metadata()?.len();
     let mut start = [0; FORMAT + 1];
@@ -53,12 +77,17 @@ fn check_chunks(path: &Path) -> io::Result<()> {
         return Ok(());
     }
     file.read_exact(&mut start)?;
-    if start[FORMAT] & COMPRESSED == 0 {
-        return Ok(());
-    }
     let mut word = [0; 4];
     word.copy_from_slice(&start[POINTS..POINTS + 4]);
     let points = u64::from(u32::from_le_bytes(word));
+    if points > length {
+        return Err(io::Error::other(
+            "the points are behind the end of the file",
+        ));
+    }
+    if start[FORMAT] & COMPRESSED == 0 {
+        return Ok(());
+    }
     let mut place = [0; 8];
     file.seek(SeekFrom::Start(points))?;
     file.read_exact(&mut place)?;

@@ -361,7 +361,7 @@ fn spoilt_files_are_refused_or_read() {
 #[test]
 #[ignore = "takes minutes"]
 fn many_spoilt_files_are_refused_or_read() {
-    spoilt_files(10_000);
+    spoilt_files(100_000);
 }
 
 #[test]
