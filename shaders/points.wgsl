@@ -16,7 +16,7 @@ struct Uniforms {
     view: u32,
     // x: distance of neighbouring cameras. y: depth of the screen. z: depth of the near plane. w: half of the width of the screen.
     eyes: vec4<f32>,
-    // x, y: by how much a quad is larger than the disk, in pixels of the picture.
+    // x, y: by how much a quad is larger than the disk, in pixels of the picture. w: the first splat that is drawn.
     margin: vec4<f32>,
 }
 
@@ -70,19 +70,33 @@ fn along(axis: vec3<f32>, p: vec3<f32>, n: vec3<f32>, radius: f32) -> Axis {
     );
 }
 
-@vertex
-fn corner(@builtin(vertex_index) index: u32) -> Corner {
-    let number = index / 3u;
+struct Splat {
+    p: vec3<f32>,
+    radius: f32,
+    n: vec3<f32>,
+    colour: vec3<f32>,
+}
+
+fn splat_of(index: u32) -> Splat {
+    let number = index / 3u + u32(u.margin.w);
     let at = vec2<i32>(i32(number % u.row) * 3, i32(number / u.row));
     let place = textureLoad(splats, at, 0);
-    let p = place.xyz;
-    let radius = place.w;
     let n = textureLoad(splats, at + vec2<i32>(1, 0), 0).xyz;
     let colour = textureLoad(splats, at + vec2<i32>(2, 0), 0).rgb;
-    let focal = u.eyes.y;
-    let half = vec2<f32>(u.eyes.w, u.eyes.w * f32(u.picture.y) / f32(u.picture.x));
+    return Splat(place.xyz, place.w, n, colour);
+}
 
-    // The quad.
+fn half_screen() -> vec2<f32> {
+    return vec2<f32>(u.eyes.w, u.eyes.w * f32(u.picture.y) / f32(u.picture.x));
+}
+
+// A corner of the quad that holds a splat in all views.
+fn corner_of(splat: Splat, index: u32) -> vec4<f32> {
+    let p = splat.p;
+    let n = splat.n;
+    let radius = splat.radius;
+    let focal = u.eyes.y;
+    let half = half_screen();
     let end = 0.5 * f32(u.views - 1u) * abs(u.eyes.x);
     let tilt = radius * length(n.xy);
     var low = vec2<f32>(-1.0);
@@ -100,12 +114,28 @@ fn corner(@builtin(vertex_index) index: u32) -> Corner {
     high = select(low, low + 2.0 * (high - low), high > low);
     let is_right = which == 1u;
     let is_upper = which == 2u;
-    var out: Corner;
-    out.position = vec4<f32>(select(low.x, high.x, is_right), select(low.y, high.y, is_upper), 0.0, 1.0);
     if p.z + tilt < u.eyes.z || low.x >= high.x || low.y >= high.y {
         // Outside of the picture.
-        out.position = vec4<f32>(2.0, 2.0, 0.0, 1.0);
+        return vec4<f32>(2.0, 2.0, 0.0, 1.0);
     }
+    return vec4<f32>(select(low.x, high.x, is_right), select(low.y, high.y, is_upper), 0.0, 1.0);
+}
+
+@vertex
+fn corner(@builtin(vertex_index) index: u32) -> Corner {
+    return corner_at(index);
+}
+
+fn corner_at(index: u32) -> Corner {
+    let splat = splat_of(index);
+    let p = splat.p;
+    let n = splat.n;
+    let radius = splat.radius;
+    let colour = splat.colour;
+    let focal = u.eyes.y;
+    let half = half_screen();
+    var out: Corner;
+    out.position = corner_of(splat, index);
 
     // Its plane (Equation 3).
     let across = select(vec3<f32>(-n.z, 0.0, n.x), vec3<f32>(0.0, -n.z, n.y), length(n.yz) >= 0.5);

@@ -253,6 +253,14 @@ fn what_cannot_be_measured_is_one_line() {
             "--chart is 'frames.svg'; --preset popescu-table1 draws pictures",
         ),
         (
+            &["--preset", "huebner-chart1", "--size", "512x512"],
+            "--size does not go with --preset huebner-chart1, which starts no program",
+        ),
+        (
+            &["--preset", "huebner-chart1", "--chart", "rates.pdf"],
+            "--chart is 'rates.pdf'; give a name that ends in .png or .svg",
+        ),
+        (
             &["--fps", "30", "--frames", "1..9", "--", "glxgears"],
             "--frames is '1..9'; a walk of --fps takes the last frame or both ends",
         ),

@@ -29,8 +29,13 @@ pub enum BenchError {
     #[error("the program drew no frames by hybrid; {0}")]
     NoWalk(String),
     /// An option of programs where none is started.
-    #[error("{0} does not go with --preset popescu-table1, which starts no program; leave it out")]
-    NoProgram(&'static str),
+    #[error("{option} does not go with --preset {preset}, which starts no program; leave it out")]
+    NoProgram {
+        /// The option.
+        option: &'static str,
+        /// Name of the preset.
+        preset: &'static str,
+    },
     /// Several sizes where one is measured.
     #[error("--size has several sizes; --preset popescu-table1 measures one")]
     OneSize,
@@ -93,7 +98,7 @@ impl BenchError {
             | Self::Frames(_)
             | Self::WalkFrames(_)
             | Self::NoChart
-            | Self::NoProgram(_)
+            | Self::NoProgram { .. }
             | Self::OneSize
             | Self::SheetName(_)
             | Self::ChartName(_) => 2,

@@ -15,6 +15,7 @@ mod preset;
 pub mod proof;
 pub mod protocol;
 mod scene;
+pub mod splats;
 mod statistics;
 pub mod table;
 pub mod walk;

@@ -1,8 +1,8 @@
-//! Experiments of three papers, as closely as the scenes allow, and the results of the papers.
+//! Experiments of four papers, as closely as the scenes allow, and the results of the papers.
 //!
 //! Based on: J. Luo, K. Qin, Y. Zhou, M. Mao, R. Li, "GPU-based multi-view rendering for spatial-multiplex autostereoscopic displays"
 //! (2010), tables 1 and 2; F. de Sorbier, V. Nozick, H. Saito, "GPU-based multi-view rendering" (2010), figures 7 to 9; V. Popescu, P.
-//! Rosen, D. Aliaga, "3D display rendering acceleration using occlusion camera reference images" (2006), table 1 and section VIII. The bars
+//! Rosen, D. Aliaga, "3D display rendering acceleration using occlusion camera reference images" (2006), table 1 and section VIII; T. Hübner, Y. Zhang, R. Pajarola, "Multi-view point splatting" (2006), charts 1 to 3. The bars
 //! and curves of the figures have no numbers, so only the statements of the text are given for them.
 
 /// One experiment.
@@ -22,6 +22,8 @@ pub struct Preset {
     pub configurations: &'static [&'static str],
     /// The results.
     pub figures: &'static [Figure],
+    /// Numbers of points and sides of the picture of clouds that are drawn as splats; then no programs are measured.
+    pub splats: &'static [(u32, u32)],
 }
 
 /// The result of a paper for one scene, number of views and configuration.
@@ -45,7 +47,7 @@ impl Preset {
     /// Whether models are drawn, by [`super::disocclusion`], and not programs.
     #[must_use]
     pub fn draws_models(&self) -> bool {
-        self.configurations.is_empty()
+        self.configurations.is_empty() && self.splats.is_empty()
     }
 
     /// The result of the paper for a row.
@@ -124,6 +126,7 @@ pub const PRESETS: &[Preset] = &[
             luo("4", "geometry", 47.5, 34.6),
             luo("8", "geometry", 20.1, 17.2),
         ],
+        splats: &[],
     },
     Preset {
         name: "luo-table2",
@@ -133,6 +136,7 @@ pub const PRESETS: &[Preset] = &[
         views: &["2", "4"],
         configurations: &["replay", "geometry"],
         figures: &[quake("2", 15.2, 5.2), quake("4", 12.6, 3.4)],
+        splats: &[],
     },
     Preset {
         name: "desorbier-fig7",
@@ -154,6 +158,7 @@ pub const PRESETS: &[Preset] = &[
             said("", "2", "geometry", "around twice"),
             said("", "4", "geometry", "around twice"),
         ],
+        splats: &[],
     },
     Preset {
         name: "desorbier-fig8",
@@ -172,6 +177,7 @@ pub const PRESETS: &[Preset] = &[
             said("", "13", "geometry", "the drop ends"),
             said("", "17", "geometry", "as 13 views"),
         ],
+        splats: &[],
     },
     Preset {
         name: "desorbier-fig9",
@@ -196,6 +202,7 @@ pub const PRESETS: &[Preset] = &[
             said("mesh-40k-immediate", "2", "geometry-both", "similar"),
             said("mesh-40k-immediate", "4", "geometry-both", "similar"),
         ],
+        splats: &[],
     },
     Preset {
         name: "popescu-table1",
@@ -207,6 +214,37 @@ pub const PRESETS: &[Preset] = &[
         views: &[],
         configurations: &[],
         figures: &[],
+        splats: &[],
+    },
+    Preset {
+        name: "huebner-chart1",
+        about: "blended splats in 8 views, a scan of 303,000 points in windows of three sizes on a GeForce 7800 GTX; here a surface with as many. By fragments at least a third of the rate of one view, mostly more than half",
+        size: (512, 512),
+        scenes: &[],
+        views: &[],
+        configurations: &[],
+        figures: &[],
+        splats: &[(303_000, 256), (303_000, 512), (303_000, 1024)],
+    },
+    Preset {
+        name: "huebner-chart2",
+        about: "blended splats in 8 views, three scans in windows of 512 pixels; here surfaces with as many points. In the paper the ways of one pass lose less than one view does where there are more points",
+        size: (512, 512),
+        scenes: &[],
+        views: &[],
+        configurations: &[],
+        figures: &[],
+        splats: &[(137_000, 512), (303_000, 512), (1_100_000, 512)],
+    },
+    Preset {
+        name: "huebner-chart3",
+        about: "as chart 2, with rates in per cent of that of one view: by fragments almost 70 % for the largest scan",
+        size: (512, 512),
+        scenes: &[],
+        views: &[],
+        configurations: &[],
+        figures: &[],
+        splats: &[(137_000, 512), (303_000, 512), (1_100_000, 512)],
     },
 ];
 

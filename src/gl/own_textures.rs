@@ -3,6 +3,9 @@
 use super::consts as c;
 use super::{Gl, Held, PixelStore, Ptr, TextureName, shadow};
 
+/// GL_RGBA32F
+const RGBA32F: u32 = 0x8814;
+
 impl Gl {
     /// A new name of a texture from glGenTextures.
     pub fn gen_texture(&self) -> TextureName {
@@ -55,14 +58,17 @@ impl Gl {
         if texels.len() < w as usize * h as usize {
             return;
         }
-        /// GL_RGBA32F
-        const FORMAT: i32 = 0x8814;
         let target = c::TEXTURE_2D;
         let p = texels.as_ptr() as Ptr;
         // SAFETY: w·h texels of 16 bytes (checked); without gaps, from no buffer (`PixelStore`).
         unsafe {
             self.real
-                .glTexImage2D(target, 0, FORMAT, w, h, 0, c::RGBA, c::FLOAT, p)
+                .glTexImage2D(target, 0, RGBA32F as i32, w, h, 0, c::RGBA, c::FLOAT, p)
         };
+    }
+
+    /// The same of the layers of the array texture that is bound, without contents.
+    pub fn tex_layers_rgba32f(&self, w: i32, h: i32, layers: i32) {
+        self.tex_storage_3d(RGBA32F, w, h, layers, c::RGBA, c::FLOAT);
     }
 }

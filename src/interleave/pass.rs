@@ -32,6 +32,8 @@ pub enum Pass {
     Points(Points),
     /// The picture of a panel from its subpixels.
     Subpixels,
+    /// The picture from the images of groups of splats.
+    Compose,
 }
 
 /// What the fragments of splats are; see `shaders/points.wgsl`.
@@ -43,6 +45,21 @@ pub enum Points {
     Pixels,
     /// The pixels of one view.
     View,
+    /// An image of a group of splats that do not overlap.
+    Group(Group),
+}
+
+/// What such an image holds, and how its splats are met; see `shaders/deferred.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Group {
+    /// The subpixels of a panel.
+    Subpixels,
+    /// The pixels of one view.
+    View,
+    /// What three views see of each pixel, by rays.
+    Rays,
+    /// The same by parameters that are interpolated.
+    Parameters,
 }
 
 /// Cases of mask and atlas; see `shaders/texels.wgsl`.
@@ -129,7 +146,7 @@ impl Pass {
     pub fn all() -> impl Iterator<Item = Self> {
         Self::OUTPUTS
             .into_iter()
-            .chain([Self::Wall, Self::Copy, Self::Subpixels])
+            .chain([Self::Wall, Self::Copy, Self::Subpixels, Self::Compose])
             .chain(Step::ALL.map(Self::Accumulate))
             .chain(Synthesis::ALL.map(Self::Synthesis))
             .chain(Points::ALL.map(Self::Points))
@@ -163,7 +180,15 @@ impl Synthesis {
 
 impl Points {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Subpixels, Self::Pixels, Self::View];
+    pub const ALL: [Self; 7] = [
+        Self::Subpixels,
+        Self::Pixels,
+        Self::View,
+        Self::Group(Group::Subpixels),
+        Self::Group(Group::View),
+        Self::Group(Group::Rays),
+        Self::Group(Group::Parameters),
+    ];
 }
 
 impl Step {

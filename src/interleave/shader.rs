@@ -5,7 +5,7 @@
 //! `ADJUST_COORDINATE_SPACE`): the shaders are written for OpenGL's window space, y upwards.
 #![forbid(unsafe_code)]
 
-pub use super::pass::{Pass, Points, SampleAligned, Step, Synthesis, Texels};
+pub use super::pass::{Group, Pass, Points, SampleAligned, Step, Synthesis, Texels};
 pub use super::uniforms::{MaskUniforms, Uniforms};
 use crate::config::DisocclusionSource;
 use naga::back::glsl;
@@ -35,6 +35,8 @@ const THROUGH_REFERENCE: &str = include_str!("../../shaders/through_reference.wg
 const WALL: &str = include_str!("../../shaders/wall.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const POINTS: &str = include_str!("../../shaders/points.wgsl");
+const DEFERRED: &str = include_str!("../../shaders/deferred.wgsl");
+const COMPOSE: &str = include_str!("../../shaders/compose.wgsl");
 const SUBPIXELS: &str = include_str!("../../shaders/subpixels.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
@@ -245,8 +247,7 @@ fn translate_anew(
         ..glsl::Options::default()
     };
     let (shader_stage, entry_point) = match stage {
-        Stage::Vertex if matches!(pass, Pass::Points(_)) => (naga::ShaderStage::Vertex, "corner"),
-        Stage::Vertex => (naga::ShaderStage::Vertex, "cover"),
+        Stage::Vertex => (naga::ShaderStage::Vertex, vertex_entry(pass)),
         Stage::Fragment => (naga::ShaderStage::Fragment, entry(pass)),
     };
     let pipeline = glsl::PipelineOptions {
@@ -296,6 +297,16 @@ fn translate_anew(
     })
 }
 
+/// The entry point of the vertex stage of a pass.
+fn vertex_entry(pass: Pass) -> &'static str {
+    match pass {
+        Pass::Points(Points::Group(Group::Rays)) => "disk_corner",
+        Pass::Points(Points::Group(Group::Parameters)) => "parameters_corner",
+        Pass::Points(_) => "corner",
+        _ => "cover",
+    }
+}
+
 /// The entry point of a pass.
 fn entry(pass: Pass) -> &'static str {
     match pass {
@@ -322,6 +333,11 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Points(Points::Subpixels) => "points_subpixels",
         Pass::Points(Points::Pixels) => "points_pixels",
         Pass::Points(Points::View) => "points_view",
+        Pass::Points(Points::Group(Group::Subpixels)) => "deferred_subpixels",
+        Pass::Points(Points::Group(Group::View)) => "deferred_view",
+        Pass::Points(Points::Group(Group::Rays)) => "deferred_rays",
+        Pass::Points(Points::Group(Group::Parameters)) => "deferred_parameters",
+        Pass::Compose => "compose",
         Pass::Synthesis(Synthesis::BlockBounds) => "block_bounds",
         Pass::Synthesis(Synthesis::RowMaxima) => "row_maxima",
         Pass::Synthesis(Synthesis::RayRange) => "ray_range",
@@ -347,7 +363,9 @@ pub(super) fn source(pass: Pass) -> String {
         Pass::Wall => [COVER, COMMON, ATLAS, MASK, WALL].join("\n"),
         Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
+        Pass::Points(Points::Group(_)) => [POINTS, MASK, DEFERRED].join("\n"),
         Pass::Points(_) => [POINTS, MASK].join("\n"),
+        Pass::Compose => [COVER, COMPOSE].join("\n"),
         Pass::Subpixels => [COVER, SUBPIXELS].join("\n"),
         Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::DistortionMap) => {
             [COVER, COMMON, ATLAS, DISPARITY, PLAIN, DISTORTION].join("\n")

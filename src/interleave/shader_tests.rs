@@ -68,8 +68,8 @@ fn points_translate_for_every_version() {
             };
             assert_eq!(units(Stage::Vertex), [VIEWS_UNIT], "{points:?}");
             let mask: &[u32] = match points {
-                Points::View => &[],
-                Points::Subpixels | Points::Pixels => &[MASK_UNIT],
+                Points::View | Points::Group(Group::View) => &[],
+                _ => &[MASK_UNIT],
             };
             assert_eq!(units(Stage::Fragment), mask, "{points:?}");
         }

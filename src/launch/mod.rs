@@ -9,6 +9,7 @@ pub mod elf;
 mod error;
 pub mod library;
 mod linked;
+pub mod measured;
 pub mod once;
 mod preflight;
 mod preload;

@@ -1,12 +1,14 @@
 //! Random splats, drawn by the GPU one by one and all together, compared with [`crate::splat`] subpixel by subpixel.
 #![forbid(unsafe_code)]
 
-use super::{Cloud, Renderer, Target};
+use super::cost::surface;
+use super::{Cloud, GroupTarget, Grouped, Renderer, Target};
 use crate::display::{Display, Mask, Placement};
 use crate::gl::{Gl, PixelStore};
 use crate::interleave::glsl_version;
-use crate::interleave::shader::Points;
+use crate::interleave::shader::{Group, Points};
 use crate::splat::disk::on_plane;
+use crate::splat::groups::Groups;
 use crate::splat::random::Random;
 use crate::splat::reference::{Surface, picture};
 use crate::splat::{Eyes, Fault, Screen, Splat};
@@ -23,6 +25,11 @@ const SCREEN: Screen = Screen {
 /// Of the picture of all splats.
 const LARGE: Screen = Screen {
     size: (320, 240),
+    half: 2.0,
+};
+/// Of the surface.
+const BALL: Screen = Screen {
+    size: (96, 64),
     half: 2.0,
 };
 const EYES: Eyes = Eyes {
@@ -53,6 +60,10 @@ pub struct Compared {
     pub together: u64,
     /// Of these, those that differ from the reference by more than one step of 255.
     pub together_wrong: u64,
+    /// Subpixels of the picture of a surface of blended splats.
+    pub blended: u64,
+    /// Of these, those that differ from the reference by more than two steps of 255.
+    pub blended_wrong: u64,
 }
 
 /// Draws and compares in the context that is current.
@@ -98,6 +109,7 @@ pub fn compare(gl: &Gl) -> Result<Compared, String> {
     found.together = shown.len() as u64;
     found.together_wrong = off.filter(|(a, b)| a.abs_diff(**b) > 1).count() as u64;
     target.delete(gl);
+    found.blend(gl, &store, &renderer, &mask(BALL)?);
     store.leave(gl);
     Ok(found)
 }
@@ -112,6 +124,11 @@ fn draw(
     let cloud = Cloud::new(gl, store, splats);
     renderer.draw(gl, &cloud, (target, 0), &EYES);
     cloud.delete(gl);
+    read(gl, store, screen)
+}
+
+/// The picture in the framebuffer that is bound.
+fn read(gl: &Gl, store: &PixelStore, screen: Screen) -> RgbImage {
     let (width, height) = screen.size;
     let pixels = gl.read_rgb(store, 0, 0, width, height);
     let mut picture = RgbImage::from_raw(width, height, pixels).unwrap_or_default();
@@ -120,6 +137,34 @@ fn draw(
 }
 
 impl Compared {
+    /// Compares a surface of splats that overlap.
+    fn blend(&mut self, gl: &Gl, store: &PixelStore, renderer: &Renderer, mask: &Mask) {
+        let Grouped { splats, ranges } = Grouped::new(&surface(SPLATS as u32));
+        let behind = 2.0 * splats.first().map_or(0.0, |splat| splat.radius);
+        let cloud = Cloud::new(gl, store, &splats);
+        let target = GroupTarget::new(gl, store, (Group::Subpixels, BALL), mask, ranges.len());
+        renderer.blend(gl, (&cloud, &ranges), (&target, 0), &EYES, behind);
+        let shown = read(gl, store, BALL);
+        target.delete(gl);
+        cloud.delete(gl);
+        let groups = Groups {
+            of: (0..)
+                .zip(&ranges)
+                .flat_map(|(group, range)| range.clone().map(move |_| group))
+                .collect(),
+            count: ranges.len() as u32,
+        };
+        let expected = Surface::Deferred {
+            behind,
+            groups: &groups,
+            averaged: false,
+        };
+        let expected = picture(&splats, (&EYES, &BALL), mask, expected);
+        let off = shown.iter().zip(expected.iter());
+        self.blended = shown.len() as u64;
+        self.blended_wrong = off.filter(|(a, b)| a.abs_diff(**b) > 2).count() as u64;
+    }
+
     /// Counts the subpixels of one splat.
     fn add(&mut self, splat: &Splat, mask: &Mask, shown: &RgbImage) {
         let (width, height) = SCREEN.size;

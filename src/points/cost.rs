@@ -1,7 +1,6 @@
 //! The time of splats that are drawn once for all views, beside that of one view and of a pass for each view; timed in turns.
 //!
-//! After Hübner et al., charts 1 to 3: windows of 256 to 1024 pixels, 137 000, 303 000 and 1 100 000 points. Their scans are not part of this project: a surface
-//! with as many points stands for each.
+//! The nearest splat is seen as it is; [`super::charts`] has blended splats, as the paper has them.
 #![forbid(unsafe_code)]
 
 use super::{Cloud, Renderer, Target};
@@ -53,14 +52,7 @@ pub fn measure(
         size: (size, size),
         half: 1.5,
     };
-    // More views are as far apart together as eight, as on one display.
-    let apart = 7.0 * BUDGET * screen.pixel() / (FOCAL / NEAREST - 1.0);
-    let eyes = Eyes {
-        views,
-        spacing: apart / f64::from(views - 1),
-        focal: FOCAL,
-        near: 0.1,
-    };
+    let eyes = apart(views, &screen);
     // Columns, and lenses at a slant of one subpixel per row.
     let columns = mask(size, |x, _, _| x % views)?;
     let slanted = mask(size, |x, row, channel| (3 * x + channel + row) % views)?;
@@ -74,38 +66,24 @@ pub fn measure(
         spacing: 0.0,
         ..eyes
     };
-    let milliseconds = |work: &dyn Fn()| {
-        gl.finish();
-        let start = Instant::now();
-        work();
-        gl.finish();
-        start.elapsed().as_secs_f64() * 1000.0
-    };
     // One view needs no room for others in its quads.
     let single = |view: u32| renderer.draw(gl, &cloud, (&one, view), &narrow);
     let timed = if views <= 8 { views } else { 0 };
-    let works: [&dyn Fn(); 4] = [
-        &|| single(0),
-        &|| (0..timed).for_each(single),
-        &|| draw(&pixels, 0),
-        &|| draw(&subpixels, 0),
-    ];
-    works.iter().for_each(|work| work());
-    let mut times = [const { Vec::new() }; 4];
-    for _ in 0..ROUNDS {
-        for (times, work) in times.iter_mut().zip(works) {
-            times.push(milliseconds(work));
-        }
-    }
+    let times = medians(
+        gl,
+        [
+            &|| single(0),
+            &|| (0..timed).for_each(single),
+            &|| draw(&pixels, 0),
+            &|| draw(&subpixels, 0),
+        ],
+    );
     for target in [one, pixels, subpixels] {
         target.delete(gl);
     }
     cloud.delete(gl);
     store.leave(gl);
-    let [single, passes, pixels, subpixels] = times.map(|mut times| {
-        times.sort_by(f64::total_cmp);
-        times[ROUNDS / 2]
-    });
+    let [single, passes, pixels, subpixels] = times;
     Ok(Cost {
         points,
         size,
@@ -114,6 +92,36 @@ pub fn measure(
         passes: (timed > 0).then_some(passes),
         pixels,
         subpixels,
+    })
+}
+
+/// Cameras of a display's default parallax. More views are as far apart together as eight, as on one display.
+pub(super) fn apart(views: u32, screen: &Screen) -> Eyes {
+    let apart = 7.0 * BUDGET * screen.pixel() / (FOCAL / NEAREST - 1.0);
+    Eyes {
+        views,
+        spacing: apart / f64::from(views - 1),
+        focal: FOCAL,
+        near: 0.1,
+    }
+}
+
+/// Median times of works that are done in turns, in milliseconds.
+pub(super) fn medians<const N: usize>(gl: &Gl, works: [&dyn Fn(); N]) -> [f64; N] {
+    works.iter().for_each(|work| work());
+    let mut times = [const { Vec::new() }; N];
+    for _ in 0..ROUNDS {
+        for (times, work) in times.iter_mut().zip(works) {
+            gl.finish();
+            let start = Instant::now();
+            work();
+            gl.finish();
+            times.push(start.elapsed().as_secs_f64() * 1000.0);
+        }
+    }
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[ROUNDS / 2]
     })
 }
 

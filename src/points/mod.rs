@@ -1,14 +1,19 @@
 //! Splats drawn by the GPU, once for all views, straight into the pixels of a panel (`shaders/points.wgsl`; the mathematics are those of [`crate::splat`]).
 #![forbid(unsafe_code)]
 
+pub mod charts;
 pub mod compare;
 pub mod cost;
+mod deferred;
+
+pub use deferred::{GroupTarget, Grouped};
 
 use crate::display::{GUARD, Mask};
 use crate::gl::{Gl, PixelStore, RenderbufferName, TextureName, VertexArrayName, consts as c};
-use crate::interleave::shader::{MASK_UNIT, Pass, Points, VIEWS_UNIT};
+use crate::interleave::shader::{Group, MASK_UNIT, Pass, Points, VIEWS_UNIT};
 use crate::interleave::{Picture, Program};
 use crate::splat::{Eyes, Screen, Splat};
+use std::ops::Range;
 
 /// Splats in a row of their texture.
 const ROW: u32 = 1024;
@@ -82,13 +87,7 @@ impl Target {
         let format = [c::DEPTH_COMPONENT32F as i32, wide as i32, height as i32, 0];
         let depths = gl.renderbuffer(format);
         gl.framebuffer_renderbuffer(c::FRAMEBUFFER, c::DEPTH_ATTACHMENT, c::RENDERBUFFER, depths);
-        let texels: Vec<[u16; 4]> = mask
-            .rows()
-            .flat_map(|row| row.iter().map(|&[r, g, b]| [r, g, b, 0]))
-            .collect();
-        let (wide, high) = (mask.width() as i32, mask.height() as i32);
-        let mask = data_texture(gl);
-        gl.tex_image_rgba16ui(store, wide, high, &texels);
+        let mask = mask_texture(gl, store, mask);
         Self {
             points,
             screen,
@@ -109,6 +108,18 @@ impl Target {
     }
 }
 
+/// The texture of a mask, which it leaves bound.
+fn mask_texture(gl: &Gl, store: &PixelStore, mask: &Mask) -> TextureName {
+    let texels: Vec<[u16; 4]> = mask
+        .rows()
+        .flat_map(|row| row.iter().map(|&[r, g, b]| [r, g, b, 0]))
+        .collect();
+    let texture = data_texture(gl);
+    let (wide, high) = (mask.width() as i32, mask.height() as i32);
+    gl.tex_image_rgba16ui(store, wide, high, &texels);
+    texture
+}
+
 /// A 2D texture of numbers, which it leaves bound.
 fn data_texture(gl: &Gl) -> TextureName {
     let texture = gl.gen_texture();
@@ -122,8 +133,9 @@ fn data_texture(gl: &Gl) -> TextureName {
 /// The programs that draw splats.
 #[derive(Debug)]
 pub struct Renderer {
-    programs: [(Points, Program); Points::ALL.len()],
+    programs: Vec<(Points, Program)>,
     join_subpixels: Program,
+    compose: Program,
     /// Without arrays.
     vertices: VertexArrayName,
 }
@@ -136,10 +148,13 @@ impl Renderer {
     pub fn new(gl: &Gl, glsl: u32) -> Result<Self, String> {
         let program =
             |points| Ok::<_, String>((points, Program::new(gl, glsl, Pass::Points(points))?));
-        let [a, b, c] = Points::ALL.map(program);
         Ok(Self {
-            programs: [a?, b?, c?],
+            programs: Points::ALL
+                .map(program)
+                .into_iter()
+                .collect::<Result<_, _>>()?,
             join_subpixels: Program::new(gl, glsl, Pass::Subpixels)?,
+            compose: Program::new(gl, glsl, Pass::Compose)?,
             vertices: gl.gen_vertex_array(),
         })
     }
@@ -157,35 +172,56 @@ impl Renderer {
         gl.viewport(0, 0, wide, height);
         gl.enable(c::DEPTH_TEST);
         gl.clear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
-        let bind = |unit: u32, texture: TextureName| {
-            gl.active_texture(c::TEXTURE0 + unit);
-            gl.bind_texture(c::TEXTURE_2D, texture);
-        };
-        bind(VIEWS_UNIT, cloud.texture);
-        bind(MASK_UNIT, target.mask);
-        let mut all = self.programs.iter();
-        if let Some((_, program)) = all.find(|(points, _)| *points == target.points) {
-            program.bind(gl, &words((target.points, &target.screen), eyes, view));
-            gl.draw_triangles(self.vertices, cloud.count);
-        }
+        bind(gl, VIEWS_UNIT, cloud.texture);
+        bind(gl, MASK_UNIT, target.mask);
+        self.send(
+            gl,
+            (target.points, &target.screen),
+            eyes,
+            view,
+            0..cloud.count,
+        );
         gl.disable(c::DEPTH_TEST);
         if let Some(panel) = &target.panel {
             gl.bind_framebuffer(c::FRAMEBUFFER, panel.framebuffer);
             gl.viewport(0, 0, width, height);
-            bind(VIEWS_UNIT, target.image.texture);
+            bind(gl, VIEWS_UNIT, target.image.texture);
             self.join_subpixels.bind(gl, &[]);
             gl.draw_triangle(self.vertices);
         }
     }
 }
 
-/// The words of `Uniforms` in `shaders/points.wgsl`.
-fn words((points, screen): (Points, &Screen), eyes: &Eyes, view: u32) -> [u32; 16] {
+impl Renderer {
+    /// Draws some splats of the cloud that is bound.
+    fn send(
+        &self,
+        gl: &Gl,
+        (points, screen): (Points, &Screen),
+        eyes: &Eyes,
+        view: u32,
+        splats: Range<u32>,
+    ) {
+        let mut all = self.programs.iter();
+        if let Some((_, program)) = all.find(|(known, _)| *known == points) {
+            program.bind(gl, &words((points, screen), eyes, view, splats.start));
+            gl.draw_triangles(self.vertices, splats.end - splats.start);
+        }
+    }
+}
+
+fn bind(gl: &Gl, unit: u32, texture: TextureName) {
+    gl.active_texture(c::TEXTURE0 + unit);
+    gl.bind_texture(c::TEXTURE_2D, texture);
+}
+
+/// The words of `Uniforms` in `shaders/points.wgsl`. `first`: the first splat that is drawn.
+fn words((points, screen): (Points, &Screen), eyes: &Eyes, view: u32, first: u32) -> [u32; 16] {
     let (width, height) = screen.size;
     let margin = match points {
         // The ray of a subpixel is that of its pixel, whose middle is up to a third aside.
-        Points::Subpixels => 1.0 / 3.0 + MARGIN,
-        Points::Pixels | Points::View => MARGIN,
+        Points::Subpixels | Points::Group(Group::Subpixels) => 1.0 / 3.0 + MARGIN,
+        _ => MARGIN,
     };
     let [spacing, focal, near, half] =
         [eyes.spacing, eyes.focal, eyes.near, screen.half].map(|value| (value as f32).to_bits());
@@ -206,6 +242,6 @@ fn words((points, screen): (Points, &Screen), eyes: &Eyes, view: u32) -> [u32; 1
         margin.to_bits(),
         MARGIN.to_bits(),
         0,
-        0,
+        (first as f32).to_bits(),
     ]
 }

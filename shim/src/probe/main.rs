@@ -45,6 +45,7 @@ fn main() -> ExitCode {
         "passes" => return passes::run(),
         "points" => return points::run(),
         "points-cost" => return points::costs(),
+        "points-chart" => return points::chart(),
         _ => {
             eprintln!(
                 "usage: manyview-probe glx|egl|osmesa|passes|points|interleave [WIDTHxHEIGHT [VIEWS]]|rewrite FILE…"

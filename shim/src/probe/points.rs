@@ -3,7 +3,7 @@
 use crate::egl;
 use manyview_core::gl::Gl;
 use manyview_core::interleave::glsl_version;
-use manyview_core::points::{Renderer, compare, cost};
+use manyview_core::points::{Renderer, charts, compare, cost};
 use std::process::ExitCode;
 
 /// Prints what was found.
@@ -29,8 +29,8 @@ fn found() -> Result<String, String> {
     Ok(found.to_string())
 }
 
-/// Numbers of points, sides of the picture and views of the charts of Hübner et al., and more views.
-const CHARTS: [(u32, u32, u32); 8] = [
+/// Numbers of points, sides of the picture and views: those of the charts of Hübner et al., and more views.
+const CASES: [(u32, u32, u32); 8] = [
     (303_000, 256, 8),
     (303_000, 512, 8),
     (303_000, 1024, 8),
@@ -41,43 +41,66 @@ const CHARTS: [(u32, u32, u32); 8] = [
     (1_100_000, 1024, 48),
 ];
 
-/// Prints the times of the charts, a line for each; or of one number of points, side and number of views.
+/// Prints the times of opaque splats, a line for each case; or of one number of points, side and number of views.
 pub(crate) fn costs() -> ExitCode {
-    let words: Vec<_> = std::env::args().skip(2).map(|word| word.parse()).collect();
-    let cases = match words.as_slice() {
-        [] => CHARTS.to_vec(),
-        [Ok(points), Ok(size), Ok(views @ 2..)] => vec![(*points, *size, *views)],
-        _ => {
-            eprintln!("usage: manyview-probe points-cost [POINTS SIZE VIEWS]");
-            return ExitCode::from(2);
-        }
+    let cases = match words().as_deref() {
+        Some([]) => CASES.to_vec(),
+        Some([points, size, views]) if *views >= 2 => vec![(*points, *size, *views)],
+        _ => return usage("points-cost [POINTS SIZE VIEWS]"),
     };
-    let context = match egl::context() {
-        Ok(context) => context,
+    print_all(cases, |gl, renderer, case| {
+        cost::measure(gl, renderer, case).map(|cost| serde_json::to_string(&cost))
+    })
+}
+
+/// Prints times and errors of blended splats, a line for each number of points and side.
+pub(crate) fn chart() -> ExitCode {
+    let cases = match words().as_deref() {
+        Some(words) if !words.is_empty() && words.len() % 2 == 0 => {
+            words.chunks(2).map(|pair| (pair[0], pair[1])).collect()
+        }
+        _ => return usage("points-chart POINTS SIZE [POINTS SIZE]…"),
+    };
+    print_all(cases, |gl, renderer, case| {
+        charts::measure(gl, renderer, case).map(|chart| serde_json::to_string(&chart))
+    })
+}
+
+/// The numbers after the name of what is measured.
+fn words() -> Option<Vec<u32>> {
+    let words = std::env::args().skip(2);
+    words.map(|word| word.parse().ok()).collect()
+}
+
+fn usage(line: &str) -> ExitCode {
+    eprintln!("usage: manyview-probe {line}");
+    ExitCode::from(2)
+}
+
+fn print_all<T>(
+    cases: Vec<T>,
+    measure: impl Fn(&Gl, &Renderer, T) -> Result<serde_json::Result<String>, String>,
+) -> ExitCode {
+    match print_each(cases, measure) {
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
-            return ExitCode::FAILURE;
-        }
-    };
-    // SAFETY: the context was just made current on this thread and stays so until the process ends.
-    let gl = unsafe { Gl::new(context.real) };
-    let renderer = match Renderer::new(&gl, glsl_version(&gl)) {
-        Ok(renderer) => renderer,
-        Err(error) => {
-            eprintln!("{error}");
-            return ExitCode::FAILURE;
-        }
-    };
-    for case in cases {
-        let cost = cost::measure(&gl, &renderer, case)
-            .and_then(|cost| serde_json::to_string(&cost).map_err(|error| error.to_string()));
-        match cost {
-            Ok(line) => println!("{line}"),
-            Err(error) => {
-                eprintln!("{error}");
-                return ExitCode::FAILURE;
-            }
+            ExitCode::FAILURE
         }
     }
-    ExitCode::SUCCESS
+}
+
+fn print_each<T>(
+    cases: Vec<T>,
+    measure: impl Fn(&Gl, &Renderer, T) -> Result<serde_json::Result<String>, String>,
+) -> Result<(), String> {
+    let context = egl::context()?;
+    // SAFETY: the context was just made current on this thread and stays so until the process ends.
+    let gl = unsafe { Gl::new(context.real) };
+    let renderer = Renderer::new(&gl, glsl_version(&gl))?;
+    for case in cases {
+        let line = measure(&gl, &renderer, case)?.map_err(|error| error.to_string())?;
+        println!("{line}");
+    }
+    Ok(())
 }

@@ -62,6 +62,7 @@ pub(super) fn run(arguments: &Arguments, preset: &'static Preset, size: (u32, u3
 /// Refuses options that are for programs; returns the one size.
 pub(super) fn check(
     arguments: &Arguments,
+    preset: &'static Preset,
     sizes: Vec<(u32, u32)>,
 ) -> Result<(u32, u32), BenchError> {
     let given = [
@@ -70,7 +71,8 @@ pub(super) fn check(
         ("--api", arguments.api.is_some()),
     ];
     if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
-        return Err(BenchError::NoProgram(option));
+        let preset = preset.name;
+        return Err(BenchError::NoProgram { option, preset });
     }
     if let Some(file) = &arguments.chart
         && file.extension().is_none_or(|end| end != "png")

@@ -5,6 +5,7 @@ mod disocclusion;
 mod hard;
 mod measure;
 mod prove;
+mod splats;
 mod walk;
 
 use super::error::CommandError;
@@ -155,8 +156,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Some(name) => Some(find(PRESETS, |preset| preset.name, "--preset", name)?),
         None => None,
     };
+    if let Some(preset) = preset.filter(|preset| !preset.splats.is_empty()) {
+        splats::check(arguments, preset)?;
+        check_files(arguments)?;
+        return splats::run(arguments, preset);
+    }
     if let Some(preset) = preset.filter(|preset| preset.draws_models()) {
-        let size = disocclusion::check(arguments, sizes(arguments, Some(preset))?)?;
+        let size = disocclusion::check(arguments, preset, sizes(arguments, Some(preset))?)?;
         check_files(arguments)?;
         return disocclusion::run(arguments, preset, size);
     }
