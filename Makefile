@@ -115,7 +115,7 @@ test: packages build demos ## run the tests
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER); \
 	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests; fi
-	$(CARGO) test --release $(VIEWER) --lib --bins
+	$(CARGO) test --release $(VIEWER) --lib --bins --tests
 	$(CARGO) test --release -p manyview --doc
 
 test-long: packages build demos ## run the tests that take long as well

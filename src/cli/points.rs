@@ -15,7 +15,7 @@ const VIEWER: &str = "manyview-points";
 pub(crate) struct Arguments {
     #[command(flatten)]
     layer: LayerArguments,
-    /// The file (PLY, LAS, LAZ, E57, PCD, or text with a point in each line), then options of the viewer
+    /// The file (PLY, also of 3D Gaussian Splatting, LAS, LAZ, E57, PCD, or text with a point in each line), then options of the viewer
     #[arg(required = true, trailing_var_arg = true, value_name = "FILE")]
     file: Vec<OsString>,
 }
@@ -24,7 +24,7 @@ const VIEWERS_OPTIONS: &str = "\
 Options of the viewer, after FILE:
   --memory SIZE        Memory for points, a half of it that of the graphics card [default: 2G]
   --fps RATE           Frames a second: as many points are drawn as there is time for [default: 30]
-  --up y|z             The axis that points upwards [default: y for PLY, else z]
+  --up y|z|-y          The axis that points upwards [default: y for PLY, -y for Gaussians, else z]
   --turn DEGREES       Turn by so many degrees a second
   --size WIDTHxHEIGHT  Size of the window in pixels [default: 1280x720]
 

@@ -1,4 +1,5 @@
-//! Makes point clouds of any size, for measurements: `cloud knot|land POINTS FILE.ply|las|laz`. The same arguments make the same file.
+//! Makes point clouds of any size, for measurements: `cloud knot|land POINTS FILE.ply|las|laz`, or Gaussians: `cloud gaussians COUNT FILE.ply`. The same arguments
+//! make the same file.
 
 use glam::{DVec3, Vec3};
 use std::f64::consts::TAU;
@@ -70,17 +71,19 @@ fn land(random: &mut Random, share: f64) -> (DVec3, [u8; 3]) {
 fn main() -> Result<(), Failure> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let [shape, count, file] = words.as_slice() else {
-        return Err("usage: cloud knot|land POINTS FILE.ply|las|laz".into());
+        return Err("usage: cloud knot|land|gaussians POINTS FILE.ply|las|laz".into());
     };
     let point = match shape.as_str() {
-        "knot" => knot,
+        "knot" | "gaussians" => knot,
         "land" => land,
-        _ => return Err("the shape is knot or land".into()),
+        _ => return Err("the shape is knot, land or gaussians".into()),
     };
     let count: u64 = count.parse()?;
     let mut random = Random(1);
     let mut points = (0..count).map(|n| point(&mut random, n as f64 / count as f64));
-    if file.ends_with(".ply") {
+    if shape == "gaussians" {
+        write_gaussians(file, count, &mut points)
+    } else if file.ends_with(".ply") {
         write_ply(file, count, &mut points)
     } else {
         write_las(file, &mut points)
@@ -104,6 +107,47 @@ fn write_ply(
             out.write_all(&value.to_le_bytes())?;
         }
         out.write_all(&colour)?;
+    }
+    Ok(out.flush()?)
+}
+
+/// Flat Gaussians about as large as the way to the next one, in colours of degree 3, as 3D Gaussian Splatting writes them.
+fn write_gaussians(
+    file: &str,
+    count: u64,
+    points: &mut dyn Iterator<Item = (DVec3, [u8; 3])>,
+) -> Result<(), Failure> {
+    let mut out = BufWriter::new(File::create(file)?);
+    let mut names: Vec<String> = ["x", "y", "z"].map(str::to_owned).to_vec();
+    let mut add =
+        |name: &str, numbers: u32| names.extend((0..numbers).map(|n| format!("{name}{n}")));
+    add("f_dc_", 3);
+    add("f_rest_", 45);
+    add("scale_", 3);
+    add("rot_", 4);
+    names.push("opacity".to_owned());
+    write!(
+        out,
+        "ply\nformat binary_little_endian 1.0\nelement vertex {count}\n"
+    )?;
+    for name in names {
+        writeln!(out, "property float {name}")?;
+    }
+    writeln!(out, "end_header")?;
+    let mut random = Random(2);
+    // The tube has an area of about 50.
+    let size = (50.0 / count as f64).sqrt().ln() as f32;
+    for (place, colour) in points {
+        let mut values = place.as_vec3().to_array().to_vec();
+        let shade = Vec3::from_array(colour.map(|value| f32::from(value) / 255.0));
+        values.extend(((shade - 0.5) / 0.282_094_8).to_array());
+        values.extend((0..45).map(|_| (random.next() as f32 - 0.5) * 0.1));
+        values.extend([size, size, size - 1.5]);
+        values.extend((0..4).map(|_| random.next() as f32 - 0.5));
+        values.push(2.0);
+        for value in values {
+            out.write_all(&value.to_le_bytes())?;
+        }
     }
     Ok(out.flush()?)
 }

@@ -3,7 +3,7 @@
 use crate::octree::Look;
 use crate::read::Up;
 use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
-use std::f32::consts::FRAC_PI_2;
+use std::f32::consts::{FRAC_PI_2, PI};
 
 /// From the middle to the upper edge of the picture, in radians.
 const HALF_FIELD: f32 = 0.35;
@@ -82,6 +82,7 @@ impl Camera {
         let upright = match self.up {
             Up::Y => Quat::IDENTITY,
             Up::Z => Quat::from_rotation_x(FRAC_PI_2),
+            Up::MinusY => Quat::from_rotation_x(PI),
         };
         Mat3::from_quat(upright * turned)
     }
@@ -99,10 +100,19 @@ impl Camera {
     #[must_use]
     pub fn projection(&self, [width, height]: [u32; 2]) -> Mat4 {
         let aspect = width as f32 / height.max(1) as f32;
-        let from = (self.cloud.0 - self.target).length() + 1.5 * self.cloud.1;
-        let far = self.distance + from;
-        let near = (self.distance - from).max(self.distance * 0.02);
-        glam::camera::rh::proj::opengl::perspective(2.0 * HALF_FIELD, aspect, near, far)
+        let far = self.distance + self.reach();
+        glam::camera::rh::proj::opengl::perspective(2.0 * HALF_FIELD, aspect, self.near(), far)
+    }
+
+    /// Depth of the near plane.
+    #[must_use]
+    pub fn near(&self) -> f32 {
+        (self.distance - self.reach()).max(self.distance * 0.02)
+    }
+
+    /// How far the cloud reaches from what is looked at.
+    fn reach(&self) -> f32 {
+        (self.cloud.0 - self.target).length() + 1.5 * self.cloud.1
     }
 
     /// For the choice of nodes.
@@ -140,7 +150,7 @@ mod tests {
 
     #[test]
     fn up_is_up_and_a_drag_moves_what_is_under_it() {
-        for (up, axis) in [(Up::Y, Vec3::Y), (Up::Z, Vec3::Z)] {
+        for (up, axis) in [(Up::Y, Vec3::Y), (Up::Z, Vec3::Z), (Up::MinusY, -Vec3::Y)] {
             let mut camera = Camera::new(CLOUD, up);
             let seen = |camera: &Camera, place| {
                 (camera.projection([640, 480]) * camera.view()).project_point3(place)

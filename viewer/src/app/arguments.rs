@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Fewer bytes hold no cloud.
 const LEAST_MEMORY: u64 = 64 << 20;
 
-/// Shows a point cloud: PLY, LAS, LAZ, E57, PCD, or text with a point in each line.
+/// Shows a point cloud: PLY, also of 3D Gaussian Splatting, LAS, LAZ, E57, PCD, or text with a point in each line.
 #[derive(Debug, Parser)]
 #[command(name = "manyview-points", after_help = KEYS)]
 pub struct Arguments {
@@ -19,8 +19,8 @@ pub struct Arguments {
     /// Frames a second: as many points are drawn as there is time for
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = rate)]
     pub fps: f64,
-    /// The axis that points upwards [default: y for PLY, else z]
-    #[arg(long)]
+    /// The axis that points upwards [default: y for PLY, -y for Gaussians, else z]
+    #[arg(long, allow_hyphen_values = true)]
     pub up: Option<Up>,
     /// Turn by so many degrees a second
     #[arg(long, value_name = "DEGREES", default_value = "0", allow_negative_numbers = true, value_parser = degrees)]

@@ -1,6 +1,7 @@
 //! What a frame shows.
 
 use super::arguments::Arguments;
+use super::content::Content;
 use super::input::Change;
 use super::title::Title;
 use super::viewpoint::Viewpoint;
@@ -56,48 +57,6 @@ impl Frames {
         }
     }
 
-    /// Makes what is needed in the window's context.
-    pub(super) fn prepare(&mut self, window: &Window) -> Result<(), String> {
-        self.renderer = Some(Renderer::new(window.gl())?);
-        Ok(())
-    }
-
-    /// Whether the next frame will be another.
-    pub(super) fn is_busy(&self) -> bool {
-        self.viewpoint.is_turning() || !self.is_finished || !self.preparation.is_idle()
-    }
-
-    pub(super) fn change(&mut self, change: Change) {
-        self.viewpoint.change(change);
-    }
-
-    /// Draws a frame. Returns the title of the window, where it is another.
-    pub(super) fn draw(&mut self, window: &Window) -> Result<Option<String>, String> {
-        self.choose(window)?;
-        while self.is_first && self.opened.elapsed() < PATIENCE && self.is_busy() {
-            sleep(MOMENT);
-            self.choose(window)?;
-        }
-        let frame = Frame {
-            size: window.size(),
-            scale: self.viewpoint.scale,
-            progress: self.loading.progress.share().filter(|_| !self.is_finished),
-        };
-        if let (Some(camera), Some(renderer)) = (&self.viewpoint.camera, &self.renderer) {
-            let drawn = &self.choice.drawn;
-            renderer.draw(window.gl(), &self.buffers, drawn, camera, frame);
-            self.viewpoint.advance();
-            self.is_first = false;
-        }
-        self.tell_faults();
-        Ok(self.title.next(&self.loading))
-    }
-
-    /// A frame has taken so long.
-    pub(super) fn took(&mut self, time: Duration) {
-        self.pace.frame(time, self.choice.is_limited);
-    }
-
     /// Copies what is ready, and chooses the nodes that are drawn.
     fn choose(&mut self, window: &Window) -> Result<(), String> {
         let mut copied = 0;
@@ -143,8 +102,48 @@ impl Frames {
             eprintln!("manyview-points: {error}; the points read before are shown");
         }
     }
+}
 
-    pub(super) fn title(&self) -> String {
+impl Content for Frames {
+    fn prepare(&mut self, window: &Window) -> Result<(), String> {
+        self.renderer = Some(Renderer::new(window.gl())?);
+        Ok(())
+    }
+
+    fn is_busy(&self) -> bool {
+        self.viewpoint.is_turning() || !self.is_finished || !self.preparation.is_idle()
+    }
+
+    fn change(&mut self, change: Change) {
+        self.viewpoint.change(change);
+    }
+
+    fn draw(&mut self, window: &Window) -> Result<Option<String>, String> {
+        self.choose(window)?;
+        while self.is_first && self.opened.elapsed() < PATIENCE && self.is_busy() {
+            sleep(MOMENT);
+            self.choose(window)?;
+        }
+        let frame = Frame {
+            size: window.size(),
+            scale: self.viewpoint.scale,
+            progress: self.loading.progress.share().filter(|_| !self.is_finished),
+        };
+        if let (Some(camera), Some(renderer)) = (&self.viewpoint.camera, &self.renderer) {
+            let drawn = &self.choice.drawn;
+            renderer.draw(window.gl(), &self.buffers, drawn, camera, frame);
+            self.viewpoint.advance();
+            self.is_first = false;
+        }
+        self.tell_faults();
+        Ok(self.title.next(&self.loading))
+    }
+
+    fn took(&mut self, time: Duration) {
+        self.pace.frame(time, self.choice.is_limited);
+    }
+
+    fn title(&self) -> String {
         self.title.text(&self.loading)
     }
 }

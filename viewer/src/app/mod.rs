@@ -1,7 +1,9 @@
 //! The program: its arguments, its window, its keys and mouse.
 
 mod arguments;
+mod content;
 mod frames;
+mod gaussians;
 mod input;
 mod title;
 mod viewpoint;
@@ -10,8 +12,10 @@ mod window;
 pub use arguments::Arguments;
 
 use crate::load::Loading;
-use crate::read;
+use crate::read::{self, Up};
+use content::Content;
 use frames::Frames;
+use gaussians::Splats;
 use input::{Input, Wish};
 use std::num::NonZero;
 use std::thread::available_parallelism;
@@ -43,17 +47,12 @@ const STILL: Duration = Duration::from_millis(250);
 /// # Errors
 /// The file cannot be read from its start, or there can be no window.
 pub fn run(arguments: &Arguments) -> Result<(), AppError> {
-    let threads = available_parallelism().map_or(1, NonZero::get);
-    let cloud = read::open(&arguments.file, threads)?;
-    let up = arguments.up.unwrap_or(cloud.up);
-    // A half in memory, a half in that of the graphics card.
-    let memory = arguments.memory / 2;
-    let loading = Loading::start(cloud, memory);
+    let content = content(arguments)?;
     let no = |error: winit::error::EventLoopError| AppError::Window(error.to_string());
     let event_loop = EventLoop::new().map_err(no)?;
     let now = Instant::now();
     let mut app = App {
-        frames: Frames::new(loading, up, arguments, threads),
+        content,
         input: Input::default(),
         arguments,
         window: None,
@@ -66,9 +65,24 @@ pub fn run(arguments: &Arguments) -> Result<(), AppError> {
         .map_or(Ok(()), |error| Err(AppError::Window(error)))
 }
 
+/// What a file shows, by its kind.
+fn content(arguments: &Arguments) -> Result<Box<dyn Content>, read::ReadError> {
+    // A half in memory, a half in that of the graphics card.
+    let memory = arguments.memory / 2;
+    if let Some(gaussians) = read::gaussians(&arguments.file, memory)? {
+        let up = arguments.up.unwrap_or(Up::MinusY);
+        return Ok(Box::new(Splats::new(gaussians, up, arguments)));
+    }
+    let threads = available_parallelism().map_or(1, NonZero::get);
+    let cloud = read::open(&arguments.file, threads)?;
+    let up = arguments.up.unwrap_or(cloud.up);
+    let loading = Loading::start(cloud, memory);
+    Ok(Box::new(Frames::new(loading, up, arguments, threads)))
+}
+
 struct App<'a> {
     arguments: &'a Arguments,
-    frames: Frames,
+    content: Box<dyn Content>,
     input: Input,
     window: Option<Window>,
     /// Draws as fast as it can until then.
@@ -87,7 +101,7 @@ impl App<'_> {
     fn handle(&mut self, event_loop: &ActiveEventLoop, wish: Wish) {
         self.active = Instant::now() + ACTIVE;
         match wish {
-            Wish::Camera(change) => self.frames.change(change),
+            Wish::Camera(change) => self.content.change(change),
             Wish::FullScreen => {
                 if let Some(window) = &self.window {
                     window.toggle_full_screen();
@@ -102,9 +116,9 @@ impl App<'_> {
             return Ok(());
         };
         let start = Instant::now();
-        let title = self.frames.draw(window)?;
+        let title = self.content.draw(window)?;
         window.swap()?;
-        self.frames.took(start.elapsed());
+        self.content.took(start.elapsed());
         if let Some(title) = title {
             window.set_title(&title);
         }
@@ -118,9 +132,9 @@ impl ApplicationHandler for App<'_> {
         if self.window.is_some() {
             return;
         }
-        let title = self.frames.title();
+        let title = self.content.title();
         let made = Window::open(event_loop, &title, self.arguments.size);
-        match made.and_then(|window| self.frames.prepare(&window).map(|()| window)) {
+        match made.and_then(|window| self.content.prepare(&window).map(|()| window)) {
             Ok(window) => {
                 window.request_redraw();
                 self.window = Some(window);
@@ -166,7 +180,7 @@ impl ApplicationHandler for App<'_> {
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let now = Instant::now();
-        let busy = self.frames.is_busy() || now < self.active;
+        let busy = self.content.is_busy() || now < self.active;
         let next = self.drawn + STILL;
         if let (Some(window), true) = (&self.window, busy || now >= next) {
             window.request_redraw();

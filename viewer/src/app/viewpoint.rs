@@ -5,6 +5,7 @@ use super::input::Change;
 use crate::camera::Camera;
 use crate::octree::Octree;
 use crate::read::Up;
+use glam::Vec3;
 
 /// Sizes of points that the user can have, as factors.
 const SIZES: [f32; 2] = [0.1, 10.0];
@@ -58,12 +59,18 @@ impl Viewpoint {
         }
     }
 
+    /// Sees the whole of a cloud, where it is not seen yet.
+    pub(super) fn see(&mut self, cloud: (Vec3, f32)) {
+        let up = self.up;
+        self.camera.get_or_insert_with(|| Camera::new(cloud, up));
+    }
+
     /// Follows a cloud while it grows, or at the start.
     pub(super) fn follow(&mut self, tree: &Octree, is_growing: bool) {
         match &mut self.camera {
             Some(camera) if is_growing => camera.set_cloud(tree.extent()),
             Some(_) => {}
-            None => self.camera = Some(Camera::new(tree.extent(), self.up)),
+            None => self.see(tree.extent()),
         }
     }
 }

@@ -1,11 +1,15 @@
 //! Draws the nodes of a tree. All calls of OpenGL are here.
 
+mod background;
 mod buffers;
 mod frame;
+mod gaussians;
 mod program;
 
+pub use background::BACKGROUND;
 pub use buffers::Buffers;
 pub use frame::Frame;
+pub use gaussians::GaussianRenderer;
 
 use crate::camera::Camera;
 use crate::octree::{Chosen, Id};
@@ -60,7 +64,8 @@ impl Renderer {
         // vertices as are drawn.
         unsafe {
             gl.viewport(0, 0, width, height);
-            gl.clear_color(0.02, 0.02, 0.03, 1.0);
+            let [r, g, b] = BACKGROUND;
+            gl.clear_color(r, g, b, 1.0);
             gl.enable(glow::DEPTH_TEST);
             gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
             gl.bind_texture(glow::TEXTURE_2D, Some(self.nodes));

@@ -18,33 +18,13 @@ pub(super) struct Program {
 
 impl Program {
     pub(super) fn new(gl: &glow::Context) -> Result<Self, String> {
-        let stages = [
-            (
-                glow::VERTEX_SHADER,
-                include_str!("../../shaders/points.vert"),
-            ),
-            (
-                glow::FRAGMENT_SHADER,
-                include_str!("../../shaders/points.frag"),
-            ),
-        ];
-        // SAFETY: the context is current on this thread; the program is deleted with the context.
+        let program = link(
+            gl,
+            include_str!("../../shaders/points.vert"),
+            include_str!("../../shaders/points.frag"),
+        )?;
+        // SAFETY: the context is current on this thread.
         unsafe {
-            let program = gl.create_program()?;
-            for (stage, text) in stages {
-                let shader = gl.create_shader(stage)?;
-                gl.shader_source(shader, text);
-                gl.compile_shader(shader);
-                if !gl.get_shader_compile_status(shader) {
-                    return Err(gl.get_shader_info_log(shader));
-                }
-                gl.attach_shader(program, shader);
-                gl.delete_shader(shader);
-            }
-            gl.link_program(program);
-            if !gl.get_program_link_status(program) {
-                return Err(gl.get_program_info_log(program));
-            }
             let at = |name| gl.get_uniform_location(program, name);
             Ok(Self {
                 program,
@@ -85,5 +65,36 @@ impl Program {
             gl.uniform_1_u32(self.node.as_ref(), number);
             gl.uniform_4_f32_slice(self.cube.as_ref(), &cube.to_array());
         }
+    }
+}
+
+/// Makes a program of two stages, which is deleted with the context that is current.
+pub(super) fn link(
+    gl: &glow::Context,
+    vertex: &str,
+    fragment: &str,
+) -> Result<glow::Program, String> {
+    let stages = [
+        (glow::VERTEX_SHADER, vertex),
+        (glow::FRAGMENT_SHADER, fragment),
+    ];
+    // SAFETY: the context is current on this thread.
+    unsafe {
+        let program = gl.create_program()?;
+        for (stage, text) in stages {
+            let shader = gl.create_shader(stage)?;
+            gl.shader_source(shader, text);
+            gl.compile_shader(shader);
+            if !gl.get_shader_compile_status(shader) {
+                return Err(gl.get_shader_info_log(shader));
+            }
+            gl.attach_shader(program, shader);
+            gl.delete_shader(shader);
+        }
+        gl.link_program(program);
+        if !gl.get_program_link_status(program) {
+            return Err(gl.get_program_info_log(program));
+        }
+        Ok(program)
     }
 }

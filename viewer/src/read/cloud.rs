@@ -36,6 +36,9 @@ pub enum Up {
     Y,
     /// That of scans and maps.
     Z,
+    /// The opposite of Y, as in pictures from which Gaussians are made.
+    #[value(name = "-y")]
+    MinusY,
 }
 
 /// An opened file.

@@ -7,6 +7,7 @@ mod caught;
 mod cloud;
 mod e57;
 mod error;
+mod gaussians;
 mod las;
 mod pcd;
 mod ply;
@@ -16,6 +17,7 @@ mod text;
 
 pub use cloud::{Cloud, Part, Point, Up};
 pub use error::{Place, ReadError};
+pub use gaussians::gaussians;
 
 use caught::{Caught, catch};
 use std::fs::File;

@@ -12,24 +12,76 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-const VERTEX: &str = "vertex";
+pub(super) const VERTEX: &str = "vertex";
+
+/// What describes a file.
+pub(super) struct Head {
+    pub(super) header: Header,
+    /// Bytes and lines of it.
+    pub(super) start: u64,
+    line: u64,
+    /// Bytes of the file.
+    length: u64,
+}
+
+impl Head {
+    pub(super) fn read(path: &Path) -> Result<Self, ReadError> {
+        let wrong = |error: &dyn std::fmt::Display| ReadError::new(path, Place::Header, error);
+        let mut file = File::open(path).map_err(|error| wrong(&error))?;
+        let length = file.metadata().map_err(|error| wrong(&error))?.len();
+        let mut reader = Reader::new(BufReader::new(&mut file));
+        let header = Parser::<DefaultElement>::new().read_header(&mut reader);
+        let header = header.map_err(|error| {
+            let text = error.to_string();
+            match (error.line(), text.split_once(": ")) {
+                (Some(line), Some((_, what))) => {
+                    ReadError::new(path, Place::Line(line as u64), what)
+                }
+                _ => wrong(&text),
+            }
+        })?;
+        let line = reader.line().saturating_sub(1) as u64;
+        let start = reader.into_inner().stream_position();
+        Ok(Self {
+            header,
+            start: start.map_err(|error| wrong(&error))?,
+            line,
+            length,
+        })
+    }
+
+    /// Where the vertices of a binary file begin, and their stride; none where an element has lists.
+    ///
+    /// # Errors
+    /// The file ends before the last of them.
+    pub(super) fn vertices(
+        &self,
+        path: &Path,
+        vertex: &ElementDef,
+    ) -> Result<Option<(u64, u64)>, ReadError> {
+        let elements = self.header.elements.iter();
+        let before = elements.take_while(|(name, _)| *name != VERTEX);
+        let before = before
+            .map(|(_, element)| stride(element)?.checked_mul(element.count as u64))
+            .try_fold(0_u64, |sum, bytes| sum.checked_add(bytes?));
+        let (Some(before), Some(stride)) = (before, stride(vertex)) else {
+            return Ok(None);
+        };
+        let start = self.start.saturating_add(before);
+        let room = self.length.saturating_sub(start) / stride.max(1);
+        if room < vertex.count as u64 {
+            let count = vertex.count;
+            let what = format!("the file ends before this point, and has {count} by its header");
+            return Err(ReadError::new(path, Place::Point(room + 1), what));
+        }
+        Ok(Some((start, stride)))
+    }
+}
 
 pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
     let wrong = |error: &dyn std::fmt::Display| ReadError::new(path, Place::Header, error);
-    let mut file = File::open(path).map_err(|error| wrong(&error))?;
-    let length = file.metadata().map_err(|error| wrong(&error))?.len();
-    let mut reader = Reader::new(BufReader::new(&mut file));
-    let header = Parser::<DefaultElement>::new().read_header(&mut reader);
-    let header = header.map_err(|error| {
-        let text = error.to_string();
-        match (error.line(), text.split_once(": ")) {
-            (Some(line), Some((_, what))) => ReadError::new(path, Place::Line(line as u64), what),
-            _ => wrong(&text),
-        }
-    })?;
-    let line = reader.line().saturating_sub(1) as u64;
-    let start = reader.into_inner().stream_position();
-    let start = start.map_err(|error| wrong(&error))?;
+    let head = Head::read(path)?;
+    let (header, start, line) = (&head.header, head.start, head.line);
     let Some(vertex) = header.elements.get(VERTEX) else {
         return Err(wrong(&"there is no element \"vertex\""));
     };
@@ -39,13 +91,10 @@ pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
         up: Up::Y,
         parts,
     };
-    let place = header
-        .elements
-        .iter()
-        .take_while(|(name, _)| *name != VERTEX);
-    let before = place.map(|(_, element)| element);
     if header.encoding == Encoding::Ascii {
-        let before: u64 = before.map(|element| element.count as u64).sum();
+        let elements = header.elements.iter();
+        let before = elements.take_while(|(name, _)| *name != VERTEX);
+        let before = before.map(|(_, element)| element.count as u64).sum();
         let text = Text {
             path: path.to_owned(),
             start,
@@ -56,10 +105,7 @@ pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
         };
         return Ok(cloud(vec![Box::new(text)]));
     }
-    let before: Option<u64> = before
-        .map(|element| stride(element)?.checked_mul(element.count as u64))
-        .try_fold(0_u64, |sum, bytes| sum.checked_add(bytes?));
-    let (Some(before), Some(stride)) = (before, stride(vertex)) else {
+    let Some((start, stride)) = head.vertices(path, vertex)? else {
         let lists = Lists {
             path: path.to_owned(),
             start,
@@ -68,15 +114,6 @@ pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
         };
         return Ok(cloud(vec![Box::new(lists)]));
     };
-    let start = start.saturating_add(before);
-    let room = length.saturating_sub(start) / stride.max(1);
-    if room < vertex.count as u64 {
-        let what = format!(
-            "the file ends before this point, and has {} by its header",
-            vertex.count
-        );
-        return Err(ReadError::new(path, Place::Point(room + 1), what));
-    }
     let blocks = Blocks::new(vertex.count as u64, GIVEN as u64);
     let part = || -> Box<dyn Part> {
         Box::new(Binary {
@@ -114,9 +151,9 @@ fn stride(element: &ElementDef) -> Option<u64> {
 
 /// A property that is read: its column, the bytes before it (of an element without lists), its type.
 #[derive(Clone, Debug)]
-struct Field {
+pub(super) struct Field {
     column: usize,
-    offset: u64,
+    pub(super) offset: u64,
     kind: ScalarType,
 }
 
@@ -130,22 +167,28 @@ struct Fields {
     columns: usize,
 }
 
+/// The properties of an element that are numbers, by name.
+pub(super) fn fields(vertex: &ElementDef) -> Vec<(&str, Field)> {
+    let mut offset = 0;
+    let mut known = Vec::new();
+    for (column, (name, property)) in vertex.properties.iter().enumerate() {
+        if let PropertyType::Scalar(kind) = &property.data_type {
+            let kind = kind.clone();
+            offset += size(&kind);
+            let field = Field {
+                column,
+                offset: offset - size(&kind),
+                kind,
+            };
+            known.push((name.as_str(), field));
+        }
+    }
+    known
+}
+
 impl Fields {
     fn new(vertex: &ElementDef) -> Result<Self, String> {
-        let mut offset = 0;
-        let mut known = Vec::new();
-        for (column, (name, property)) in vertex.properties.iter().enumerate() {
-            if let PropertyType::Scalar(kind) = &property.data_type {
-                let kind = kind.clone();
-                offset += size(&kind);
-                let field = Field {
-                    column,
-                    offset: offset - size(&kind),
-                    kind,
-                };
-                known.push((name.as_str(), field));
-            }
-        }
+        let known = fields(vertex);
         let one = |name: &str| {
             let mut all = known.iter();
             all.find(|(known, _)| *known == name)
@@ -227,7 +270,7 @@ impl Part for Binary {
     }
 }
 
-fn scalar(bytes: &[u8], field: &Field, big: bool) -> f64 {
+pub(super) fn scalar(bytes: &[u8], field: &Field, big: bool) -> f64 {
     macro_rules! number {
         ($kind:ty) => {{
             let mut own = [0; size_of::<$kind>()];

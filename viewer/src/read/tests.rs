@@ -1,5 +1,5 @@
-use super::{Place, Point, ReadError, open};
-use glam::{DVec3, Vec3};
+use super::{Place, Point, ReadError, gaussians, open};
+use glam::{DVec3, Quat, Vec3};
 use std::io::Write;
 use std::path::Path;
 use tempfile::NamedTempFile;
@@ -309,6 +309,68 @@ impl Random {
     }
 }
 
+const GAUSSIAN: [&str; 14] = [
+    "x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2",
+    "rot_0", "rot_1", "rot_2", "rot_3",
+];
+
+fn gaussian_bytes(values: &[f32; 14], count: u32) -> Vec<u8> {
+    let properties: String = GAUSSIAN
+        .iter()
+        .map(|name| format!("property float {name}\n"))
+        .collect();
+    let head = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {count}\n{properties}end_header\n"
+    );
+    let mut bytes = head.into_bytes();
+    for value in values.repeat(count as usize) {
+        bytes.extend(value.to_le_bytes());
+    }
+    bytes
+}
+
+#[test]
+fn gaussians_have_exponents_and_a_logistic_opacity() {
+    let values = [
+        1.0, 2.0, 3.0, 0.1, 0.2, 0.3, 0.0, 0.0, 1.0, -1.0, 2.0, 0.0, 0.0, 0.0,
+    ];
+    let file = file(&gaussian_bytes(&values, 3));
+    let read = gaussians(file.path(), 1 << 20)
+        .expect("read")
+        .expect("Gaussians");
+    assert_eq!((read.all.len(), read.coefficients, read.skipped), (3, 1, 0));
+    let one = read.all[1];
+    assert_eq!((one.place, one.opacity), (Vec3::new(1.0, 2.0, 3.0), 0.5));
+    let e = std::f32::consts::E;
+    assert!((one.scale - Vec3::new(1.0, e, 1.0 / e)).length() < 1e-6);
+    assert_eq!(
+        (one.rotation, read.colour(1)),
+        (Quat::IDENTITY, &[Vec3::new(0.1, 0.2, 0.3)][..])
+    );
+    let little = gaussians(file.path(), 100).expect_err("no memory").what;
+    assert!(little.contains("--memory"), "{little}");
+}
+
+#[test]
+fn gaussians_that_are_nowhere_are_left_out_and_other_files_are_none() {
+    let mut values = [0.0; 14];
+    let read = |bytes: &[u8]| gaussians(file(bytes).path(), 1 << 20);
+    // Without a direction; then too faint; then with a place that is no number.
+    for (at, value) in [(0, 0.0), (6, -9.0), (1, f32::NAN)] {
+        values[at] = value;
+        values[10] = if at == 0 { 0.0 } else { 1.0 };
+        let all = read(&gaussian_bytes(&values, 2))
+            .expect("read")
+            .expect("Gaussians");
+        assert_eq!((all.all.len(), all.skipped), (0, 2), "{at}");
+    }
+    assert!(read(&binary(false, false, 3)).expect("read").is_none());
+    assert!(read(b"1 2 3").expect("read").is_none());
+    let whole = gaussian_bytes(&values, 2);
+    let cut = read(&whole[..whole.len() - 1]).expect_err("cut off");
+    assert_eq!(cut.at, Place::Point(2));
+}
+
 /// How many files of each format are spoilt.
 fn spoilt_files(count: u32) {
     let pcd = "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ";
@@ -334,6 +396,7 @@ fn spoilt_files(count: u32) {
         ),
         ("binary pcd", binary_pcd),
         ("e57", e57_bytes()),
+        ("gaussians", gaussian_bytes(&[0.5; 14], 30)),
     ];
     let mut random = Random(2026);
     for (name, bytes) in formats {
@@ -341,6 +404,7 @@ fn spoilt_files(count: u32) {
         for _ in 0..count {
             let spoilt = random.spoil(&bytes);
             let (_, fault) = read(file(&spoilt).path());
+            let _ = gaussians(file(&spoilt).path(), 1 << 28);
             if let Some(fault) = fault {
                 refused += 1;
                 assert!(
