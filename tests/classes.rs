@@ -208,6 +208,18 @@ fn a_frame_is_explained_as_picture_and_list() {
 }
 
 /// Programs with shaders of their own, too: their display is flat, and their sky one.
+/// The demo has a texture of depths, whose image is none that a rule could name.
+#[test]
+fn a_texture_of_depths_is_explained_without_an_error() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let report = folder.path().join("report.json");
+    let options = ["--report", report.to_str().expect("UTF-8")];
+    explain("passes", &options, &[], folder.path());
+    let text = std::fs::read_to_string(report).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["gl_errors"], 0, "{report}");
+}
+
 #[test]
 fn what_shaders_draw_is_explained_as_it_is_drawn() {
     let folder = tempfile::tempdir().expect("a folder");

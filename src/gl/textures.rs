@@ -34,6 +34,11 @@ impl Level {
         }
     }
 
+    /// Whether its texels can be read as colours.
+    pub fn has_colours(&self) -> bool {
+        !(self.depth || self.stencil || self.integer)
+    }
+
     /// The target of a texture with one layer of this kind, and that of one with many.
     pub fn layered(&self) -> (u32, u32) {
         match self.samples {

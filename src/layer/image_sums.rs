@@ -30,7 +30,7 @@ impl ImageSums {
 }
 
 impl Layer {
-    /// The checksum of a 2D texture's image: width, height and RGBA bytes of level 0. 0 where there is no image, where each view has its own,
+    /// The checksum of a 2D texture's image: width, height and RGBA bytes of level 0. 0 where there is no image, where it has no colours, where each view has its own,
     /// where it has a side longer than [`LONGEST`], while a display list is compiled, and on OpenGL ES, which does not give images back.
     pub(super) fn image_sum(&mut self, gl: &Gl, texture: TextureName) -> u64 {
         let own = self.targets.offscreen.has(Object::Texture(texture));
@@ -69,9 +69,12 @@ impl Layer {
 
 /// The checksum of the 2D texture that is bound.
 fn read_sum(gl: &Gl) -> u64 {
-    let size = [c::TEXTURE_WIDTH, c::TEXTURE_HEIGHT]
-        .map(|name| gl.get_tex_level_parameter(c::TEXTURE_2D, 0, name));
-    if size.iter().any(|side| !(1..=LONGEST).contains(side)) {
+    let Some(level) = gl.tex_level(c::TEXTURE_2D, 0) else {
+        return 0;
+    };
+    let size = [level.size[0], level.size[1]];
+    // Depths and integers are no colours: the driver would refuse.
+    if !level.has_colours() || size.iter().any(|side| !(1..=LONGEST).contains(side)) {
         return 0;
     }
     let store = PixelStore::enter(gl);

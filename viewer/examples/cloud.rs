@@ -159,14 +159,19 @@ fn write_las(
     let mut builder = las::Builder::from((1, 2));
     builder.point_format = las::point::Format::new(2)?;
     builder.point_format.is_compressed = file.ends_with(".laz");
+    // So that places of both shapes fit into 32 bits.
+    let mut points = points.peekable();
+    let near = points
+        .peek()
+        .map_or(DVec3::ZERO, |(place, _)| place.round());
     let axis = |offset| las::Transform {
         scale: 0.001,
         offset,
     };
     builder.transforms = las::Vector {
-        x: axis(500_000.0),
-        y: axis(5_200_000.0),
-        z: axis(0.0),
+        x: axis(near.x),
+        y: axis(near.y),
+        z: axis(near.z),
     };
     let mut writer = las::Writer::from_path(file, builder.into_header()?)?;
     for (place, colour) in points {
