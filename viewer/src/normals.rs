@@ -21,7 +21,7 @@ const LONELY: f32 = 0.25;
 const COVER: f32 = 1.8;
 
 /// Gives the first points normals and radii where they have none; the others are their surroundings. `spacing`: about the distance of neighbours. A radius that is guessed is
-/// below zero. Returns the median of those that are guessed; none where there are none.
+/// below zero. Returns the median of those that are guessed, the surroundings' as well, because all of them together are the surface; none where there are none.
 pub fn complete(points: &mut [Vertex], own: usize, spacing: f32) -> Option<f32> {
     let lacks = |point: &Vertex| !point.has_normal() || point.radius == 0.0;
     if spacing <= 0.0 || !points[..own].iter().any(lacks) {
@@ -31,9 +31,12 @@ pub fn complete(points: &mut [Vertex], own: usize, spacing: f32) -> Option<f32> 
     let (side, cells) = cells(points, spacing);
     let cell = |place: Vec3| cell(place, side);
     let mut near = Vec::new();
-    for number in 0..own {
+    for number in 0..points.len() {
         let point = points[number];
-        if !lacks(&point) {
+        // Of the surroundings only the distances count.
+        let (needs_radius, is_own) = (point.radius == 0.0, number < own);
+        let needs_normal = is_own && !point.has_normal();
+        if !needs_radius && !needs_normal {
             continue;
         }
         let place = point.at();
@@ -52,7 +55,7 @@ pub fn complete(points: &mut [Vertex], own: usize, spacing: f32) -> Option<f32> 
         }
         near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         near.truncate(NEIGHBOURS + 1);
-        if point.radius == 0.0 {
+        if needs_radius {
             let far = near.get(SIZED_BY + 1).or(near.last());
             let distance = far.map_or(0.0, |(squared, _)| squared.sqrt());
             let radius = if distance > 0.0 {
@@ -63,9 +66,7 @@ pub fn complete(points: &mut [Vertex], own: usize, spacing: f32) -> Option<f32> 
             points[number].radius = -COVER / 2.0 * radius;
             guessed.push(COVER / 2.0 * radius);
         }
-        if !point.has_normal()
-            && let Some(normal) = plane(&near, spacing)
-        {
+        if needs_normal && let Some(normal) = plane(&near, spacing) {
             points[number].set_normal(normal);
         }
     }
@@ -160,6 +161,22 @@ mod tests {
             let median = complete(&mut points, all, spacing).unwrap_or_default();
             assert!((0.7..2.0).contains(&median), "{spacing}: {median}");
         }
+    }
+
+    /// A few points that found their cells taken are close to others, but the surface is not denser there.
+    #[test]
+    fn points_that_were_handed_down_do_not_make_a_surface_dense() {
+        let surface = points(|x, y| DVec3::new(x, y, 0.0));
+        let beside = |point: &Vertex| {
+            let place = point.at().as_dvec3() + DVec3::new(0.01, 0.0, 0.0);
+            Vertex::new(&Point::at(place), DVec3::ZERO)
+        };
+        let mut all: Vec<_> = surface.iter().step_by(40).filter_map(beside).collect();
+        let own = all.len();
+        all.extend(&surface);
+        let whole = complete(&mut surface.clone(), surface.len(), 1.0).unwrap_or_default();
+        let median = complete(&mut all, own, 1.0).unwrap_or_default();
+        assert!((median - whole).abs() < 0.05 * whole, "{median} of {whole}");
     }
 
     #[test]

@@ -125,7 +125,7 @@ fn prepare(loading: &Loading, id: Id) -> Option<Ready> {
     drop(tree);
     let guessed = normals::complete(&mut points, own, spacing);
     let radius = match guessed {
-        Some(guessed) => (own >= FEW).then_some(guessed),
+        Some(guessed) => (points.len() >= FEW).then_some(guessed),
         None if is_leaf => Some(0.0),
         None => Some(COVER * spacing),
     };

@@ -7,7 +7,7 @@ use glam::Vec3;
 use std::io;
 
 /// A leaf with more points is opened.
-const LEAF: u32 = 16_384;
+const LEAF: u32 = 6_000;
 /// A cube is not opened that is so small for its distance from the origin that places in it are all the same.
 const SMALLEST: f32 = 64.0 * f32::EPSILON;
 

@@ -7,8 +7,8 @@ use glam::Vec3;
 pub type Id = u32;
 
 /// Cells of an inner node along each axis; each holds one point.
-pub const CELLS: u32 = 64;
-const WORDS: usize = (CELLS * CELLS * CELLS / u64::BITS) as usize;
+pub const CELLS: u32 = 40;
+const WORDS: usize = (CELLS * CELLS * CELLS).div_ceil(u64::BITS) as usize;
 /// Of the cells of an inner node.
 pub(super) const CELL_BYTES: u64 = WORDS as u64 * 8;
 

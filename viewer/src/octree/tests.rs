@@ -1,4 +1,4 @@
-use super::{Choice, Id, Look, Octree};
+use super::{CELLS, Choice, Id, Look, Octree};
 use crate::read::Point;
 use crate::vertex::Vertex;
 use glam::{DVec3, Mat4, Vec3};
@@ -57,7 +57,7 @@ fn verify(tree: &Octree, count: u32) {
         for point in points {
             assert!(node.contains(point.at()), "{point:?} in {node:?}");
             assert!(seen.insert(u32::from_le_bytes(point.colour)), "twice");
-            let cell = (point.at() - node.centre) / (node.half / 32.0);
+            let cell = (point.at() - node.centre + node.half) / (2.0 * node.half / CELLS as f32);
             let is_new = cells.insert(cell.floor().as_ivec3());
             let edge = (cell - cell.round()).abs().min_element() < 1e-3;
             assert!(node.is_leaf() || is_new || edge, "two in a cell");
