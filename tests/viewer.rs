@@ -4,6 +4,8 @@
 #[path = "control/running.rs"]
 mod running;
 mod support;
+#[path = "support/wayland.rs"]
+mod wayland;
 #[path = "support/x.rs"]
 mod x;
 
@@ -15,6 +17,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use support::{library, manyview, own_screen, run, scratch, screen, succeed, target_folder};
+use wayland::{Compositor, Monitor, has_sway};
 use x::User;
 
 const VIEWER: &str = "manyview-points";
@@ -146,6 +149,41 @@ fn a_spoilt_file_is_refused_with_the_place() {
     refused("none.ply", None, "none.ply, start: No such file");
     let part = "bad.xyz, line 2: 2 numbers are no place; three are";
     refused("bad.xyz", Some("# x y z\n1 2\n"), part);
+}
+
+#[test]
+fn under_wayland_it_has_the_pixels_of_a_doubled_monitor() {
+    if !has_sway() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("ball.ply");
+    ball(&file);
+    let monitor = Monitor {
+        size: (600, 450),
+        turned: "normal",
+        scale: "2",
+    };
+    let compositor = Compositor::sway(&[monitor]);
+    let report = folder.path().join("report.json");
+    let options = ["--views", "5", "--report", report.to_str().expect("UTF-8")];
+    let mut command = points(&options, &file, &["--turn", "20"]);
+    let mut viewer = compositor.give(&mut command).spawn().expect("started");
+    // Sway gives a window the whole monitor, whose own background is lighter than the viewer's.
+    until("a picture", || {
+        let picture = compositor.pixels(0)?;
+        (20_000..200_000).contains(&lit(&picture)).then_some(())
+    });
+    std::thread::sleep(Duration::from_secs(1));
+    let process = rustix::process::Pid::from_child(&viewer);
+    rustix::process::kill_process(process, rustix::process::Signal::TERM).expect("sent");
+    viewer.wait().expect("an end");
+    let text = std::fs::read_to_string(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    // Five views of four bytes of colour and four of depth, beside the title bar of the compositor.
+    let bytes = report["view_bytes"].as_u64().expect("bytes");
+    let pixels = bytes / (5 * 8);
+    assert!((600 * 350..640 * 450).contains(&pixels), "{pixels}");
 }
 
 /// Bytes of memory that the viewer has, which the command has started, of those that are not files.

@@ -1,5 +1,6 @@
 //! A Wayland compositor for a test, with monitors of its own, and a user who looks at them.
 #![forbid(unsafe_code)]
+#![allow(dead_code, reason = "each test file uses its part")]
 
 use super::support::{Screen, has, sized_screen};
 use super::x::User;
