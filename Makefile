@@ -22,7 +22,7 @@ OUTPUTS := panel quilt sbs
 README_SCENE := --frame 40 --eye-spacing 0.3 --focal-depth 8
 
 # Debian packages that building, the demos and the tests need; then optional packages of some tests.
-PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libosmesa6 libosmesa6-dev libgl-dev libegl-dev \
+PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libwayland-client0 libosmesa6 libosmesa6-dev libgl-dev libegl-dev \
 	libx11-dev libpng-dev mesa-utils apitrace khronos-api
 OPTIONAL_PACKAGES := faketime glslang-tools tesseract-ocr weston sway grim
 # Programs that test-long and test-full record and repeat.

@@ -13,5 +13,6 @@ pub mod normals;
 pub mod octree;
 pub mod pace;
 pub mod prepare;
+mod quiet;
 pub mod read;
 pub mod vertex;

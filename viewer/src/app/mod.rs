@@ -12,6 +12,7 @@ mod window;
 pub use arguments::Arguments;
 
 use crate::load::Loading;
+use crate::quiet::quietly;
 use crate::read::{self, Up};
 use content::Content;
 use frames::Frames;
@@ -35,7 +36,13 @@ pub enum AppError {
     /// The window.
     #[error("there can be no window: {0}")]
     Window(String),
+    /// What winit loads is not installed.
+    #[error("there can be no window: {LIBRARIES}")]
+    Libraries,
 }
+
+/// What it needs, and the packages of Debian.
+const LIBRARIES: &str = "libX11, libX11-xcb, libXcursor, libXi or libxkbcommon-x11 is missing; install libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0";
 
 /// After something has happened it draws as fast as it can for so long.
 const ACTIVE: Duration = Duration::from_secs(1);
@@ -48,8 +55,7 @@ const STILL: Duration = Duration::from_millis(250);
 /// The file cannot be read from its start, or there can be no window.
 pub fn run(arguments: &Arguments) -> Result<(), AppError> {
     let content = content(arguments)?;
-    let no = |error: winit::error::EventLoopError| AppError::Window(error.to_string());
-    let event_loop = EventLoop::new().map_err(no)?;
+    let event_loop = event_loop()?;
     let now = Instant::now();
     let mut app = App {
         content,
@@ -60,9 +66,23 @@ pub fn run(arguments: &Arguments) -> Result<(), AppError> {
         drawn: now,
         error: None,
     };
-    event_loop.run_app(&mut app).map_err(no)?;
+    let ran = event_loop.run_app(&mut app);
+    ran.map_err(|error| AppError::Window(error.to_string()))?;
     app.error
         .map_or(Ok(()), |error| Err(AppError::Window(error)))
+}
+
+/// Connects to the display server. Without a library that it needs, winit panics or names its own source.
+fn event_loop() -> Result<EventLoop<()>, AppError> {
+    match quietly(EventLoop::new) {
+        Some(Ok(event_loop)) => Ok(event_loop),
+        Some(Err(error)) if !error.to_string().contains("shared libraries") => {
+            let text = error.to_string();
+            let what = text.rsplit(": ").next().unwrap_or_default();
+            Err(AppError::Window(what.to_owned()))
+        }
+        _ => Err(AppError::Libraries),
+    }
 }
 
 /// What a file shows, by its kind.

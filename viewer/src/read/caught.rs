@@ -2,15 +2,9 @@
 
 use super::cloud::{Part, Point};
 use super::error::{Place, ReadError};
+use crate::quiet::quietly;
 use std::cell::Cell;
-use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
-use std::sync::Once;
-
-thread_local! {
-    /// A panic of this thread is caught, so nothing is said of it.
-    static CAUGHT: Cell<bool> = const { Cell::new(false) };
-}
 
 /// What a function returns, or the fault of a file in place of a panic.
 pub(super) fn catch<T>(
@@ -18,20 +12,8 @@ pub(super) fn catch<T>(
     at: impl FnOnce() -> Place,
     read: impl FnOnce() -> Result<T, ReadError>,
 ) -> Result<T, ReadError> {
-    static HOOK: Once = Once::new();
-    HOOK.call_once(|| {
-        let before = panic::take_hook();
-        panic::set_hook(Box::new(move |about| {
-            if !CAUGHT.get() {
-                before(about);
-            }
-        }));
-    });
-    CAUGHT.set(true);
-    let read = panic::catch_unwind(AssertUnwindSafe(read));
-    CAUGHT.set(false);
     let what = "what is there cannot be read";
-    read.unwrap_or_else(|_| Err(ReadError::new(path, at(), what)))
+    quietly(read).unwrap_or_else(|| Err(ReadError::new(path, at(), what)))
 }
 
 /// A part whose panics are faults.
