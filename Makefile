@@ -123,6 +123,7 @@ test-long: packages build demos ## run the tests that take long as well
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak)_/)'; \
 	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
+	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
 
 packages-32: packages ## install the i386 packages that are missing
@@ -144,6 +145,7 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak)_/)'; \
 	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
+	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
 	$(MAKE) check-shadow

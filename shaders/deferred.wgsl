@@ -23,8 +23,7 @@ fn pack_weights(weights: vec2<f32>) -> f32 {
 // near/z and the weight where the ray of a view through the middle of a pixel meets the disk; 0 where it does not.
 fn met(c: Corner, view: u32, middle: vec2<f32>) -> vec2<f32> {
     let i = f32(view);
-    let at = c.base.xyz + c.x.xyz * middle.x + c.y.xyz * middle.y + (c.view.xyz + c.both.xyz * middle.y) * i;
-    return met_at(at, c.base.w + c.x.w * i);
+    return met_at(parameters(c, middle, i), c.base.w + c.x.w * i);
 }
 
 fn met_at(at: vec3<f32>, plane: f32) -> vec2<f32> {
@@ -33,10 +32,6 @@ fn met_at(at: vec3<f32>, plane: f32) -> vec2<f32> {
     let meets = dot(at.xy, at.xy) <= at.z * at.z && ahead >= near && near > 0.0;
     let weight = kernel(dot(at.xy, at.xy) / max(at.z * at.z, 1e-30));
     return select(vec2<f32>(0.0), vec2<f32>(near / ahead, weight), meets);
-}
-
-fn colour_of(c: Corner) -> vec3<f32> {
-    return vec3<f32>(c.y.w, c.view.w, c.both.w);
 }
 
 @fragment
@@ -132,24 +127,20 @@ struct Parameters {
     @location(9) @interpolate(flat) plane: vec2<f32>,
 }
 
-fn parameters(c: Corner, i: f32) -> vec3<f32> {
-    let middle = (c.position.xy * 0.5 + 0.5) * vec2<f32>(u.picture);
-    return c.base.xyz + c.x.xyz * middle.x + c.y.xyz * middle.y + (c.view.xyz + c.both.xyz * middle.y) * i;
-}
-
 @vertex
 fn parameters_corner(@builtin(vertex_index) index: u32) -> Parameters {
     let c = corner_at(index);
+    let middle = (c.position.xy * 0.5 + 0.5) * vec2<f32>(u.picture);
     return Parameters(
         c.position,
-        parameters(c, 0.0),
-        parameters(c, 1.0),
-        parameters(c, 2.0),
-        parameters(c, 3.0),
-        parameters(c, 4.0),
-        parameters(c, 5.0),
-        parameters(c, 6.0),
-        parameters(c, 7.0),
+        parameters(c, middle, 0.0),
+        parameters(c, middle, 1.0),
+        parameters(c, middle, 2.0),
+        parameters(c, middle, 3.0),
+        parameters(c, middle, 4.0),
+        parameters(c, middle, 5.0),
+        parameters(c, middle, 6.0),
+        parameters(c, middle, 7.0),
         colour_of(c),
         vec2<f32>(c.base.w, c.x.w),
     );

@@ -159,10 +159,19 @@ fn corner_at(index: u32) -> Corner {
     return out;
 }
 
+// (r·D, s·D, D) for the middle of a pixel and a view.
+fn parameters(c: Corner, middle: vec2<f32>, view: f32) -> vec3<f32> {
+    return c.base.xyz + c.x.xyz * middle.x + c.y.xyz * middle.y + (c.view.xyz + c.both.xyz * middle.y) * view;
+}
+
+fn colour_of(c: Corner) -> vec3<f32> {
+    return vec3<f32>(c.y.w, c.view.w, c.both.w);
+}
+
 // 1 − near/depth where the ray of a view through the middle of a pixel meets the disk; below 0 where it does not.
 fn depth(c: Corner, view: u32, middle: vec2<f32>) -> f32 {
     let i = f32(view);
-    let at = c.base.xyz + c.x.xyz * middle.x + c.y.xyz * middle.y + (c.view.xyz + c.both.xyz * middle.y) * i;
+    let at = parameters(c, middle, i);
     let ahead = u.eyes.y * (c.base.w + c.x.w * i) * sign(at.z);
     let near = u.eyes.z * abs(at.z);
     let meets = dot(at.xy, at.xy) <= at.z * at.z && ahead >= near && near > 0.0;
@@ -185,7 +194,7 @@ fn points_subpixels(c: Corner) -> Seen {
     if view >= u.black || depth < 0.0 {
         discard;
     }
-    let colour = vec3<f32>(c.y.w, c.view.w, c.both.w);
+    let colour = colour_of(c);
     return Seen(vec4<f32>(colour[channel]), depth);
 }
 
@@ -198,7 +207,7 @@ fn points_pixels(c: Corner) -> Seen {
     if view >= u.black || depth < 0.0 {
         discard;
     }
-    return Seen(vec4<f32>(c.y.w, c.view.w, c.both.w, 1.0), depth);
+    return Seen(vec4<f32>(colour_of(c), 1.0), depth);
 }
 
 // One view alone.
@@ -208,5 +217,5 @@ fn points_view(c: Corner) -> Seen {
     if depth < 0.0 {
         discard;
     }
-    return Seen(vec4<f32>(c.y.w, c.view.w, c.both.w, 1.0), depth);
+    return Seen(vec4<f32>(colour_of(c), 1.0), depth);
 }

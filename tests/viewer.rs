@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
-use support::{library, manyview, own_screen, run, scratch, screen, succeed, target_folder};
+use support::{library, manyview, own_screen, rgb, run, scratch, screen, succeed, target_folder};
 use wayland::{Compositor, Monitor, has_sway};
 use x::User;
 
@@ -74,13 +74,53 @@ fn every_view_is_what_the_viewer_draws_with_its_projection() {
     let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let proof: Summary = serde_json::from_value(report["proof"].clone()).expect("a proof");
     assert_eq!((proof.frames, proof.verdict()), (4, "equal"), "{proof:?}");
-    // In front of the middle and behind it: points are drawn in different places.
+    // In front of the middle and behind it.
     let [least, most] = ["min", "max"].map(|end| report["disparity"]["px"][end].as_f64());
     assert!(
         least < Some(-0.1) && most > Some(0.1),
         "{}",
         report["disparity"]
     );
+}
+
+/// The columns by which the ball is farther right in the leftmost view than in the rightmost one: e·f·(1/d − 1/ξ), with the eyes' distance e, the focal length f in
+/// pixels, the ball's distance d and the focal depth ξ.
+#[test]
+fn views_are_as_far_apart_as_their_cameras() {
+    library();
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("ball.ply");
+    ball(&file);
+    let screen = screen();
+    let [left, right] = [0, 4].map(|view| {
+        let out = folder.path().join(format!("{view}.png"));
+        let mut command = manyview();
+        command
+            .args(["capture", "--views", "5", "--frame", "8"])
+            .args(["--eye-spacing", "0.3", "--focal-depth", "20"])
+            .args(["--what", &format!("view:{view}"), "--out"])
+            .args([&out, Path::new("--"), &target_folder().join(VIEWER), &file])
+            .args(["--size", "480x240"]);
+        succeed(screen.give(&mut command));
+        middle(&rgb(&out))
+    });
+    // The viewer sees 0.35 to each side of the middle, and the ball's bounding box from corner to corner: 1.7 to each side.
+    let (pixels, distance) = (120.0 / 0.35_f64.tan(), 1.7 / 0.35_f64.sin());
+    let want = 4.0 * 0.3 * pixels * (1.0 / distance - 1.0 / 20.0);
+    assert!(
+        (left - right - want).abs() < 0.1 * want,
+        "{} for {want}",
+        left - right
+    );
+}
+
+/// The mean column of what is drawn.
+fn middle(picture: &RgbImage) -> f64 {
+    let drawn = picture
+        .enumerate_pixels()
+        .filter(|(_, _, pixel)| pixel.0.iter().any(|&value| value > 40));
+    let columns: Vec<f64> = drawn.map(|(x, _, _)| f64::from(x)).collect();
+    columns.iter().sum::<f64>() / columns.len() as f64
 }
 
 /// Where a picture is not as dark as where nothing is drawn.

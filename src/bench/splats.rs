@@ -31,18 +31,9 @@ const WAYS: [&str; 4] = [
 
 /// The way's rate over that of one view, and its picture's errors; the passes are what errors are measured against.
 fn ways(row: &Chart) -> [(f64, Option<&Way>); 4] {
-    let rate = |time: f64| row.single / time;
-    let of = |way| (rate(way), None);
-    let measured = |way: &'static dyn Fn(&Chart) -> &Way| {
-        let way = way(row);
-        (rate(way.time), Some(way))
-    };
-    [
-        of(row.passes),
-        measured(&|row| &row.vertex),
-        measured(&|row| &row.fragment),
-        measured(&|row| &row.subpixels),
-    ]
+    let one_pass = [&row.vertex, &row.fragment, &row.subpixels];
+    let [a, b, c] = one_pass.map(|way| (row.single / way.time, Some(way)));
+    [(row.single / row.passes, None), a, b, c]
 }
 
 /// The table for people.

@@ -20,7 +20,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-const HELPER: &str = "manyview-probe";
 const APIS: &[&str] = &["glx", "egl", "osmesa"];
 const PROBE_LIMIT: Duration = Duration::from_secs(20);
 /// Prefixes of hooked names. Where one is the beginning of another, the longer one comes first.
@@ -56,7 +55,7 @@ impl Findings {
         let display = std::env::var("DISPLAY")
             .ok()
             .filter(|display| !display.is_empty());
-        let helper = library::helper(HELPER).ok();
+        let helper = library::helper(library::PROBE).ok();
         let screen = (display.is_none() && helper.is_some())
             .then(Xvfb::start)
             .and_then(Result::ok);

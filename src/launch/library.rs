@@ -24,6 +24,9 @@ pub fn find() -> Result<PathBuf, LaunchError> {
     }
 }
 
+/// The program that makes contexts of its own, to ask drivers and to measure.
+pub(super) const PROBE: &str = "manyview-probe";
+
 /// Finds one of our programs, beside the command or in `../lib/manyview` of its folder.
 ///
 /// # Errors

@@ -8,14 +8,12 @@ use std::ffi::OsString;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
 
-const HELPER: &str = "manyview-probe";
-
 /// Runs the helper without the layer, and gives each line that it prints.
 ///
 /// # Errors
 /// It is not there, does not start, or ends with another status than 0.
 pub fn lines(arguments: &[String], each: &mut dyn FnMut(&str)) -> Result<(), LaunchError> {
-    let helper = library::helper(HELPER)?;
+    let helper = library::helper(library::PROBE)?;
     let arguments: Vec<_> = arguments.iter().map(OsString::from).collect();
     let mut command = without_layer(&helper, &arguments);
     let system = |source| LaunchError::System {

@@ -190,9 +190,7 @@ impl Renderer {
             gl.draw_triangle(self.vertices);
         }
     }
-}
 
-impl Renderer {
     /// Draws some splats of the cloud that is bound.
     fn send(
         &self,

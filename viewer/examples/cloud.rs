@@ -2,27 +2,16 @@
 //! make the same file.
 
 use glam::{DVec3, Vec3};
+use manyview_points::random::Random;
 use std::f64::consts::TAU;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
 type Failure = Box<dyn std::error::Error>;
 
-/// Numbers from 0 to 1, the same in every run (xorshift, Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
 /// A point of a tube about a trefoil knot, about 6 wide.
 fn knot(random: &mut Random, _: f64) -> (DVec3, [u8; 3]) {
-    let (along, around) = (random.next() * TAU, random.next() * TAU);
+    let (along, around) = (random.unit() * TAU, random.unit() * TAU);
     let middle = |t: f64| {
         let r = (3.0 * t).cos() + 2.0;
         DVec3::new(r * (2.0 * t).cos(), r * (2.0 * t).sin(), -(3.0 * t).sin())
@@ -41,14 +30,14 @@ fn knot(random: &mut Random, _: f64) -> (DVec3, [u8; 3]) {
 fn land(random: &mut Random, share: f64) -> (DVec3, [u8; 3]) {
     let stripes = 40.0;
     let stripe = (share * stripes).floor();
-    let x = (stripe + random.next()) / stripes;
+    let x = (stripe + random.unit()) / stripes;
     let y = share * stripes - stripe;
     let wave = |fx: f64, fy: f64| (x * fx * TAU).sin() * (y * fy * TAU + fx).cos();
     let height =
         60.0 * wave(1.0, 1.3) + 20.0 * wave(3.7, 2.9) + 4.0 * wave(17.0, 13.0) + wave(61.0, 71.0);
     // Trees on some of it.
     let tree = if wave(5.0, 7.0) > 0.3 {
-        random.next() * 12.0
+        random.unit() * 12.0
     } else {
         0.0
     };
@@ -79,7 +68,7 @@ fn main() -> Result<(), Failure> {
         _ => return Err("the shape is knot, land or gaussians".into()),
     };
     let count: u64 = count.parse()?;
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let mut points = (0..count).map(|n| point(&mut random, n as f64 / count as f64));
     if shape == "gaussians" {
         write_gaussians(file, count, &mut points)
@@ -134,16 +123,16 @@ fn write_gaussians(
         writeln!(out, "property float {name}")?;
     }
     writeln!(out, "end_header")?;
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     // The tube has an area of about 50.
     let size = (50.0 / count as f64).sqrt().ln() as f32;
     for (place, colour) in points {
         let mut values = place.as_vec3().to_array().to_vec();
         let shade = Vec3::from_array(colour.map(|value| f32::from(value) / 255.0));
         values.extend(((shade - 0.5) / 0.282_094_8).to_array());
-        values.extend((0..45).map(|_| (random.next() as f32 - 0.5) * 0.1));
+        values.extend((0..45).map(|_| (random.unit() as f32 - 0.5) * 0.1));
         values.extend([size, size, size - 1.5]);
-        values.extend((0..4).map(|_| random.next() as f32 - 0.5));
+        values.extend((0..4).map(|_| random.unit() as f32 - 0.5));
         values.push(2.0);
         for value in values {
             out.write_all(&value.to_le_bytes())?;

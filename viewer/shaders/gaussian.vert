@@ -7,6 +7,8 @@ uniform mat4 view;
 uniform mat4 projection;
 // Width and height of the picture in pixels; pixels that a length of one has at a distance of one; depth of the near plane.
 uniform vec4 picture;
+// A factor of the user's.
+uniform float scale;
 // Three texels for each: place and opacity; covariance xx, xy, xz, yy; yz, zz.
 uniform sampler2D shapes;
 uniform sampler2D colours;
@@ -41,7 +43,7 @@ void main() {
     mat3 covariance = mat3(a.x, a.y, a.z, a.y, a.w, b.x, a.z, b.x, b.y);
     mat3 jacobian = mat3(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, slope.x, slope.y, 0.0) * (focal / depth);
     mat3 turn = jacobian * mat3(view);
-    mat3 spread = turn * covariance * transpose(turn);
+    mat3 spread = turn * covariance * transpose(turn) * (scale * scale);
     float xx = spread[0][0] + BLUR;
     float xy = spread[0][1];
     float yy = spread[1][1] + BLUR;

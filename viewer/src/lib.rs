@@ -7,6 +7,7 @@
 pub mod app;
 pub mod camera;
 pub mod draw;
+mod extent;
 pub mod gaussian;
 pub mod load;
 pub mod normals;
@@ -14,5 +15,6 @@ pub mod octree;
 pub mod pace;
 pub mod prepare;
 mod quiet;
+pub mod random;
 pub mod read;
 pub mod vertex;

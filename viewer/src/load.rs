@@ -1,5 +1,6 @@
 //! Reads a file into the tree, in threads.
 
+use crate::extent::extent;
 use crate::octree::Octree;
 use crate::read::{Cloud, Part, Point, ReadError};
 use crate::vertex::Vertex;
@@ -27,7 +28,7 @@ pub struct Progress {
     pub expected: Option<u64>,
     /// Points that were read.
     read: AtomicU64,
-    /// Points that are nowhere: a number is infinite or none.
+    /// Points that are nowhere ([`Vertex::new`]).
     skipped: AtomicU64,
     /// Threads that read.
     readers: AtomicU32,
@@ -60,7 +61,8 @@ impl Progress {
         lock(&self.error).take()
     }
 
-    fn fail(&self, error: LoadError) {
+    /// Tells of a fault, after which nothing more is read.
+    pub fn fail(&self, error: LoadError) {
         self.stop.store(true, Ordering::Relaxed);
         lock(&self.error).get_or_insert(error);
     }
@@ -134,26 +136,18 @@ impl Loading {
         vertices: &mut Vec<Vertex>,
         memory: u64,
     ) -> io::Result<()> {
-        let is_finite = |point: &&Point| point.place.as_vec3().is_finite();
-        let Some(first) = points.iter().find(is_finite) else {
-            self.progress
-                .skipped
-                .fetch_add(points.len() as u64, Ordering::Relaxed);
-            points.clear();
-            return Ok(());
-        };
-        if self.tree.get().is_none() {
-            let (origin, size) = (first.place, size(points, first.place));
+        if self.tree.get().is_none()
+            && let Some((origin, size)) = start(points)
+        {
             // Of two threads that make one, the first one's is kept.
             let _ = self
                 .tree
                 .set(Mutex::new(Octree::new(origin, size, memory)?));
         }
-        let Some(origin) = self.tree().map(|tree| tree.origin()) else {
-            return Ok(());
-        };
         vertices.clear();
-        vertices.extend(points.iter().filter_map(|point| Vertex::new(point, origin)));
+        if let Some(origin) = self.tree().map(|tree| tree.origin()) {
+            vertices.extend(points.iter().filter_map(|point| Vertex::new(point, origin)));
+        }
         let skipped = points.len() - vertices.len();
         self.progress
             .skipped
@@ -171,16 +165,73 @@ impl Loading {
 /// So many points go into the tree before others may use it: a frame never waits long.
 const AT_ONCE: usize = 4096;
 
-/// Twice the distance of the farthest of a few points, so that the tree seldom grows.
-fn size(points: &[Point], origin: DVec3) -> f32 {
-    let far = points
-        .iter()
-        .map(|point| (point.place - origin).abs().max_element() as f32);
-    let far = far.filter(|far| far.is_finite()).fold(0.0, f32::max);
-    2.0 * far
+/// Where the tree begins and how large it is, by the first points: about the middle of most of them, because a stray one may be anywhere. None where no point is
+/// anywhere.
+fn start(points: &[Point]) -> Option<(DVec3, f32)> {
+    let is_somewhere = |place: &DVec3| Vertex::new(&Point::at(*place), DVec3::ZERO).is_some();
+    let places = points.iter().map(|point| point.place).filter(is_somewhere);
+    let first = places.clone().next()?;
+    let (middle, radius) = extent(places.map(|place| (place - first).as_vec3()), FAR);
+    Some((first + middle.as_dvec3(), 2.0 * radius))
 }
+
+/// The share of the first points at each end of an axis that may be far away.
+const FAR: f32 = 0.02;
 
 /// A thread that has panicked leaves the points as they were.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Loading;
+    use crate::read::{Cloud, Part, Point, ReadError, Up};
+    use glam::DVec3;
+    use std::thread::sleep;
+    use std::time::{Duration, Instant};
+
+    struct Given(Vec<DVec3>);
+
+    impl Part for Given {
+        fn read(&mut self, give: &mut dyn FnMut(&mut Vec<Point>) -> bool) -> Result<(), ReadError> {
+            give(&mut self.0.iter().map(|&place| Point::at(place)).collect());
+            Ok(())
+        }
+    }
+
+    fn loaded(places: Vec<DVec3>) -> Loading {
+        let cloud = Cloud {
+            points: Some(places.len() as u64),
+            up: Up::Z,
+            parts: vec![Box::new(Given(places))],
+        };
+        let loading = Loading::start(cloud, 1 << 26);
+        let limit = Instant::now() + Duration::from_secs(10);
+        while !loading.progress.is_done() {
+            assert!(Instant::now() < limit, "it does not end");
+            sleep(Duration::from_millis(2));
+        }
+        loading
+    }
+
+    #[test]
+    fn places_too_far_for_sums_of_squares_are_left_out() {
+        let near = (0..1000).map(|n| DVec3::new(f64::from(n), 0.0, 0.0));
+        let bad = [3e38, -3e38, 1e300, f64::NAN, f64::INFINITY, 1e19];
+        let far = bad.map(|x| DVec3::new(x, -x, 1.0));
+        let loading = loaded(near.chain(far).collect());
+        let tree = loading.tree().expect("points");
+        assert_eq!((tree.count(), loading.progress.skipped()), (1000, 6));
+    }
+
+    /// Scans of maps have places of millions of metres, and some have a first point without a place.
+    #[test]
+    fn a_stray_first_point_does_not_cost_the_others_their_precision() {
+        let scan = (0..1000).map(|n| DVec3::new(5e6 + f64::from(n) * 0.001, 4e6, 300.0));
+        let loading = loaded(std::iter::once(DVec3::ZERO).chain(scan).collect());
+        let tree = loading.tree().expect("points");
+        let apart = (tree.origin() - DVec3::new(5e6, 4e6, 300.0)).length();
+        assert!(apart < 10.0, "{apart}");
+    }
 }

@@ -1,6 +1,6 @@
 //! Makes nodes ready to be drawn, in threads: gathers their points, and gives them normals and sizes.
 
-use crate::load::Loading;
+use crate::load::{LoadError, Loading};
 use crate::normals;
 use crate::octree::Id;
 use crate::vertex::Vertex;
@@ -120,15 +120,15 @@ fn prepare(loading: &Loading, id: Id) -> Option<Ready> {
     let tree = loading.tree()?;
     let node = tree.node(id);
     let (version, spacing, is_leaf) = (node.version, node.spacing(), node.is_leaf());
-    // Points that cannot be read back are not drawn.
-    let (mut points, own) = tree.points_about(id).unwrap_or_default();
+    let about = tree.points_about(id);
     drop(tree);
+    // Points that cannot be read back are not drawn.
+    let (mut points, own) = about.unwrap_or_else(|error| {
+        loading.progress.fail(LoadError::Store(error));
+        Default::default()
+    });
     let guessed = normals::complete(&mut points, own, spacing);
-    let radius = match guessed {
-        Some(guessed) => (points.len() >= FEW).then_some(guessed),
-        None if is_leaf => Some(0.0),
-        None => Some(COVER * spacing),
-    };
+    let radius = told(guessed, points.len(), is_leaf, spacing);
     points.truncate(own);
     Some(Ready {
         id,
@@ -136,4 +136,65 @@ fn prepare(loading: &Loading, id: Id) -> Option<Ready> {
         points,
         radius,
     })
+}
+
+/// The radius that a node tells ([`Ready::radius`]), with so many points and surroundings.
+fn told(guessed: Option<f32>, points: usize, is_leaf: bool, spacing: f32) -> Option<f32> {
+    match guessed {
+        Some(guessed) => (points >= FEW).then_some(guessed),
+        None if is_leaf => Some(0.0),
+        None => Some(COVER * spacing),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Loading, prepare};
+    use crate::read::{Cloud, Part, Point, ReadError, Up};
+    use glam::DVec3;
+    use std::thread::sleep;
+    use std::time::Duration;
+
+    struct Plane {
+        side: u32,
+        radius: Option<f32>,
+    }
+
+    impl Part for Plane {
+        fn read(&mut self, give: &mut dyn FnMut(&mut Vec<Point>) -> bool) -> Result<(), ReadError> {
+            let places = (0..self.side).flat_map(|x| (0..self.side).map(move |y| (x, y)));
+            let point = |(x, y): (u32, u32)| Point {
+                radius: self.radius,
+                ..Point::at(DVec3::new(x.into(), y.into(), 0.0))
+            };
+            give(&mut places.map(point).collect());
+            Ok(())
+        }
+    }
+
+    /// The radius that the root of a plane of points tells.
+    fn root(side: u32, radius: Option<f32>) -> Option<f32> {
+        let cloud = Cloud {
+            points: None,
+            up: Up::Z,
+            parts: vec![Box::new(Plane { side, radius })],
+        };
+        let loading = Loading::start(cloud, 1 << 26);
+        while !loading.progress.is_done() {
+            sleep(Duration::from_millis(1));
+        }
+        prepare(&loading, 0).expect("a root").radius
+    }
+
+    #[test]
+    fn a_node_tells_how_large_its_points_are() {
+        // A leaf, whose points are one apart.
+        let leaf = root(20, None).expect("a radius");
+        assert!((1.0..2.0).contains(&leaf), "{leaf}");
+        assert_eq!(root(5, None), None, "too few");
+        assert_eq!(root(20, Some(3.0)), Some(0.0), "the file's");
+        // An inner node, whose points are as far apart as its cells.
+        let inner = root(200, Some(3.0)).expect("a radius");
+        assert!(inner > 3.0, "{inner}");
+    }
 }

@@ -6,6 +6,8 @@ use glam::{DVec3, Vec3};
 
 /// What is drawn where the file has no colour.
 const PLAIN: [u8; 3] = [208, 208, 208];
+/// Its square, three times, is a float.
+const FARTHEST: f32 = 1e18;
 /// Of a normal of length 1 along an axis.
 const ONE: f32 = 127.0;
 
@@ -24,11 +26,12 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    /// Of a point. None where it is nowhere: a number is infinite or none.
+    /// Of a point. None where it is nowhere: a number is infinite or none, or so far away that the sum of squares is infinite.
     #[must_use]
     pub fn new(point: &Point, origin: DVec3) -> Option<Self> {
         let place = (point.place - origin).as_vec3();
-        if !place.is_finite() {
+        let is_near = place.abs().max_element() <= FARTHEST;
+        if !place.is_finite() || !is_near {
             return None;
         }
         let [r, g, b] = point.colour.unwrap_or(PLAIN);

@@ -4,6 +4,7 @@ use glam::{Mat4, Quat, Vec3};
 use manyview_points::camera::Camera;
 use manyview_points::draw::BACKGROUND;
 use manyview_points::gaussian::reference::{self, picture};
+use manyview_points::random::Random;
 use manyview_points::read::{Up, gaussians};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
@@ -20,25 +21,14 @@ const COUNT: u32 = 3000;
 /// In dB. Other shapes, orders and blurs are below this.
 const BOUND: f64 = 51.0;
 
-/// Numbers from 0 to 1, the same in every run (xorshift, Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 40) as f32 / (1_u64 << 24) as f32
-    }
-
-    fn around(&mut self) -> Vec3 {
-        Vec3::new(self.next(), self.next(), self.next()) * 2.0 - 1.0
-    }
+/// Each from -1 to 1.
+fn around(random: &mut Random) -> Vec3 {
+    Vec3::from_array([(); 3].map(|()| random.unit() as f32)) * 2.0 - 1.0
 }
 
 /// A ball of flat and long Gaussians, whose colours depend on the direction.
 fn write(file: &Path) {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let mut names = vec!["x".to_owned(), "y".to_owned(), "z".to_owned()];
     names.extend((0..3).map(|n| format!("f_dc_{n}")));
     names.extend((0..9).map(|n| format!("f_rest_{n}")));
@@ -56,15 +46,19 @@ fn write(file: &Path) {
     )
     .expect("written");
     for number in 0..COUNT {
-        let place = random.around().normalize_or_zero() * (0.7 + 0.3 * random.next());
+        let place = around(&mut random).normalize_or_zero() * (0.7 + 0.3 * (random.unit() as f32));
         let mut values = place.to_array().to_vec();
         values.extend((place * 1.5).to_array());
-        values.extend((0..9).map(|_| 0.3 * (random.next() - 0.5)));
-        values.push(8.0 * random.next() - 1.0);
+        values.extend((0..9).map(|_| 0.3 * ((random.unit() as f32) - 0.5)));
+        values.push(8.0 * (random.unit() as f32) - 1.0);
         let long = if number % 3 == 0 { 0.0 } else { -1.5 };
-        values.extend([-4.0 + random.next(), -3.0 + long * random.next(), -4.5]);
-        let axis = random.around();
-        let turn = Quat::from_axis_angle(axis.normalize_or(Vec3::X), 3.0 * random.next());
+        values.extend([
+            -4.0 + (random.unit() as f32),
+            -3.0 + long * (random.unit() as f32),
+            -4.5,
+        ]);
+        let axis = around(&mut random);
+        let turn = Quat::from_axis_angle(axis.normalize_or(Vec3::X), 3.0 * (random.unit() as f32));
         values.extend([turn.w, turn.x, turn.y, turn.z]);
         for value in values {
             out.write_all(&value.to_le_bytes()).expect("written");

@@ -49,7 +49,8 @@ pub(crate) fn costs() -> ExitCode {
         _ => return usage("points-cost [POINTS SIZE VIEWS]"),
     };
     print_all(cases, |gl, renderer, case| {
-        cost::measure(gl, renderer, case).map(|cost| serde_json::to_string(&cost))
+        cost::measure(gl, renderer, case)
+            .and_then(|measured| text(serde_json::to_string(&measured)))
     })
 }
 
@@ -62,7 +63,8 @@ pub(crate) fn chart() -> ExitCode {
         _ => return usage("points-chart POINTS SIZE [POINTS SIZE]…"),
     };
     print_all(cases, |gl, renderer, case| {
-        charts::measure(gl, renderer, case).map(|chart| serde_json::to_string(&chart))
+        charts::measure(gl, renderer, case)
+            .and_then(|measured| text(serde_json::to_string(&measured)))
     })
 }
 
@@ -77,9 +79,13 @@ fn usage(line: &str) -> ExitCode {
     ExitCode::from(2)
 }
 
+fn text(json: serde_json::Result<String>) -> Result<String, String> {
+    json.map_err(|error| error.to_string())
+}
+
 fn print_all<T>(
     cases: Vec<T>,
-    measure: impl Fn(&Gl, &Renderer, T) -> Result<serde_json::Result<String>, String>,
+    measure: impl Fn(&Gl, &Renderer, T) -> Result<String, String>,
 ) -> ExitCode {
     match print_each(cases, measure) {
         Ok(()) => ExitCode::SUCCESS,
@@ -92,15 +98,14 @@ fn print_all<T>(
 
 fn print_each<T>(
     cases: Vec<T>,
-    measure: impl Fn(&Gl, &Renderer, T) -> Result<serde_json::Result<String>, String>,
+    measure: impl Fn(&Gl, &Renderer, T) -> Result<String, String>,
 ) -> Result<(), String> {
     let context = egl::context()?;
     // SAFETY: the context was just made current on this thread and stays so until the process ends.
     let gl = unsafe { Gl::new(context.real) };
     let renderer = Renderer::new(&gl, glsl_version(&gl))?;
     for case in cases {
-        let line = measure(&gl, &renderer, case)?.map_err(|error| error.to_string())?;
-        println!("{line}");
+        println!("{}", measure(&gl, &renderer, case)?);
     }
     Ok(())
 }

@@ -4,6 +4,8 @@ use crate::read::Up;
 use clap::Parser;
 use std::path::PathBuf;
 
+/// Frames a second, unless the user says how many.
+pub(super) const FPS: f64 = 30.0;
 /// Fewer bytes hold no cloud.
 const LEAST_MEMORY: u64 = 64 << 20;
 
@@ -16,9 +18,9 @@ pub struct Arguments {
     /// Memory for points, a half of it that of the graphics card: bytes, or a number with M or G
     #[arg(long, value_name = "SIZE", default_value = "2G", value_parser = memory)]
     pub memory: u64,
-    /// Frames a second: as many points are drawn as there is time for
-    #[arg(long, value_name = "RATE", default_value = "30", value_parser = rate)]
-    pub fps: f64,
+    /// Frames a second: as many points are drawn as there is time for [default: 30]
+    #[arg(long, value_name = "RATE", value_parser = rate)]
+    pub fps: Option<f64>,
     /// The axis that points upwards [default: y for PLY, -y for Gaussians, else z]
     #[arg(long, allow_hyphen_values = true)]
     pub up: Option<Up>,

@@ -15,8 +15,8 @@ pub(super) trait Content {
     /// The user wants to see it otherwise.
     fn change(&mut self, change: Change);
 
-    /// Draws a frame. Returns the title of the window, where it is another.
-    fn draw(&mut self, window: &Window) -> Result<Option<String>, String>;
+    /// Draws a frame, so long after the last one. Returns the title of the window, where it is another.
+    fn draw(&mut self, window: &Window, since: Duration) -> Result<Option<String>, String>;
 
     /// A frame has taken so long.
     fn took(&mut self, time: Duration);

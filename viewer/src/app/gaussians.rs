@@ -20,9 +20,11 @@ use std::time::Duration;
 type Place = (Mat4, Vec3);
 
 /// The cloud, from where it is seen and what it is drawn with.
-pub(super) struct Splats {
+pub(super) struct GaussianCloud {
     name: String,
     gaussians: Arc<Gaussians>,
+    /// Middle and radius.
+    extent: (Vec3, f32),
     viewpoint: Viewpoint,
     renderer: Option<GaussianRenderer>,
     /// To the thread that sorts, and from it.
@@ -33,10 +35,14 @@ pub(super) struct Splats {
     shown: Option<Place>,
 }
 
-impl Splats {
+impl GaussianCloud {
     pub(super) fn new(gaussians: Gaussians, up: Up, arguments: &Arguments) -> Self {
         let mut viewpoint = Viewpoint::new(up, arguments);
-        viewpoint.see(gaussians.extent());
+        let extent = gaussians.extent();
+        viewpoint.see(extent);
+        if arguments.fps.is_some() {
+            eprintln!("manyview-points: --fps has no effect on Gaussians, of which all are drawn");
+        }
         let gaussians = Arc::new(gaussians);
         let (wanted, places) = channel::<Place>();
         let (sender, sorted) = channel();
@@ -53,6 +59,7 @@ impl Splats {
         Self {
             name: name.to_string_lossy().into_owned(),
             gaussians,
+            extent,
             viewpoint,
             renderer: None,
             wanted,
@@ -72,14 +79,14 @@ impl Splats {
             Some(_) => self.sorted.try_recv().ok(),
         };
         if let (Some((place, sorted)), Some(renderer)) = (ready, &mut self.renderer) {
-            renderer.set(window.gl(), &sorted);
+            renderer.set(window.gl(), sorted);
             self.shown = Some(place);
             self.sorting = None;
         }
     }
 }
 
-impl Content for Splats {
+impl Content for GaussianCloud {
     fn prepare(&mut self, window: &Window) -> Result<(), String> {
         self.renderer = Some(GaussianRenderer::new(window.gl(), &self.gaussians)?);
         Ok(())
@@ -91,19 +98,19 @@ impl Content for Splats {
 
     fn change(&mut self, change: Change) {
         self.viewpoint.change(change);
-        self.viewpoint.see(self.gaussians.extent());
+        self.viewpoint.see(self.extent);
     }
 
-    fn draw(&mut self, window: &Window) -> Result<Option<String>, String> {
+    fn draw(&mut self, window: &Window, since: Duration) -> Result<Option<String>, String> {
+        self.viewpoint.advance(since);
         let Some(camera) = self.viewpoint.camera else {
             return Ok(None);
         };
         let size = window.size();
         self.sort(window, (camera.view(), camera.look(size).eye));
         if let Some(renderer) = &self.renderer {
-            renderer.draw(window.gl(), &camera, size);
+            renderer.draw(window.gl(), &camera, size, self.viewpoint.scale);
         }
-        self.viewpoint.advance();
         Ok(None)
     }
 

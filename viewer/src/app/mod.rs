@@ -2,9 +2,9 @@
 
 mod arguments;
 mod content;
-mod frames;
 mod gaussians;
 mod input;
+mod points;
 mod title;
 mod viewpoint;
 mod window;
@@ -15,9 +15,9 @@ use crate::load::Loading;
 use crate::quiet::quietly;
 use crate::read::{self, Up};
 use content::Content;
-use frames::Frames;
-use gaussians::Splats;
+use gaussians::GaussianCloud;
 use input::{Input, Wish};
+use points::PointCloud;
 use std::num::NonZero;
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
@@ -91,13 +91,13 @@ fn content(arguments: &Arguments) -> Result<Box<dyn Content>, read::ReadError> {
     let memory = arguments.memory / 2;
     if let Some(gaussians) = read::gaussians(&arguments.file, memory)? {
         let up = arguments.up.unwrap_or(Up::MinusY);
-        return Ok(Box::new(Splats::new(gaussians, up, arguments)));
+        return Ok(Box::new(GaussianCloud::new(gaussians, up, arguments)));
     }
     let threads = available_parallelism().map_or(1, NonZero::get);
     let cloud = read::open(&arguments.file, threads)?;
     let up = arguments.up.unwrap_or(cloud.up);
     let loading = Loading::start(cloud, memory);
-    Ok(Box::new(Frames::new(loading, up, arguments, threads)))
+    Ok(Box::new(PointCloud::new(loading, up, arguments, threads)))
 }
 
 struct App<'a> {
@@ -107,7 +107,7 @@ struct App<'a> {
     window: Option<Window>,
     /// Draws as fast as it can until then.
     active: Instant,
-    /// When the last frame was drawn.
+    /// When the last frame was begun.
     drawn: Instant,
     error: Option<String>,
 }
@@ -136,13 +136,13 @@ impl App<'_> {
             return Ok(());
         };
         let start = Instant::now();
-        let title = self.content.draw(window)?;
+        let title = self.content.draw(window, start - self.drawn)?;
         window.swap()?;
         self.content.took(start.elapsed());
         if let Some(title) = title {
             window.set_title(&title);
         }
-        self.drawn = Instant::now();
+        self.drawn = start;
         Ok(())
     }
 }

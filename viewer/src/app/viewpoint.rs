@@ -6,9 +6,13 @@ use crate::camera::Camera;
 use crate::octree::Octree;
 use crate::read::Up;
 use glam::Vec3;
+use std::time::Duration;
 
 /// Sizes of points that the user can have, as factors.
 const SIZES: [f32; 2] = [0.1, 10.0];
+
+/// More time than this is no motion that anyone would follow.
+const LONGEST: Duration = Duration::from_millis(500);
 
 /// What the user changes.
 pub(super) struct Viewpoint {
@@ -17,7 +21,7 @@ pub(super) struct Viewpoint {
     pub(super) camera: Option<Camera>,
     /// By how much points are larger.
     pub(super) scale: f32,
-    /// Radians for a frame.
+    /// Radians a second.
     turn: f32,
 }
 
@@ -27,7 +31,7 @@ impl Viewpoint {
             up,
             camera: None,
             scale: 1.0,
-            turn: arguments.turn.to_radians() / arguments.fps as f32,
+            turn: arguments.turn.to_radians(),
         }
     }
 
@@ -36,10 +40,10 @@ impl Viewpoint {
         self.turn != 0.0
     }
 
-    /// A frame was drawn.
-    pub(super) fn advance(&mut self) {
+    /// So much time has passed. After a long frame it goes on where it was.
+    pub(super) fn advance(&mut self, since: Duration) {
         if let Some(camera) = &mut self.camera {
-            camera.turn_by(self.turn);
+            camera.turn_by(self.turn * since.min(LONGEST).as_secs_f32());
         }
     }
 
@@ -71,6 +75,32 @@ impl Viewpoint {
             Some(camera) if is_growing => camera.set_cloud(tree.extent()),
             Some(_) => {}
             None => self.see(tree.extent()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Arguments, Camera, Up, Viewpoint};
+    use clap::Parser;
+    use glam::Vec3;
+    use std::time::Duration;
+
+    #[test]
+    fn it_turns_by_the_degrees_of_a_second_whatever_the_rate_is() {
+        let cloud = (Vec3::ZERO, 1.0);
+        let arguments = ["manyview-points", "a.ply", "--turn", "90", "--fps", "30"];
+        let arguments = Arguments::parse_from(arguments);
+        let mut quarter = Camera::new(cloud, Up::Y);
+        quarter.turn_by(90_f32.to_radians());
+        for rate in [10, 25, 144] {
+            let mut viewpoint = Viewpoint::new(Up::Y, &arguments);
+            viewpoint.see(cloud);
+            for _ in 0..rate {
+                viewpoint.advance(Duration::from_secs(1) / rate);
+            }
+            let view = viewpoint.camera.expect("a camera").view();
+            assert!(view.abs_diff_eq(quarter.view(), 1e-4), "{rate}");
         }
     }
 }

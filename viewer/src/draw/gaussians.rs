@@ -2,6 +2,7 @@
 
 use super::background::BACKGROUND;
 use super::program::link;
+use super::texture::texture;
 use crate::camera::Camera;
 use crate::gaussian::Gaussians;
 use crate::gaussian::sort::Sorted;
@@ -81,23 +82,23 @@ impl GaussianRenderer {
     }
 
     /// Takes another order, and the colours that belong to it.
-    pub fn set(&mut self, gl: &glow::Context, sorted: &Sorted) {
-        self.count = sorted.order.len();
-        let rows = sorted.colours.len().div_ceil(ROW).max(1);
-        let mut colours = sorted.colours.clone();
+    pub fn set(&mut self, gl: &glow::Context, sorted: Sorted) {
+        let Sorted { order, mut colours } = sorted;
+        self.count = order.len();
+        let rows = colours.len().div_ceil(ROW).max(1);
         colours.resize(rows * ROW, [0.0; 4]);
         // SAFETY: the context is current on this thread, and has made both; the texels are as many as the texture has.
         unsafe {
             gl.bind_buffer(glow::ARRAY_BUFFER, Some(self.order));
-            let bytes = bytemuck::cast_slice(&sorted.order);
+            let bytes = bytemuck::cast_slice(&order);
             gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, bytes, glow::DYNAMIC_DRAW);
             gl.bind_texture(glow::TEXTURE_2D, Some(self.colours));
             set(gl, (ROW, rows), &colours);
         }
     }
 
-    /// Draws over a dark picture of this width and height.
-    pub fn draw(&self, gl: &glow::Context, camera: &Camera, size: [u32; 2]) {
+    /// Draws over a dark picture of this width and height. `scale`: by how much Gaussians are larger.
+    pub fn draw(&self, gl: &glow::Context, camera: &Camera, size: [u32; 2], scale: f32) {
         let [width, height] = size;
         let look = camera.look(size);
         let matrices = [
@@ -123,6 +124,8 @@ impl GaussianRenderer {
             }
             let place = gl.get_uniform_location(self.program, "picture");
             gl.uniform_4_f32_slice(place.as_ref(), &picture);
+            let place = gl.get_uniform_location(self.program, "scale");
+            gl.uniform_1_f32(place.as_ref(), scale);
             for (unit, texture) in [(0, self.shapes), (1, self.colours)] {
                 gl.active_texture(glow::TEXTURE0 + unit);
                 gl.bind_texture(glow::TEXTURE_2D, Some(texture));
@@ -132,22 +135,6 @@ impl GaussianRenderer {
             gl.draw_arrays_instanced(glow::TRIANGLE_STRIP, 0, 4, self.count as i32);
             gl.bind_vertex_array(None);
         }
-    }
-}
-
-/// A texture of numbers, which it leaves bound.
-///
-/// # Safety
-/// The context is current on this thread.
-unsafe fn texture(gl: &glow::Context) -> Result<glow::Texture, String> {
-    // SAFETY: forwarded.
-    unsafe {
-        let texture = gl.create_texture()?;
-        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-        for name in [glow::TEXTURE_MIN_FILTER, glow::TEXTURE_MAG_FILTER] {
-            gl.tex_parameter_i32(glow::TEXTURE_2D, name, glow::NEAREST as i32);
-        }
-        Ok(texture)
     }
 }
 

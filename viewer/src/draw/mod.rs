@@ -5,6 +5,7 @@ mod buffers;
 mod frame;
 mod gaussians;
 mod program;
+mod texture;
 
 pub use background::BACKGROUND;
 pub use buffers::Buffers;
@@ -15,6 +16,7 @@ use crate::camera::Camera;
 use crate::octree::{Chosen, Id};
 use glow::HasContext;
 use program::Program;
+use texture::texture;
 
 /// Nodes in a row of the texture that lists them, as in `shaders/points.vert`.
 const ROW: usize = 1024;
@@ -40,11 +42,7 @@ impl Renderer {
         let program = Program::new(gl)?;
         // SAFETY: the context is current on this thread; the texture is deleted with the context.
         unsafe {
-            let nodes = gl.create_texture()?;
-            gl.bind_texture(glow::TEXTURE_2D, Some(nodes));
-            for name in [glow::TEXTURE_MIN_FILTER, glow::TEXTURE_MAG_FILTER] {
-                gl.tex_parameter_i32(glow::TEXTURE_2D, name, glow::NEAREST as i32);
-            }
+            let nodes = texture(gl)?;
             gl.enable(glow::PROGRAM_POINT_SIZE);
             Ok(Self { program, nodes })
         }

@@ -5,6 +5,7 @@ pub mod harmonics;
 pub mod reference;
 pub mod sort;
 
+use crate::extent::extent;
 use glam::{Mat3, Quat, Vec3};
 
 /// Most coefficients of a colour: those of degree 3.
@@ -72,17 +73,9 @@ impl Gaussians {
     /// The middle and the radius of a ball that holds most of them.
     #[must_use]
     pub fn extent(&self) -> (Vec3, f32) {
-        let axis = |axis: usize| {
-            let mut all: Vec<f32> = self.all.iter().map(|one| one.place[axis]).collect();
-            all.sort_unstable_by(f32::total_cmp);
-            let at = |share: f32| {
-                all.get(((all.len() as f32 - 1.0) * share) as usize)
-                    .copied()
-            };
-            [at(0.05).unwrap_or(0.0), at(0.95).unwrap_or(0.0)]
-        };
-        let [x, y, z] = [axis(0), axis(1), axis(2)];
-        let (low, high) = (Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]));
-        ((low + high) / 2.0, ((high - low).length() / 2.0).max(1e-6))
+        extent(self.all.iter().map(|one| one.place), FAR)
     }
 }
+
+/// The share of Gaussians at each end of an axis that may be far away: what stands for the sky is.
+const FAR: f32 = 0.05;

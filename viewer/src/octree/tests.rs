@@ -1,20 +1,9 @@
 use super::{CELLS, Choice, Id, Look, Octree};
+use crate::random::Random;
 use crate::read::Point;
 use crate::vertex::Vertex;
 use glam::{DVec3, Mat4, Vec3};
 use std::collections::HashSet;
-
-/// Numbers from 0 to 1, the same in every run (xorshift, Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 40) as f32 / (1_u64 << 24) as f32
-    }
-}
 
 /// A point whose colour is its number.
 fn vertex(place: Vec3, number: u32) -> Vertex {
@@ -27,7 +16,7 @@ fn vertex(place: Vec3, number: u32) -> Vertex {
 fn cloud(random: &mut Random, count: u32) -> Vec<Vertex> {
     (0..count)
         .map(|number| {
-            let at = Vec3::new(random.next(), random.next(), random.next()) - 0.5;
+            let at = Vec3::from_array([(); 3].map(|()| random.unit() as f32)) - 0.5;
             let place = match number % 100 {
                 0..60 => at.normalize_or_zero() * 10.0,
                 60..90 => at * 3.0,
@@ -77,7 +66,7 @@ fn verify(tree: &Octree, count: u32) {
 
 #[test]
 fn every_point_is_in_the_tree_once() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for (count, at_once) in [
         (0, 1),
         (1, 1),
@@ -92,7 +81,7 @@ fn every_point_is_in_the_tree_once() {
 
 #[test]
 fn points_that_do_not_fit_into_memory_are_in_the_file() {
-    let points = cloud(&mut Random(9), 300_000);
+    let points = cloud(&mut Random::new(9), 300_000);
     let memory = 1 << 20;
     let mut tree = tree(&points, memory, 4096);
     let inner = tree.nodes.iter().filter(|node| !node.is_leaf()).count() as u64;
@@ -154,7 +143,7 @@ fn verify_choice(tree: &Octree, choice: &Choice) {
 
 #[test]
 fn a_frame_has_no_more_points_than_it_may() {
-    let points = cloud(&mut Random(3), 400_000);
+    let points = cloud(&mut Random::new(3), 400_000);
     let tree = tree(&points, u64::MAX, 30_000);
     let mut before = 0;
     for budget in [0, 20_000, 100_000, 1_000_000] {
@@ -174,7 +163,7 @@ fn a_frame_has_no_more_points_than_it_may() {
 
 #[test]
 fn what_is_not_ready_is_asked_for_and_nothing_below_it_is_drawn() {
-    let points = cloud(&mut Random(5), 200_000);
+    let points = cloud(&mut Random::new(5), 200_000);
     let tree = tree(&points, u64::MAX, 30_000);
     let from = look(Vec3::new(0.0, 5.0, 30.0));
     let all = tree.choose(&from, u64::MAX, &|_| true);
@@ -196,4 +185,33 @@ fn what_is_behind_the_viewer_is_not_drawn() {
     assert_eq!(tree.choose(&behind, u64::MAX, &|_| true).drawn.len(), 1);
     behind.clip *= Mat4::from_translation(Vec3::new(0.0, 0.0, 120.0));
     assert_eq!(tree.choose(&behind, u64::MAX, &|_| true).drawn.len(), 0);
+}
+
+#[test]
+fn what_is_beside_the_picture_is_drawn_where_other_views_may_see_it() {
+    let points: Vec<_> = (0..1000)
+        .map(|n| vertex(Vec3::new(n as f32 * 1e-4, 0.0, 0.0), n))
+        .collect();
+    let tree = tree(&points, u64::MAX, 100);
+    // The right edge of the picture is where x/z is this.
+    let edge = 1.5 * 0.35_f32.tan();
+    let drawn = |share: f32, up: f32| {
+        let mut from = look(Vec3::new(0.0, 0.0, 50.0));
+        let aside = Vec3::new(50.0 * edge * share, 50.0 * 0.35_f32.tan() * up, 0.0);
+        from.clip *= Mat4::from_translation(aside);
+        tree.choose(&from, u64::MAX, &|_| true).drawn.len()
+    };
+    assert_eq!(
+        [
+            drawn(0.9, 0.0),
+            drawn(1.1, 0.0),
+            drawn(1.3, 0.0),
+            drawn(-1.3, 0.0)
+        ],
+        [1, 1, 0, 0]
+    );
+    assert_eq!(
+        [drawn(0.0, 0.9), drawn(0.0, 1.1), drawn(0.0, -1.1)],
+        [1, 0, 0]
+    );
 }

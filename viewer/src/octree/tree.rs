@@ -2,6 +2,7 @@
 
 use super::node::{Id, Node};
 use super::store::Store;
+use crate::extent::extent;
 use crate::vertex::Vertex;
 use glam::{DVec3, Vec3};
 use std::io;
@@ -98,22 +99,11 @@ impl Octree {
     #[must_use]
     pub fn extent(&self) -> (Vec3, f32) {
         let points = self.points(self.root).unwrap_or_default();
-        let axis = |axis: usize| {
-            let mut all: Vec<f32> = points.iter().map(|point| point.place[axis]).collect();
-            all.sort_unstable_by(f32::total_cmp);
-            let at = |share: f32| {
-                all.get(((all.len() as f32 - 1.0) * share) as usize)
-                    .copied()
-            };
-            [at(0.01).unwrap_or(0.0), at(0.99).unwrap_or(0.0)]
-        };
-        let [x, y, z] = [axis(0), axis(1), axis(2)];
-        let (low, high) = (Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]));
-        let radius = (high - low).length() / 2.0;
-        let smallest = (high.abs().max_element() * f32::EPSILON).max(f32::MIN_POSITIVE);
-        ((low + high) / 2.0, radius.max(smallest))
+        extent(points.iter().map(Vertex::at), FAR)
     }
 }
 
+/// The share of a cloud at each end of an axis that may be far away.
+const FAR: f32 = 0.01;
 /// By how much the surroundings of a node are larger than it.
 const NEAR: f32 = 1.1;

@@ -2,7 +2,7 @@
 
 use super::caught::catch;
 use super::error::{Place, ReadError};
-use super::ply::{Field, Head, VERTEX, fields, scalar};
+use super::ply::{Field, Head, VERTEX, fields, named, scalar};
 use crate::gaussian::{Gaussian, Gaussians, MOST_COEFFICIENTS};
 use glam::{Quat, Vec3};
 use ply_rs_bw::ply::Encoding;
@@ -41,11 +41,7 @@ fn read(path: &Path, memory: u64) -> Result<Option<Gaussians>, ReadError> {
         return Ok(None);
     };
     let known = fields(vertex);
-    let one = |name: &str| {
-        let mut all = known.iter();
-        all.find(|(known, _)| *known == name)
-            .map(|(_, field)| field.clone())
-    };
+    let one = |name: &str| named(&known, name);
     let Some(columns) = columns(&one) else {
         return Ok(None);
     };

@@ -16,7 +16,7 @@ const LONGEST: u64 = 2000;
 
 pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
     let wrong = |error: &dyn std::fmt::Display| ReadError::new(path, Place::Header, error);
-    check_places(path).map_err(|error| wrong(&error))?;
+    let bytes = check_places(path).map_err(|error| wrong(&error))?;
     let mut reader = Reader::from_path(path).map_err(|error| wrong(&error))?;
     let points = reader.header().number_of_points();
     let format = reader.header().point_format();
@@ -26,7 +26,7 @@ pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
             "a point of {record} bytes is more than a point can have"
         )));
     }
-    let room = length(path).map_err(|error| wrong(&error))? / record.max(1);
+    let room = bytes / record.max(1);
     if !is_compressed && room < points {
         let what = format!("the file ends before this point, and has {points} by its header");
         return Err(ReadError::new(path, Place::Point(room + 1), what));
@@ -58,23 +58,14 @@ pub(super) fn open(path: &Path, threads: usize) -> Result<Cloud, ReadError> {
     })
 }
 
-/// Bytes of the points of a file, if they are not compressed.
-fn length(path: &Path) -> io::Result<u64> {
-    let mut file = File::open(path)?;
-    let mut word = [0; 4];
-    file.seek(SeekFrom::Start(POINTS as u64))?;
-    file.read_exact(&mut word)?;
-    let all = file.metadata()?.len();
-    Ok(all.saturating_sub(u64::from(u32::from_le_bytes(word))))
-}
-
 /// Refuses points that begin behind the end of the file, and a table of the chunks of LAZ that is larger than the file: the library would ask for as much memory.
-fn check_places(path: &Path) -> io::Result<()> {
+/// Returns the bytes from the first point to the end.
+fn check_places(path: &Path) -> io::Result<u64> {
     let mut file = File::open(path)?;
     let length = file.metadata()?.len();
     let mut start = [0; FORMAT + 1];
     if length < start.len() as u64 {
-        return Ok(());
+        return Ok(0);
     }
     file.read_exact(&mut start)?;
     let mut word = [0; 4];
@@ -85,8 +76,9 @@ fn check_places(path: &Path) -> io::Result<()> {
             "the points are behind the end of the file",
         ));
     }
+    let bytes = length - points;
     if start[FORMAT] & COMPRESSED == 0 {
-        return Ok(());
+        return Ok(bytes);
     }
     let mut place = [0; 8];
     file.seek(SeekFrom::Start(points))?;
@@ -113,7 +105,7 @@ fn check_places(path: &Path) -> io::Result<()> {
             "{chunks} chunks are more than the file can have"
         )));
     }
-    Ok(())
+    Ok(bytes)
 }
 
 /// Where a file says where its points begin, and in which format they are (LAS 1.4, table 3).

@@ -186,14 +186,17 @@ pub(super) fn fields(vertex: &ElementDef) -> Vec<(&str, Field)> {
     known
 }
 
+/// The property with a name.
+pub(super) fn named(known: &[(&str, Field)], name: &str) -> Option<Field> {
+    let mut all = known.iter();
+    all.find(|(known, _)| *known == name)
+        .map(|(_, field)| field.clone())
+}
+
 impl Fields {
     fn new(vertex: &ElementDef) -> Result<Self, String> {
         let known = fields(vertex);
-        let one = |name: &str| {
-            let mut all = known.iter();
-            all.find(|(known, _)| *known == name)
-                .map(|(_, field)| field.clone())
-        };
+        let one = |name: &str| named(&known, name);
         let three = |[a, b, c]: [&str; 3]| Some([one(a)?, one(b)?, one(c)?]);
         let place = three(["x", "y", "z"]);
         let colours = [

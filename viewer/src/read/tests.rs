@@ -1,4 +1,5 @@
 use super::{Place, Point, ReadError, gaussians, open};
+use crate::random::Random;
 use glam::{DVec3, Quat, Vec3};
 use std::io::Write;
 use std::path::Path;
@@ -261,7 +262,7 @@ fn e57_bytes() -> Vec<u8> {
     let mut scan = writer.add_pointcloud("scan", prototype).expect("a scan");
     for n in 0..3000 {
         let values = [f64::from(n), 2.0, 3.0].map(e57::RecordValue::Double);
-        let colour = [10, 20, 30].map(e57::RecordValue::Integer);
+        let colour = [10, 200, 255].map(e57::RecordValue::Integer);
         let point = values.into_iter().chain(colour).collect();
         scan.add_point(point).expect("a point");
     }
@@ -270,43 +271,31 @@ fn e57_bytes() -> Vec<u8> {
     std::fs::read(file.path()).expect("bytes")
 }
 
-/// Numbers that are the same in every run (xorshift, Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as usize % end.max(1)
-    }
-
-    /// A file with a few bytes changed, left out or doubled, most of them where formats have their headers.
-    fn spoil(&mut self, bytes: &[u8]) -> Vec<u8> {
-        let mut spoilt = bytes.to_vec();
-        for _ in 0..=self.below(4) {
-            let end = match self.below(3) {
-                0 => spoilt.len(),
-                _ => spoilt.len().min(600),
-            };
-            let at = self.below(end);
-            match self.below(8) {
-                0 => spoilt.truncate(at),
-                1 => drop(spoilt.drain(at..(at + self.below(40)).min(spoilt.len()))),
-                2 => {
-                    let part = spoilt[at..(at + self.below(40)).min(spoilt.len())].to_vec();
-                    spoilt.splice(at..at, part);
-                }
-                3 => spoilt.splice(at..at, *b"9999999999").for_each(drop),
-                4 | 5 if !spoilt.is_empty() => {
-                    spoilt[at] = [0, 255, 127, 128, b'-', b'9', b' '][self.below(7)]
-                }
-                _ if !spoilt.is_empty() => spoilt[at] ^= 1 << self.below(8),
-                _ => {}
+/// A file with a few bytes changed, left out or doubled, most of them where formats have their headers.
+fn spoil(random: &mut Random, bytes: &[u8]) -> Vec<u8> {
+    let mut spoilt = bytes.to_vec();
+    for _ in 0..=random.below(4) {
+        let end = match random.below(3) {
+            0 => spoilt.len(),
+            _ => spoilt.len().min(600),
+        };
+        let at = random.below(end);
+        match random.below(8) {
+            0 => spoilt.truncate(at),
+            1 => drop(spoilt.drain(at..(at + random.below(40)).min(spoilt.len()))),
+            2 => {
+                let part = spoilt[at..(at + random.below(40)).min(spoilt.len())].to_vec();
+                spoilt.splice(at..at, part);
             }
+            3 => spoilt.splice(at..at, *b"9999999999").for_each(drop),
+            4 | 5 if !spoilt.is_empty() => {
+                spoilt[at] = [0, 255, 127, 128, b'-', b'9', b' '][random.below(7)]
+            }
+            _ if !spoilt.is_empty() => spoilt[at] ^= 1 << random.below(8),
+            _ => {}
         }
-        spoilt
     }
+    spoilt
 }
 
 const GAUSSIAN: [&str; 14] = [
@@ -398,11 +387,11 @@ fn spoilt_files(count: u32) {
         ("e57", e57_bytes()),
         ("gaussians", gaussian_bytes(&[0.5; 14], 30)),
     ];
-    let mut random = Random(2026);
+    let mut random = Random::new(2026);
     for (name, bytes) in formats {
         let mut refused = 0;
         for _ in 0..count {
-            let spoilt = random.spoil(&bytes);
+            let spoilt = spoil(&mut random, &bytes);
             let (_, fault) = read(file(&spoilt).path());
             let _ = gaussians(file(&spoilt).path(), 1 << 28);
             if let Some(fault) = fault {
@@ -423,7 +412,7 @@ fn spoilt_files_are_refused_or_read() {
 }
 
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "more than a minute: make test-long"]
 fn many_spoilt_files_are_refused_or_read() {
     spoilt_files(100_000);
 }
@@ -434,7 +423,7 @@ fn e57() {
     let points = whole(&bytes);
     assert_eq!(points.len(), 3000);
     assert_eq!(points[7].place, DVec3::new(7.0, 2.0, 3.0));
-    assert_eq!(points[7].colour, Some([10, 20, 30]));
+    assert_eq!(points[7].colour, Some([10, 200, 255]));
     let (at, what) = fault(&bytes[..bytes.len() / 2]);
     assert_eq!(at, Place::Header, "{what}");
     // A byte in the middle of the points.

@@ -1,6 +1,6 @@
-//! What a frame shows.
+//! A cloud of points, of which a frame shows as many as there is time for.
 
-use super::arguments::Arguments;
+use super::arguments::{Arguments, FPS};
 use super::content::Content;
 use super::input::Change;
 use super::title::Title;
@@ -18,12 +18,13 @@ use std::time::{Duration, Instant};
 /// The first picture waits so long for the file, so that a small one is there whole.
 const PATIENCE: Duration = Duration::from_millis(700);
 const MOMENT: Duration = Duration::from_millis(2);
-/// A node whose points have become more by this share is made ready again while the file is read.
+/// While the file is read, a node is made ready again once one in so many of its points is new.
 const GROWTH: u32 = 3;
 /// At most so many points are copied to the graphics card before a frame.
 const COPIED: usize = 500_000;
+
 /// The cloud, from where it is seen and what it is drawn with.
-pub(super) struct Frames {
+pub(super) struct PointCloud {
     title: Title,
     loading: Loading,
     preparation: Preparation,
@@ -39,7 +40,7 @@ pub(super) struct Frames {
     is_first: bool,
 }
 
-impl Frames {
+impl PointCloud {
     pub(super) fn new(loading: Loading, up: Up, arguments: &Arguments, threads: usize) -> Self {
         let name = arguments.file.file_name().unwrap_or_default();
         Self {
@@ -47,7 +48,7 @@ impl Frames {
             preparation: Preparation::start(&loading, threads),
             loading,
             viewpoint: Viewpoint::new(up, arguments),
-            pace: Pace::new(arguments.fps),
+            pace: Pace::new(arguments.fps.unwrap_or(FPS)),
             buffers: Buffers::new(arguments.memory / 2),
             renderer: None,
             choice: Choice::default(),
@@ -96,7 +97,7 @@ impl Frames {
         Ok(())
     }
 
-    /// Tells once why the file was not read to its end, and how many of its points are nowhere.
+    /// Tells once why the file was not read to its end.
     fn tell_faults(&mut self) {
         if let Some(error) = self.loading.progress.take_error() {
             eprintln!("manyview-points: {error}; the points read before are shown");
@@ -104,7 +105,7 @@ impl Frames {
     }
 }
 
-impl Content for Frames {
+impl Content for PointCloud {
     fn prepare(&mut self, window: &Window) -> Result<(), String> {
         self.renderer = Some(Renderer::new(window.gl())?);
         Ok(())
@@ -118,7 +119,8 @@ impl Content for Frames {
         self.viewpoint.change(change);
     }
 
-    fn draw(&mut self, window: &Window) -> Result<Option<String>, String> {
+    fn draw(&mut self, window: &Window, since: Duration) -> Result<Option<String>, String> {
+        self.viewpoint.advance(since);
         self.choose(window)?;
         while self.is_first && self.opened.elapsed() < PATIENCE && self.is_busy() {
             sleep(MOMENT);
@@ -132,7 +134,6 @@ impl Content for Frames {
         if let (Some(camera), Some(renderer)) = (&self.viewpoint.camera, &self.renderer) {
             let drawn = &self.choice.drawn;
             renderer.draw(window.gl(), &self.buffers, drawn, camera, frame);
-            self.viewpoint.advance();
             self.is_first = false;
         }
         self.tell_faults();
