@@ -157,6 +157,21 @@ fn attenuated_points_by_invocations() {
 }
 
 #[test]
+fn lit_points_for_all_views_at_once() {
+    let key = FixedKey {
+        target: target(Amplifier::Points, Tiles::Layer, Primitive::Points, 1),
+        point: PointSize::Attenuated,
+        lighting: Some(Lighting {
+            two_side: true,
+            ..Lighting::default()
+        }),
+        clip_planes: 4,
+        ..FixedKey::default()
+    };
+    insta::assert_snapshot!(text(&key));
+}
+
+#[test]
 fn flat_quads_for_distorted_rays() {
     let key = FixedKey {
         target: target(

@@ -159,37 +159,19 @@ fn current<R>(f: impl FnOnce(&Context) -> R) -> Option<R> {
 /// context, if the call comes from inside the layer or the driver or between glBegin and glEnd, or if the layer is off. A panic turns
 /// the layer off for good.
 pub(crate) fn enter<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
+    enter_unsettled(|gl, l| {
+        l.settle(gl);
+        f(gl, l)
+    })
+}
+
+/// As [`enter`], for commands after which more may be drawn to the samples of the panel.
+pub(crate) fn enter_unsettled<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
     with_context(|gl, _, work| work.layer.as_mut().map(|l| f(gl, l))).flatten()
 }
 
-/// Runs `f` in place of the program's own call, which it gets. Where there is no layer to run it on, and where a fault ends it before the
-/// program's own view has got the call, the call is made as it is.
-pub(crate) fn instead(call: &mut dyn FnMut(), f: impl FnOnce(&Gl, &mut Layer, &mut dyn FnMut())) {
-    instead_at((), &mut |()| call(), |gl, l, call| {
-        f(gl, l, &mut || call(()))
-    });
-}
-
-/// As [`instead`], for a call that is made at the place of each view; `as_it_is` is that of the program.
-pub(crate) fn instead_at<P>(
-    as_it_is: P,
-    call: &mut dyn FnMut(P),
-    f: impl FnOnce(&Gl, &mut Layer, &mut dyn FnMut(P)),
-) {
-    let mut made = false;
-    let done = enter(|gl, l| {
-        f(gl, l, &mut |place| {
-            own_call(|| call(place));
-            made = true;
-        });
-    });
-    if done.is_none() && (take_owed() || !made) {
-        call(as_it_is);
-    }
-}
-
 /// Whether the last fault of this thread came after a call was made for other views than the program's own. The next answer is no.
-fn take_owed() -> bool {
+pub(crate) fn take_owed() -> bool {
     THREAD.with(|t| t.owed.replace(false))
 }
 

@@ -1,6 +1,7 @@
 //! The functions that generated hooks call: one per class of command.
 
-use crate::context::{self, enter, instead};
+use crate::context::{self, enter};
+use crate::instead::{instead, instead_at};
 use manyview_core::gl::{Gl, Real, TextureName};
 use manyview_core::layer::Layer;
 
@@ -157,7 +158,7 @@ pub(crate) fn copy(
         TextureAt::Named(texture) => texture,
         _ => TextureName::ZERO,
     };
-    context::instead_at(name, &mut |name| call(real(), name), |gl, l, each| {
+    instead_at(name, &mut |name| call(real(), name), |gl, l, each| {
         l.copy_texture(gl, to, [x, width], each);
     });
 }
@@ -170,7 +171,7 @@ pub(crate) fn copy_now(
     call: &mut dyn FnMut(&'static Real, TextureName),
 ) {
     before_uncompiled();
-    context::instead_at(texture, &mut |name| call(real(), name), |gl, l, each| {
+    instead_at(texture, &mut |name| call(real(), name), |gl, l, each| {
         l.copy_texture_now(gl, texture, [x, width], each);
     });
 }

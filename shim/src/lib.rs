@@ -17,6 +17,7 @@ mod exports;
 mod fault;
 mod geometry;
 mod hooks;
+mod instead;
 mod keys;
 mod limiter;
 mod live;

@@ -72,6 +72,11 @@ pub const CONFIGURATIONS: &[Configuration] = &[
         "one draw, a geometry shader makes the views",
     ),
     row(
+        "splats",
+        &[(OptionId::Strategy, "splats")],
+        "points once for all views, the rest by replay",
+    ),
+    row(
         "depth-image",
         &[(OptionId::Strategy, "depth-image")],
         "the scene once, the other views by its depths",

@@ -10,6 +10,7 @@ pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("replay", Strategy::Replay),
     ("instanced", Strategy::Instanced),
     ("geometry", Strategy::Geometry),
+    ("splats", Strategy::Splats),
     ("depth-image", Strategy::DepthImage),
     ("occlusion", Strategy::Occlusion),
     ("hybrid", Strategy::Hybrid),
@@ -29,6 +30,8 @@ pub enum Strategy {
     Instanced,
     /// One draw through a generated geometry shader.
     Geometry,
+    /// Points once for all views, straight into what a panel shows; everything else by replay.
+    Splats,
     /// The scene in one view; the other views are synthesised from its depths.
     DepthImage,
     /// The same, with the reference image of an occlusion camera for the disocclusions.
@@ -93,6 +96,7 @@ impl Strategy {
             Strategy::Geometry => Repetition::GeometryShader,
             Strategy::Auto
             | Strategy::Replay
+            | Strategy::Splats
             | Strategy::DepthImage
             | Strategy::Occlusion
             | Strategy::Hybrid => Repetition::Calls,
@@ -106,7 +110,11 @@ impl Strategy {
             Strategy::DepthImage => Some(DisocclusionSource::Nothing),
             Strategy::Occlusion => Some(DisocclusionSource::Reference),
             Strategy::Hybrid => Some(DisocclusionSource::Views),
-            Strategy::Auto | Strategy::Replay | Strategy::Instanced | Strategy::Geometry => None,
+            Strategy::Auto
+            | Strategy::Replay
+            | Strategy::Instanced
+            | Strategy::Geometry
+            | Strategy::Splats => None,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The generated programs of a context, compiled when a draw first needs them.
 
 use super::fixed_state::Driver;
+use super::point_locations::PointLocations;
 use crate::fixed::{
     Clip, FixedKey, FragmentKey, Limits, Patches, generate, generate_fragment, sampler,
 };
@@ -41,6 +42,7 @@ pub(super) struct Program {
     pub(super) window: i32,
     pub(super) disparity: i32,
     pub(super) levels: i32,
+    pub(super) points: PointLocations,
     /// The present values of the uniforms.
     pub(super) uploaded: Uniforms,
 }
@@ -130,6 +132,7 @@ impl Programs {
             window: gl.uniform_location(name, c"mv_window"),
             disparity: gl.uniform_location(name, c"mv_disparity"),
             levels: gl.uniform_location(name, c"mv_levels"),
+            points: PointLocations::of(gl, name, "mv_"),
             uploaded: Uniforms::default(),
         });
         if let (Some(program), Some(key)) = (&program, &stages.1) {
@@ -160,6 +163,10 @@ fn name_units(gl: &Gl, program: ProgramName, key: &FragmentKey) {
 }
 
 impl Program {
+    pub(super) fn views_location(&self) -> i32 {
+        self.views
+    }
+
     /// Sets the uniforms that have changed. `mv_first` stays 0: the views of each call begin at index 0.
     pub(super) fn upload(&mut self, gl: &Gl, new: Uniforms) {
         if self.uploaded.rows != new.rows {

@@ -1,10 +1,11 @@
 //! Program variants: a variant draws the views in place of one of the program's own GLSL programs, and is linked from rewritten shaders.
 //! The program's own object stays as it is and answers all queries of the program.
 
+use super::point_locations::PointLocations;
 use crate::gl::{Active, Gl, ProgramName, ShaderName, consts as c};
 use crate::plan::{Along, Flat, Shear};
 use crate::rewrite::{
-    Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, rewrite,
+    Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, points, rewrite,
 };
 use crate::state::ShaderSource;
 use std::borrow::Cow;
@@ -90,6 +91,7 @@ pub struct Variant {
     blocks: Vec<Option<u32>>,
     /// The same of storage blocks.
     storage: Vec<Option<u32>>,
+    points: PointLocations,
 }
 
 /// Finds how the draws of a program get their views, and links its variant where it needs one. `sources` are the sources that the program was
@@ -138,6 +140,43 @@ pub fn drawn(
         .map_err(NoVariant::Driver)?;
     let variant = Variant::of(gl, program, name, &shift, &rewritten);
     Ok(Drawn::ByVariant(Arc::new(variant)))
+}
+
+/// Links the variant of a program that draws points for all views at once (see [`crate::rewrite::points`]). `compatibility`: of the context's profile.
+///
+/// # Errors
+/// Why there is no such variant.
+pub fn pointed(
+    gl: &Gl,
+    program: ProgramName,
+    sources: &[ShaderSource],
+    compatibility: bool,
+) -> Result<Variant, NoVariant> {
+    last_stage(sources)?;
+    let of = |stage: Stage| sources.iter().find(|shader| shader.stage == stage);
+    let [Some(vertex), Some(fragment)] = [of(Stage::Vertex), of(Stage::Fragment)] else {
+        return Err(NoVariant::NoFragment);
+    };
+    if sources.len() > 2 {
+        return Err(NoVariant::Stages);
+    }
+    let new = points(&vertex.source, &fragment.source, compatibility)?;
+    let rewritten = Rewritten {
+        sources: vec![
+            (vertex.kind, vertex.source.as_slice().into()),
+            (c::GEOMETRY_SHADER, new.geometry.as_bytes().into()),
+            (fragment.kind, new.fragment.into()),
+        ],
+        ..Rewritten::default()
+    };
+    let shaders = rewritten.compile(gl)?;
+    let attributes = locations(gl.active_attributes(program), |name| {
+        gl.attribute_location(program, name)
+    });
+    let name = gl
+        .link_at(&shaders, &attributes, &outputs(gl, program))
+        .map_err(NoVariant::Driver)?;
+    Ok(Variant::of(gl, program, name, &new.names, &rewritten))
 }
 
 /// The last stage that writes positions of vertices.
@@ -339,12 +378,18 @@ impl Variant {
                 .map(|at| gl.same_block(program, at, name))
                 .collect(),
             storage: same_storage_blocks(gl, program, name),
+            points: PointLocations::of(gl, name, &shift.prefix()),
         }
     }
 
     /// The program object of the variant.
     pub fn name(&self) -> ProgramName {
         self.name
+    }
+
+    /// The locations of the uniforms of a variant from [`pointed`].
+    pub(super) fn point_locations(&self) -> PointLocations {
+        self.points
     }
 
     /// Copies the values of the program's uniforms and block bindings to the variant, which has to be in use: of uniforms those that may have

@@ -158,7 +158,7 @@ pub fn batch(key: &FixedKey, limits: &Limits) -> u32 {
     let per_run = (limits.geometry_output_vertices / vertices)
         .min(limits.geometry_total_output_components / (vertices * components).max(1));
     match key.target.amplifier {
-        Amplifier::Instanced | Amplifier::Tessellation => capacity,
+        Amplifier::Instanced | Amplifier::Tessellation | Amplifier::Points => capacity,
         Amplifier::GeometryLoop => per_run.min(capacity),
         Amplifier::GeometryInvocations if per_run == 0 => 0,
         Amplifier::GeometryInvocations => limits.geometry_invocations.min(capacity),

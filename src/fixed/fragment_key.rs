@@ -3,7 +3,7 @@
 //! As in [`FixedKey`](super::FixedKey), the key names the computations and not their values: fog parameters and
 //! environment colours reach the shader through built-in uniforms, texture images through samplers.
 
-use super::key::{Dialect, FixedKey, FogSource, Tiles, UNITS};
+use super::key::{Amplifier, Dialect, FixedKey, FogSource, Tiles, UNITS};
 
 /// Everything that decides the source of a generated fragment shader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -21,6 +21,8 @@ pub struct FragmentKey {
     pub discard: bool,
     /// A second output is the displacement of the sample: [`Tiles::DistortedRays`](super::Tiles::DistortedRays) of the vertex stage.
     pub displaced: bool,
+    /// Pixels ask what their view sees of a point: [`Amplifier::Points`](super::Amplifier::Points) of the stages before.
+    pub points: bool,
     /// How the driver reads the specification where drivers differ.
     pub dialect: Dialect,
 }
@@ -221,6 +223,7 @@ impl FragmentKey {
             self.fog = FogMode::None;
         }
         self.discard = vertex.target.discards();
+        self.points = vertex.target.amplifier == Amplifier::Points;
         self.displaced = vertex.target.tiles == Tiles::DistortedRays;
         self
     }

@@ -7,11 +7,12 @@
 //! The order of emission keeps the order of the input, so the driver's provoking vertex is the program's own. A quad or
 //! polygon arrives as another primitive (see [`Primitive`]), so its flat colour is written to every vertex.
 
-use super::components::varyings;
-use super::key::{Amplifier, Diagonal, FixedKey, Primitive, Provoking};
+use super::components::{Varying, varyings};
+use super::key::{Amplifier, Diagonal, FixedKey, PointSize, Primitive, Provoking};
 use super::limits::Limits;
+use super::points::{PointPlace, point_quads};
 use super::reason::Unsupported;
-use super::text::Text;
+use super::text::{Text, VERSION};
 use super::{UNIFORM_CLIP, UNIFORM_FIRST, UNIFORM_VIEWS, vertex};
 use crate::config::Clip;
 
@@ -62,6 +63,9 @@ fn output_layout(primitive: Primitive) -> &'static str {
 
 /// Source of the geometry shader of a canonical key.
 pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupported> {
+    if key.target.amplifier == Amplifier::Points {
+        return Ok(write_points(key));
+    }
     let mut text = Text::default();
     let views = key.target.views;
     let primitive = key.target.primitive;
@@ -106,6 +110,38 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
     }
     write_main(&mut text, key, invocations);
     Ok(text.finish())
+}
+
+/// The geometry shader of points for all views. A point has the colours of its front.
+fn write_points(key: &FixedKey) -> String {
+    let mut text = Text::default();
+    text.line("#version 150 compatibility");
+    text.line("layout(points) in;");
+    text.line("layout(triangle_strip, max_vertices = 4) out;");
+    vertex::write_block(&mut text, key, "in", "mv_in[]");
+    let distances = key.clip_distances();
+    if distances != 0 {
+        text.line(format!("out float gl_ClipDistance[{distances}];"));
+    }
+    text.open("void mv_pass() {");
+    for varying in varyings(key) {
+        let member = match varying {
+            Varying::PointSize => continue,
+            Varying::Back => Varying::Front.member(),
+            Varying::BackSecondary => Varying::FrontSecondary.member(),
+            _ => varying.member(),
+        };
+        if let Some(builtin) = varying.builtin(key) {
+            text.line(format!("{builtin} = mv_in[0].{member};"));
+        }
+    }
+    text.close("}");
+    let size = match key.point {
+        PointSize::Attenuated => "mv_in[0].size",
+        PointSize::Unused | PointSize::Constant => "1.0",
+    };
+    let quads = point_quads("mv_", PointPlace::Rows, VERSION, [size, "mv_in[0].vertex"]);
+    text.finish() + &quads
 }
 
 /// Writes `mv_emit(vertex, view)`, which emits one vertex with all outputs that the fixed fragment stage and the rasteriser

@@ -75,6 +75,8 @@ pub enum Amplifier {
     GeometryInvocations,
     /// Tessellation subdivides triangles and quads, which are drawn as patches.
     Tessellation,
+    /// A geometry shader emits one quad for a point, which holds it in all views: see [`super::point_quads`].
+    Points,
 }
 
 /// Where the views lie in memory.
@@ -386,6 +388,10 @@ impl FixedKey {
             Amplifier::Tessellation => {
                 self.target.views = 1;
                 self.point = PointSize::Unused;
+            }
+            Amplifier::Points => {
+                self.target.views = 1;
+                self.target.primitive = Primitive::Points;
             }
             Amplifier::GeometryLoop | Amplifier::GeometryInvocations => {
                 self.target.views = self.target.views.max(1);

@@ -46,6 +46,7 @@ mod key;
 mod lighting;
 mod limits;
 mod patches;
+mod points;
 mod reason;
 mod tessellation;
 mod texgen;
@@ -68,6 +69,7 @@ pub use key::{
 };
 pub use limits::{Limits, VertexLayer};
 pub use patches::Patches;
+pub use points::{PointPlace, point_globals, point_quads, point_sight};
 pub use reason::{Rasterised, Surroundings, Unsupported};
 pub use tessellation::{LEVELS, UNIFORM_LEVELS};
 

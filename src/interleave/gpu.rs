@@ -189,6 +189,11 @@ impl Interleaver {
             .map(|e| format!("pictures are interleaved by the CPU: {e}"))
     }
 
+    /// The vertex array of passes, which has no attributes.
+    pub fn vertex_array(&self) -> VertexArrayName {
+        self.vertex_array
+    }
+
     /// Takes the errors that were found before the mask was uploaded: they are the program's, oldest first.
     pub fn take_errors(&mut self) -> Vec<u32> {
         std::mem::take(&mut self.errors)
@@ -257,15 +262,7 @@ impl Interleaver {
         let placement = &panel.placement;
         let form = Form::of(config, panel.display, output);
         let of = (output, *placement, panel.display.lens());
-        if self.mask.as_ref().is_none_or(|(known, _)| *known != of)
-            && let Some(mask) = form.mask(placement, config.views)
-        {
-            let mask = mask.map_err(|e| e.to_string())?;
-            let shown = mask.views_shown().into_iter();
-            self.shown = shown.map(|view| ViewIndex(view.into())).collect();
-            self.lit = !mask.data().as_flattened().contains(&GUARD);
-            self.mask = Some((of, mask));
-        }
+        self.know(of, &form, config)?;
         let size = [placement.width, placement.height];
         self.refused = false;
         let pass = self.pass(gl, neutral.pixels(), of, &form, source, size);
@@ -332,6 +329,39 @@ impl Interleaver {
             gl.enable_srgb(false);
         }
         Ok(())
+    }
+
+    /// Computes the mask of a picture, where it is not that of the last one.
+    fn know(&mut self, of: Of, form: &Form, config: &Config) -> Result<(), String> {
+        if self.mask.as_ref().is_none_or(|(known, _)| *known != of)
+            && let Some(mask) = form.mask(&of.1, config.views)
+        {
+            let mask = mask.map_err(|e| e.to_string())?;
+            let shown = mask.views_shown().into_iter();
+            self.shown = shown.map(|view| ViewIndex(view.into())).collect();
+            self.lit = !mask.data().as_flattened().contains(&GUARD);
+            self.mask = Some((of, mask));
+        }
+        Ok(())
+    }
+
+    /// Binds the mask of a panel's picture, which then holds views: the columns and rows after which it repeats, and whether all subpixels of a pixel show the same view.
+    /// None where there is no such mask, or the CPU makes the pictures.
+    pub fn bind_views(
+        &mut self,
+        gl: &Gl,
+        neutral: &Neutral,
+        config: &Config,
+        panel: &PanelPlacement,
+    ) -> Option<([u32; 2], bool)> {
+        let form = Form::of(config, panel.display, Output::Panel);
+        let of = (Output::Panel, panel.placement, panel.display.lens());
+        if !matches!(form, Form::Panel(_, Filter::Nearest)) {
+            return None;
+        }
+        self.know(of, &form, config).ok()?;
+        let known = self.upload(gl, neutral.pixels(), of, None, None)?;
+        (!self.refused).then_some((known.period, known.whole))
     }
 
     /// The pass of a picture. Binds the mask where the pass needs it.

@@ -34,6 +34,24 @@ pub enum Pass {
     Subpixels,
     /// The picture from the images of groups of splats.
     Compose,
+    /// The samples of the views that a panel shows.
+    Samples(Samples),
+}
+
+/// A step from the tiles to the samples and back; see `shaders/samples.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Samples {
+    /// The views of the samples, from the mask.
+    Views,
+    /// The samples, from the tiles.
+    Gather,
+    /// A tile, from the samples.
+    Scatter,
+}
+
+impl Samples {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Views, Self::Gather, Self::Scatter];
 }
 
 /// What the fragments of splats are; see `shaders/points.wgsl`.
@@ -150,6 +168,7 @@ impl Pass {
             .chain(Step::ALL.map(Self::Accumulate))
             .chain(Synthesis::ALL.map(Self::Synthesis))
             .chain(Points::ALL.map(Self::Points))
+            .chain(Samples::ALL.map(Self::Samples))
     }
 }
 

@@ -5,7 +5,7 @@
 //! `ADJUST_COORDINATE_SPACE`): the shaders are written for OpenGL's window space, y upwards.
 #![forbid(unsafe_code)]
 
-pub use super::pass::{Group, Pass, Points, SampleAligned, Step, Synthesis, Texels};
+pub use super::pass::{Group, Pass, Points, SampleAligned, Samples, Step, Synthesis, Texels};
 pub use super::uniforms::{MaskUniforms, Uniforms};
 use crate::config::DisocclusionSource;
 use naga::back::glsl;
@@ -38,6 +38,7 @@ const POINTS: &str = include_str!("../../shaders/points.wgsl");
 const DEFERRED: &str = include_str!("../../shaders/deferred.wgsl");
 const COMPOSE: &str = include_str!("../../shaders/compose.wgsl");
 const SUBPIXELS: &str = include_str!("../../shaders/subpixels.wgsl");
+const SAMPLES: &str = include_str!("../../shaders/samples.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
 /// Texture unit of the views: a 2D array texture.
@@ -52,6 +53,8 @@ pub const DEPTH_UNIT: u32 = 2;
 pub const RAY_RANGE_UNIT: u32 = 3;
 /// Texture unit of the disparity range of blocks: a 2D array texture.
 pub const BLOCK_BOUNDS_UNIT: u32 = 4;
+/// Texture unit of the views of samples: a 2D texture; see `shaders/samples.wgsl`.
+pub const SEEN_UNIT: u32 = 3;
 /// Texture units of the depth discontinuities of blocks, and of the blocks near them; see `shaders/distortion.wgsl`.
 pub const STEPS_UNITS: [u32; 2] = [5, 6];
 /// Texture units of the reference image of an occlusion camera: distortion map, colours, depths, and distortions of the samples in pixels.
@@ -338,6 +341,9 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Points(Points::Group(Group::Rays)) => "deferred_rays",
         Pass::Points(Points::Group(Group::Parameters)) => "deferred_parameters",
         Pass::Compose => "compose",
+        Pass::Samples(Samples::Views) => "seen_views",
+        Pass::Samples(Samples::Gather) => "gather",
+        Pass::Samples(Samples::Scatter) => "scatter",
         Pass::Synthesis(Synthesis::BlockBounds) => "block_bounds",
         Pass::Synthesis(Synthesis::RowMaxima) => "row_maxima",
         Pass::Synthesis(Synthesis::RayRange) => "ray_range",
@@ -366,6 +372,7 @@ pub(super) fn source(pass: Pass) -> String {
         Pass::Points(Points::Group(_)) => [POINTS, MASK, DEFERRED].join("\n"),
         Pass::Points(_) => [POINTS, MASK].join("\n"),
         Pass::Compose => [COVER, COMPOSE].join("\n"),
+        Pass::Samples(_) => [COVER, SAMPLES, MASK].join("\n"),
         Pass::Subpixels => [COVER, SUBPIXELS].join("\n"),
         Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::DistortionMap) => {
             [COVER, COMMON, ATLAS, DISPARITY, PLAIN, DISTORTION].join("\n")

@@ -122,6 +122,7 @@ impl Layer {
         if self.size() == (width, height) {
             return;
         }
+        self.settle(gl);
         self.drop_proof(gl);
         self.known.mono = Mono::default();
         self.forget_scene();

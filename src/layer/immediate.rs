@@ -33,6 +33,9 @@ impl Layer {
             return Primitive::None;
         }
         self.state.refresh(gl);
+        if !self.state.makes_pictures() || mode != c::POINTS {
+            self.settle(gl);
+        }
         if !self.state.makes_pictures() || mode > c::POLYGON {
             self.queries.drawn();
             self.state.begin = Begin::Direct;

@@ -35,6 +35,7 @@ mod osd;
 mod own_variants;
 mod panel;
 mod passes;
+mod points;
 mod programs;
 mod prove;
 mod quad_buffer;
@@ -130,6 +131,7 @@ pub struct Layer {
     blocks: Blocks,
     write_bindings: WriteBindings,
     queries: queries::Queries,
+    points: points::MultiViewPoints,
     diagnostics: Diagnostics,
 }
 
@@ -215,6 +217,7 @@ impl Layer {
             blocks: Blocks::default(),
             write_bindings: WriteBindings::default(),
             queries: queries::Queries::default(),
+            points: points::MultiViewPoints::default(),
             diagnostics: Diagnostics::new(report),
         });
         told.into_iter().for_each(|told| layer.announce(told));
@@ -247,6 +250,10 @@ impl Layer {
         let proving = self.diagnostics.proving.atlas();
         !name.is_zero()
             && (self.targets.owns_texture(name)
+                || self
+                    .points
+                    .samples()
+                    .is_some_and(|samples| samples.textures().contains(&name))
                 || self.canvases.owns_texture(name)
                 || proving.is_some_and(|atlas| atlas.owns(name)))
     }
@@ -272,6 +279,10 @@ impl Layer {
         let proving = self.diagnostics.proving.atlas();
         !name.is_zero()
             && (self.targets.owns_framebuffer(name)
+                || self
+                    .points
+                    .samples()
+                    .is_some_and(|samples| samples.framebuffers().contains(&name))
                 || self.canvases.owns_framebuffer(name)
                 || proving.is_some_and(|atlas| atlas.framebuffers().any(|own| own == name)))
     }
@@ -335,6 +346,10 @@ impl Layer {
         if let Some(osd) = self.targets.osd.take() {
             osd.delete(gl);
         }
+        self.settle(gl);
+        if let Some(samples) = self.points.take() {
+            samples.delete(gl);
+        }
     }
 
     fn rename_accumulation(&mut self, gl: &Gl) {
@@ -375,6 +390,7 @@ impl Layer {
         if self.is_plain() {
             return true;
         }
+        self.settle(gl);
         self.state.refresh(gl);
         self.leave_mono(gl);
         let grid = self.grid();

@@ -12,6 +12,7 @@ impl Layer {
         gl: &Gl,
         work: impl FnOnce(&mut Self, &Neutral) -> R,
     ) -> R {
+        self.settle(gl);
         self.yield_taken_names(gl);
         self.queries.pause(gl);
         self.queries.lift_condition(gl);

@@ -136,7 +136,7 @@ impl Layer {
         rays: &Rays,
     ) -> Result<(), Reason> {
         let (program, rig) = (self.state.in_use.program, self.known.rig);
-        let linked = self.link_distorting(gl, program);
+        let linked = self.link_other(gl, program, VariantUse::Rays);
         linked.map_err(Reason::NoReference)?;
         let units = self.units_of(gl, program);
         let units: Vec<u32> = units.into_iter().map(|(unit, _)| unit).collect();

@@ -41,6 +41,10 @@ impl Layer {
             lists.orphans.framebuffers.push(osd.framebuffer());
             lists.orphans.textures.push(osd.texture());
         }
+        if let Some(samples) = self.points.samples() {
+            lists.orphans.framebuffers.extend(samples.framebuffers());
+            lists.orphans.textures.extend(samples.textures());
+        }
         let programs = self
             .targets
             .interleaver
@@ -48,6 +52,7 @@ impl Layer {
             .chain(self.variants.programs.names());
         let programs = programs.chain(self.variants.own.names());
         let programs = programs.chain(self.synthesis.programs());
+        let programs = programs.chain(self.points.programs());
         lists.orphans.programs.extend(programs);
         let accumulated = std::iter::once(&self.targets.accumulated);
         let accumulated = accumulated.chain(self.canvases.accumulated());

@@ -30,6 +30,8 @@ pub(super) enum VariantUse {
     Instances,
     /// The reference image of an occlusion camera.
     Rays,
+    /// Points for all views at once.
+    Points,
 }
 
 /// A variant in use.
@@ -65,6 +67,9 @@ struct CameraSearch {
     seen: [u64; 2],
 }
 
+/// A variant, or why there is none; none before it is wanted.
+type Made = Option<Result<Arc<Variant>, String>>;
+
 /// Record of one program: its variants, and its uniforms that the layer follows.
 #[derive(Debug)]
 pub(super) struct ProgramRecord {
@@ -75,8 +80,8 @@ pub(super) struct ProgramRecord {
     how: Result<Drawn, NoVariant>,
     /// The variants that choose layers, for one view and for all: none until one is wanted, `Some(None)` where there cannot be one.
     layered: [Option<Option<Arc<Variant>>>; 2],
-    /// The variant that distorts rays, once it has been wanted.
-    distorting: Option<Result<Arc<Variant>, NoVariant>>,
+    /// The variants of [`VariantUse::Rays`] and [`VariantUse::Points`], or why there is none, once one has been wanted.
+    others: [Made; 2],
     matrices: Matrices,
     samplers: Samplers,
     effects: SideEffects,
@@ -87,7 +92,7 @@ pub(super) struct ProgramRecord {
     unprojections: ([u64; 2], f64, Arc<Unprojections>),
     camera: CameraSearch,
     /// By [`VariantUse`]: [`uniform_change`] when uniforms were last copied to the variant, and what that returned.
-    followed: [(u64, u64); 4],
+    followed: [(u64, u64); 5],
 }
 
 impl ProgramRecord {
@@ -116,9 +121,9 @@ impl ProgramRecord {
                 oblique: None,
                 seen: [0; 2],
             },
-            followed: [(0, 0); 4],
+            followed: [(0, 0); 5],
             layered: [None, None],
-            distorting: None,
+            others: [None, None],
         }
     }
 
@@ -129,11 +134,11 @@ impl ProgramRecord {
             _ => None,
         };
         let layered = self.layered.iter().flatten().flatten();
-        let distorting = self.distorting.iter().flatten();
+        let others = self.others.iter().flatten().flatten();
         whole
             .into_iter()
             .chain(layered)
-            .chain(distorting)
+            .chain(others)
             .map(|variant| variant.name())
     }
 }
@@ -147,14 +152,15 @@ impl OwnVariants {
         with: VariantUse,
     ) -> Option<Entered> {
         let known = self.known.get_mut(&program)?;
-        let [alone, layer, instances, rays] = &mut known.followed;
+        let [alone, layer, instances, rays, points] = &mut known.followed;
         let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
-        let distorting = known
-            .distorting
-            .as_ref()
-            .and_then(|distorting| distorting.as_ref().ok());
+        let [distorting, pointed] = known
+            .others
+            .each_ref()
+            .map(|made| made.as_ref()?.as_ref().ok());
         let (variant, followed, layers) = match (with, by_layer, by_instances, &known.how) {
             (VariantUse::Rays, ..) => (distorting?, rays, false),
+            (VariantUse::Points, ..) => (pointed?, points, false),
             (VariantUse::Instances, _, Some(variant), _) => (variant, instances, true),
             (VariantUse::Layers, Some(variant), _, _) => (variant, layer, true),
             (VariantUse::Layers | VariantUse::Views, _, _, Ok(Drawn::ByVariant(variant))) => {
@@ -253,22 +259,32 @@ impl OwnVariants {
         }
     }
 
-    /// The variant that distorts rays, or why there is none; none before it is first wanted.
-    pub(super) fn distorting(
+    /// The variant for a use that not all programs have one for, or why there is none; none before it is first wanted.
+    pub(super) fn made(
         &self,
         program: ProgramName,
-    ) -> Option<&Result<Arc<Variant>, NoVariant>> {
-        self.known.get(&program)?.distorting.as_ref()
+        with: VariantUse,
+    ) -> Option<Result<Arc<Variant>, String>> {
+        let [rays, points] = &self.known.get(&program)?.others;
+        match with {
+            VariantUse::Points => points.clone(),
+            _ => rays.clone(),
+        }
     }
 
-    /// Keeps the variant that distorts rays, or why there is none.
-    pub(super) fn put_distorting(
+    /// Keeps what [`OwnVariants::made`] then returns.
+    pub(super) fn put_made(
         &mut self,
         program: ProgramName,
-        made: Result<Arc<Variant>, NoVariant>,
+        with: VariantUse,
+        made: Result<Arc<Variant>, String>,
     ) {
         if let Some(known) = self.known.get_mut(&program) {
-            known.distorting = Some(made);
+            let [rays, points] = &mut known.others;
+            match with {
+                VariantUse::Points => *points = Some(made),
+                _ => *rays = Some(made),
+            }
         }
     }
 
@@ -371,7 +387,7 @@ impl OwnVariants {
         };
         if locations(&new) != locations(found) {
             // Variants have values of the layer's own in matrices that are no longer of these.
-            known.followed = [(0, 0); 4];
+            known.followed = [(0, 0); 5];
         }
         (*seen, *before) = (change, aspect);
         if new != **found {

@@ -2,10 +2,10 @@
 
 use super::Layer;
 use super::blocks::BlockReader;
-use super::own_variants::{OwnVariants, ProgramRecord};
+use super::own_variants::{OwnVariants, ProgramRecord, VariantUse};
 use super::unprojections::Unprojections;
 use crate::config::Strategy;
-use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
+use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn, pointed};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
 use crate::plan::Pose;
 use crate::plan::decide::{Linked as Linking, Shaders, VariantFacts};
@@ -262,33 +262,36 @@ impl Layer {
         self.variants.own.put(gl, program, new);
     }
 
-    /// Makes the variant that distorts rays, once for each link. The error says why there is none.
-    pub(super) fn link_distorting(&mut self, gl: &Gl, program: ProgramName) -> Result<(), String> {
-        let told = |made: &Result<Arc<Variant>, NoVariant>| match made {
-            Ok(_) => Ok(()),
-            Err(reason) => Err(reason.to_string()),
-        };
-        if let Some(made) = self.variants.own.distorting(program) {
-            return told(made);
+    /// Makes the variant for [`VariantUse::Rays`] or [`VariantUse::Points`], once for each link. The error says why there is none.
+    pub(super) fn link_other(
+        &mut self,
+        gl: &Gl,
+        program: ProgramName,
+        with: VariantUse,
+    ) -> Result<Arc<Variant>, String> {
+        if let Some(made) = self.variants.own.made(program, with) {
+            return made;
         }
-        let linked = self.linked_from(program);
+        let linked = self.linked_from(program).ok_or(NoVariant::NoSource);
         self.state.keep_errors(gl);
-        let made = match linked {
-            Some(linked) => drawn(gl, program, &linked.sources, VariantKind::DistortedRays),
-            None => Err(NoVariant::NoSource),
-        };
-        self.drain_own_errors(gl);
-        let variant = made.and_then(|made| match made {
-            Drawn::ByVariant(variant) => Ok(variant),
-            Drawn::ByMatrix => Err(NoVariant::NoVertex),
+        let made = linked.and_then(|linked| match with {
+            VariantUse::Points => {
+                let compatibility = self.state.has.compatibility;
+                pointed(gl, program, &linked.sources, compatibility).map(Arc::new)
+            }
+            _ => match drawn(gl, program, &linked.sources, VariantKind::DistortedRays)? {
+                Drawn::ByVariant(variant) => Ok(variant),
+                Drawn::ByMatrix => Err(NoVariant::NoVertex),
+            },
         });
-        let answer = told(&variant);
-        if answer.is_ok() {
+        self.drain_own_errors(gl);
+        if made.is_ok() {
             let compiled = self.variants.count_compiled();
             self.diagnostics.report.shaders(compiled);
         }
-        self.variants.own.put_distorting(program, variant);
-        answer
+        let made = made.map_err(|reason| reason.to_string());
+        self.variants.own.put_made(program, with, made.clone());
+        made
     }
 
     /// Makes the variant that chooses layers, for one view or for all, once for each link. False where the driver cannot have one.

@@ -41,6 +41,7 @@ impl Session {
             (Strategy::Replay, true),
             (Strategy::Instanced, support.instanced() || support.layers()),
             (Strategy::Geometry, support.geometry()),
+            (Strategy::Splats, support.point_quads() && !gl.is_es()),
         ]
         .into_iter()
         .filter_map(|(strategy, there)| there.then_some(strategy))

@@ -108,6 +108,12 @@ impl Support {
         self.instanced()
     }
 
+    /// Whether a geometry shader can stand between the shaders of points.
+    #[must_use]
+    pub fn point_quads(&self) -> bool {
+        self.glsl >= 150
+    }
+
     /// The names for `--strategy` that this context supports; `es`: of OpenGL ES. Programs with shaders are synthesised where fixed function is.
     #[must_use]
     pub fn strategies(&self, es: bool) -> Vec<&'static str> {
@@ -116,6 +122,7 @@ impl Support {
             ("replay", true),
             ("instanced", self.instanced() || self.layers()),
             ("geometry", self.geometry()),
+            ("splats", self.point_quads() && !es),
             ("depth-image", synthesises),
             ("occlusion", self.glsl >= 150 && !es),
             ("hybrid", synthesises),
@@ -200,7 +207,7 @@ mod tests {
     #[test]
     fn what_is_missing_is_said() {
         let full = support(150, true, 8);
-        let synthesised = ["depth-image", "occlusion", "hybrid"];
+        let synthesised = ["splats", "depth-image", "occlusion", "hybrid"];
         let all = [&["replay", "instanced", "geometry"][..], &synthesised].concat();
         assert_eq!(full.strategies(false), all);
         assert!(full.notes(false).is_empty());

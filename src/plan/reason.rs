@@ -25,6 +25,9 @@ pub enum Reason {
     /// The draw cannot be repeated in the reference image; the text is the driver's, or that of the rewriter.
     #[error("a program draws nothing to the reference image: {0}")]
     NoReference(String),
+    /// The program's own shaders draw no points for all views at once; the text is the driver's, or that of the rewriter.
+    #[error("points of a program are replayed: {0}")]
+    NoPoints(String),
     /// The views were synthesised before a command that has to be drawn in each of them.
     #[error("views are synthesised before {0}")]
     SynthesisedBefore(NotOfScene),
@@ -96,6 +99,30 @@ pub enum Replayed {
     /// No input primitive of a geometry shader.
     #[error("flat quad strips under `geometry`")]
     FlatQuadStrips,
+    /// Smooth points have a coverage that the driver computes.
+    #[error("smooth points under `splats`")]
+    SmoothPoints,
+    /// Neighbours of a pixel are of other views, so textures have no level of detail.
+    #[error("textured point sprites under `splats`")]
+    TexturedSprites,
+    /// Only the samples that a panel shows are drawn.
+    #[error("points of frames whose views are wanted as a whole")]
+    WholeViews,
+    /// The pixels of the tiles are not those of the panel.
+    #[error("points in views that the panel does not show pixel by pixel")]
+    OtherPixels,
+    /// A multisampled window.
+    #[error("multisampled points")]
+    MultisampledPoints,
+    /// Samples of the panel have no stencil.
+    #[error("points with a stencil test")]
+    StencilledPoints,
+    /// A framebuffer of the program's, or the front buffer.
+    #[error("points in other images than the window's back buffer")]
+    PointsElsewhere,
+    /// Points in one of several viewports.
+    #[error("points in several viewports")]
+    PointsInViewports,
     /// Primitives that have a geometry or a tessellation shader already.
     #[error("primitives with adjacency and patches")]
     Adjacency,

@@ -52,6 +52,12 @@ pub enum Refusal {
     /// `gl_FragData` with an index that is not a plain 0, or as a whole.
     #[error("the shader writes to more than one image")]
     Outputs,
+    /// Variables between the stages that are in blocks, arrays, structures or conditions.
+    #[error("the variables between its shaders are not plain to see")]
+    Varyings,
+    /// The two shaders of points have different names free.
+    #[error("its shaders have names that clash with the layer's")]
+    Clash,
     /// `EmitStreamVertex` of another stream than the plain 0.
     #[error("the shader emits vertices to streams")]
     Streams,

@@ -30,6 +30,7 @@ mod instance;
 mod memory_writes;
 mod names;
 mod outputs;
+mod points;
 mod position;
 mod scan;
 mod target;
@@ -42,6 +43,7 @@ pub use error::Refusal;
 pub use facts::{Facts, Matrix};
 pub use memory_writes::MemoryWrites;
 pub use names::{Names, Uniform};
+pub use points::{PointShaders, points};
 pub use version::Version;
 
 use edit::Edits;

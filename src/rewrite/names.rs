@@ -63,7 +63,7 @@ impl Uniform {
 }
 
 /// Names that are not uniforms.
-const OTHERS: [&str; 9] = [
+const OTHERS: [&str; 28] = [
     "main",
     "EmitVertex",
     "view",
@@ -73,6 +73,25 @@ const OTHERS: [&str; 9] = [
     "distort_rays",
     "displacement",
     "displacement_output",
+    "clip",
+    "vertex",
+    "spot",
+    "pass",
+    "corner",
+    "see",
+    "x",
+    "centre",
+    "span",
+    "coord",
+    "point_coord",
+    "seen",
+    "target",
+    "rule",
+    "tie",
+    "origin",
+    "v0",
+    "v1",
+    "v2",
 ];
 
 /// The names in one shader: `mv_…`. If the program uses one of those, all have the next prefix with which it uses none.
@@ -116,6 +135,11 @@ impl Names {
     /// The source of the vertex shader object that distorts rays, with these names.
     pub fn ray_distortion(&self) -> String {
         ray_distortion(&self.prefix)
+    }
+
+    /// What all of them begin with.
+    pub fn prefix(&self) -> String {
+        self.prefix.clone()
     }
 
     pub(super) fn other(&self, word: &str) -> String {

@@ -1,7 +1,8 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
-use crate::context::{enter, instead, instead_at, peek, real};
+use crate::context::{enter, peek, real};
 use crate::hooks::{Object, before_uncompiled, compile, if_split, named, write_back};
+use crate::instead::{instead, instead_at};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{FramebufferName, Gl, Ptr, RenderbufferName, TextureName, consts as c};
 use manyview_core::layer::{Layer, is_scaled};

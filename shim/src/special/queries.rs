@@ -1,7 +1,8 @@
 //! Queries that count samples or primitives. They count those of one view instead of all.
 
-use crate::context::{enter, instead_at, peek, real};
+use crate::context::{enter, peek, real};
 use crate::hooks::{before_uncompiled, compile};
+use crate::instead::instead_at;
 use core::slice::from_raw_parts;
 use manyview_core::gl::consts::CURRENT_QUERY;
 use manyview_core::gl::{BufferName, Ptr, QueryName};

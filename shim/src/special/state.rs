@@ -1,9 +1,10 @@
 //! State that the layer follows call by call, and queries of the program.
 
 use crate::context::{
-    draws_to_memory, enter, frame, instead, peek, real, show_finished, show_flushed, viewport_set,
+    draws_to_memory, enter, frame, peek, real, show_finished, show_flushed, viewport_set,
 };
 use crate::hooks::{Object, before_uncompiled, compile, named, touch};
+use crate::instead::instead;
 use manyview_core::gl::{FramebufferName, Ptr, TextureName, consts::PROGRAM_BINARY_FORMATS};
 use manyview_core::layer::FeedbackCommand;
 use manyview_core::state::{Command, Touch};

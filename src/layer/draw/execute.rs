@@ -7,7 +7,7 @@ use super::super::targets::Targets;
 use super::{Draw, Images, Send};
 use crate::atlas::{Surface, Tiles};
 use crate::draw::{
-    Amplified, Current, Drawing, FixedState, Programs, ReplayHazard, Variant, replay,
+    Amplified, Current, Drawing, FixedState, Pointed, Programs, ReplayHazard, Variant, replay,
 };
 use crate::gl::{Gl, Object, consts as c};
 use crate::offscreen::Target;
@@ -29,6 +29,8 @@ pub(in crate::layer) enum Execution {
     Instances,
     /// By a generated program.
     Amplified(Amplified),
+    /// Points for all views at once.
+    Points(Pointed),
 }
 
 impl Layer {
@@ -55,7 +57,11 @@ impl Layer {
                 let how = self.amplify(gl, plan, mode, drawing.material);
                 how.map_or(Execution::Replay, Execution::Amplified)
             }
-            (Method::Instanced | Method::Geometry, _) => {
+            (Method::Points, Some(c::POINTS)) if amplifiable => {
+                let how = self.prepare_points(gl, plan, drawing);
+                how.map_or(Execution::Replay, Execution::Points)
+            }
+            (Method::Instanced | Method::Geometry | Method::Points, _) => {
                 self.count_draw(Method::Replay, plan);
                 Execution::Replay
             }
@@ -64,6 +70,9 @@ impl Layer {
 
     /// Makes a draw as [`Layer::choose`] has chosen.
     pub(in crate::layer) fn execute_by(&mut self, gl: &Gl, draw: &mut Draw, execution: &Execution) {
+        if !matches!(execution, Execution::Points(_)) {
+            self.settle(gl);
+        }
         let written = self.queries.feeds();
         // Otherwise no view is drawn, and what GL_FEEDBACK or GL_SELECT tells is told once.
         let feeds = written && self.state.primitives.render_mode == c::RENDER;
@@ -90,6 +99,7 @@ impl Layer {
             Execution::Replay => self.replay_in(gl, draw),
             Execution::Instances => self.draw_instances(gl, draw),
             Execution::Amplified(how) => self.draw_amplified(gl, draw, how),
+            Execution::Points(how) => self.draw_points(gl, draw, how),
         }
     }
 
@@ -117,7 +127,7 @@ impl Layer {
     }
 
     /// Draws view by view, in the views that may see the draw, and to the reference image.
-    fn replay_in(&mut self, gl: &Gl, draw: &mut Draw) {
+    pub(in crate::layer) fn replay_in(&mut self, gl: &Gl, draw: &mut Draw) {
         let all = self.targets.atlas.tiles.shown;
         self.targets.atlas.tiles.shown = draw.views.unwrap_or(all);
         if draw.plan.reference.is_some() {

@@ -126,6 +126,7 @@ pub(super) fn method_name(m: Method) -> &'static str {
         Method::Replay => "replay",
         Method::Instanced => "instanced",
         Method::Geometry => "geometry",
+        Method::Points => "splats",
     }
 }
 

@@ -38,7 +38,7 @@ impl Layer {
     }
 
     /// Counts a draw in the report, by its method and class.
-    pub(super) fn count_draw(&mut self, method: Method, plan: &Plan) {
+    pub(in crate::layer) fn count_draw(&mut self, method: Method, plan: &Plan) {
         let report = &mut self.diagnostics.report;
         report.draw(method_name(method), plan.class.word());
     }

@@ -64,7 +64,7 @@ fn a_program_that_is_not_known_has_no_variant() {
     assert_eq!(bench.layer.camera_of(&gl, program), None);
     let own = &mut bench.layer.variants.own;
     assert!(own.layered(program).is_none() && own.projections(program).is_none());
-    assert!(own.distorting(program).is_none() && own.is_lost(program));
+    assert!(own.made(program, VariantUse::Rays).is_none() && own.is_lost(program));
     assert!(!own.is_current(program, || 0));
     assert_eq!(own.units(&gl, program), []);
     own.forget(&gl, program);

@@ -15,6 +15,7 @@ mod mono;
 mod orthographic;
 mod pass;
 mod plan;
+mod points;
 mod scene;
 mod shaders;
 mod synthesis;
@@ -75,6 +76,7 @@ pub fn decide(facts: &Facts, known: &Known, settings: &Settings) -> Result<Decis
     let plan = shaders::plan(facts, &mut known, settings, plan, &mut effects);
     let plan = plan::uncounted(facts, plan);
     let plan = pass::plan(facts, settings, plan)?;
+    let plan = points::plan(facts, settings, plan);
     let mut plan = shaders::all_at_once(facts, &known, settings, plan)?;
     synthesis::watch(facts, &mut known, settings, &mut plan, &mut effects);
     mono::watch(facts, &mut known, &plan, &mut effects);

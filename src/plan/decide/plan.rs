@@ -18,6 +18,8 @@ pub enum Method {
     Instanced,
     /// One draw through a geometry shader.
     Geometry,
+    /// Points, drawn once for all views to the samples that a panel shows.
+    Points,
 }
 
 /// The plan of one command.

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 mod malformed;
+mod points;
 
 const REPLAY: Options = Options {
     amplifier: Amplifier::Replay,

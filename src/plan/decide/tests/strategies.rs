@@ -57,6 +57,46 @@ fn what_only_replay_knows_is_replayed_and_says_so() {
 }
 
 #[test]
+fn points_are_drawn_once_where_that_is_wanted() {
+    let points = [
+        Kind::Begin(c::POINTS),
+        Kind::Arrays(c::POINTS),
+        Kind::Elements(c::POINTS),
+    ];
+    for kind in points {
+        assert_eq!(method(&of(kind), Strategy::Splats), (Method::Points, None));
+        assert_eq!(method(&of(kind), Strategy::Replay), (Method::Replay, None));
+    }
+    for kind in [Kind::Arrays(c::LINES), Kind::List, Kind::Pixels] {
+        assert_eq!(method(&of(kind), Strategy::Splats), (Method::Replay, None));
+    }
+    let why = |change: &dyn Fn(&mut Facts)| {
+        let mut facts = of(Kind::Arrays(c::POINTS));
+        change(&mut facts);
+        let (method, reason) = method(&facts, Strategy::Splats);
+        assert_eq!(method, Method::Replay);
+        reason
+    };
+    let replayed = |why| Some(Reason::Replayed(why));
+    assert_eq!(
+        why(&|facts| facts.counted = true),
+        replayed(Replayed::Counted)
+    );
+    assert_eq!(
+        why(&|facts| facts.destination.front = true),
+        replayed(Replayed::PointsElsewhere)
+    );
+    assert_eq!(
+        why(&|facts| facts.reads_views = true),
+        replayed(Replayed::SplitTexture)
+    );
+    assert_eq!(
+        why(&|facts| facts.shaders = Shaders::WithoutVariant(ProgramName(2))),
+        Some(Reason::Program)
+    );
+}
+
+#[test]
 fn drivers_that_lack_something_are_named() {
     let of = |strategy, change: fn(&mut Settings)| {
         let mut settings = settings(strategy);

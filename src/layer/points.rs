@@ -1,0 +1,350 @@
+//! Points for all views at once: they are drawn to the samples that the panel shows, which are taken out of the tiles before the first of them and put back
+//! before anything else is drawn or read. The program's own view is replayed as ever.
+
+use super::draw::{Draw, Send};
+use super::own_variants::{Entered, VariantUse};
+use super::{Layer, keep_bindings};
+use crate::atlas::Samples;
+use crate::config::{CaptureWhat, Filter, Output};
+use crate::display::{Lens, Placement};
+use crate::draw::{Current, Drawing, PointRules, Pointed, ReplayHazard};
+use crate::gl::{Gl, VertexArrayName, consts as c};
+use crate::interleave::shader::{DEPTH_UNIT, Pass, SEEN_UNIT, Samples as Step, VIEWS_UNIT};
+use crate::interleave::{PanelPlacement, Program};
+use crate::plan::reason::{Reason, Replayed};
+use crate::plan::{Method, Plan};
+use crate::state::{BACK, Neutral};
+use crate::view::ViewIndex;
+
+/// The most views: as many as the uniforms of the shaders hold.
+const VIEWS: u32 = crate::fixed::VIEWS;
+
+/// The samples, and what draws to them.
+#[derive(Debug, Default)]
+pub(super) struct MultiViewPoints {
+    samples: Option<Samples>,
+    /// What their views were found for.
+    seen: Option<(Placement, Option<Lens>)>,
+    /// By [`Step`]; none before they are wanted, and empty where the driver compiles none.
+    passes: Option<Vec<(Step, Program)>>,
+    rules: Option<PointRules>,
+    /// The tiles lack what was drawn to the samples.
+    owed: bool,
+}
+
+impl MultiViewPoints {
+    pub(super) fn samples(&self) -> Option<&Samples> {
+        self.samples.as_ref()
+    }
+
+    /// Hands the samples over, for deletion.
+    pub(super) fn take(&mut self) -> Option<Samples> {
+        self.seen = None;
+        self.owed = false;
+        self.samples.take()
+    }
+
+    /// The names of the passes.
+    pub(super) fn programs(&self) -> impl Iterator<Item = crate::gl::ProgramName> {
+        let all = self.passes.iter().flatten();
+        all.map(|(_, program)| program.name())
+    }
+}
+
+impl Layer {
+    /// Prepares a draw of points and counts it; none: it has to be replayed, and the reason is counted.
+    pub(super) fn prepare_points(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        drawing: &Drawing,
+    ) -> Option<Pointed> {
+        let ready = self.point_program(gl, plan, drawing).and_then(|how| {
+            match self.points.owed || self.gather_samples(gl) {
+                true => Ok(how),
+                false => Err(Reason::Replayed(Replayed::OtherPixels)),
+            }
+        });
+        match ready {
+            Ok(how) => {
+                self.frame.amplifies();
+                self.count_draw(Method::Points, plan);
+                Some(how)
+            }
+            Err(reason) => {
+                self.count_draw(Method::Replay, plan);
+                self.diagnostics.fallback(reason);
+                None
+            }
+        }
+    }
+
+    fn point_program(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        drawing: &Drawing,
+    ) -> Result<Pointed, Reason> {
+        if let Some(why) = self.points_hindrance(gl) {
+            return Err(Reason::Replayed(why));
+        }
+        if plan.variant {
+            let program = self.state.in_use.program;
+            let variant = self.link_other(gl, program, VariantUse::Points);
+            let variant = variant.map_err(Reason::NoPoints)?;
+            let units = self.variants.own.units(gl, program);
+            let units = units.into_iter().map(|(unit, _)| unit).collect();
+            return Ok(Pointed::by_variant(variant, units));
+        }
+        self.read_fixed(gl);
+        let fixed = self.variants.fixed.as_ref().ok_or(Reason::Compile)?;
+        let programs = &mut self.variants.programs;
+        let how = programs.prepare_points(gl, fixed, drawing.material);
+        self.state.keep(programs.take_errors());
+        self.diagnostics.report.shaders(programs.compiled);
+        how
+    }
+
+    /// Why the window's points cannot be drawn to the samples of the panel now.
+    fn points_hindrance(&self, gl: &Gl) -> Option<Replayed> {
+        let (session, tiles) = (&self.session, &self.targets.atlas.tiles);
+        let captured = session.config.capture.as_ref().map(|capture| capture.what);
+        let placement = self.placement();
+        let panel = self.output() == Output::Panel
+            && session.config.filter == Filter::Nearest
+            && session.panel.size.is_none()
+            && self.window_output().is_none()
+            && !gl.is_es()
+            && session.support.point_quads()
+            && tiles.views <= VIEWS;
+        let same = tiles.grid.is_full()
+            && [tiles.width, tiles.height] == [placement.width, placement.height];
+        let whole = self.targets.undrawn
+            || session.config.prove.is_some()
+            || captured.is_some_and(|what| what != CaptureWhat::Output)
+            || self.is_mono();
+        let hindrances = [
+            (!panel || !same, Replayed::OtherPixels),
+            (whole, Replayed::WholeViews),
+            (
+                self.targets.atlas.multisampled(),
+                Replayed::MultisampledPoints,
+            ),
+            (
+                self.state.framebuffers.draws_front() || self.targets.atlas.has_front(),
+                Replayed::PointsElsewhere,
+            ),
+            (self.queries.feeds(), Replayed::Counted),
+            (
+                self.state.rectangles.are_several(),
+                Replayed::PointsInViewports,
+            ),
+            (gl.is_enabled(c::STENCIL_TEST), Replayed::StencilledPoints),
+        ];
+        let found = hindrances.into_iter().find(|(hinders, _)| *hinders);
+        found.map(|(_, why)| why)
+    }
+
+    /// Draws points to the samples of the panel, and in the program's own view.
+    pub(super) fn draw_points(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
+        let current = match draw.hazard {
+            ReplayHazard::Current(effect) => Current::take(gl, effect, false),
+            _ => Current::default(),
+        };
+        let (program, plan) = (self.state.in_use.program, draw.plan);
+        let views = self.session.config.views;
+        if how.is_variant()
+            && let Some(Entered { variant, .. }) =
+                self.variants.own.enter(gl, program, VariantUse::Points)
+        {
+            let rig = &self.known.rig;
+            let places: Vec<f64> = ViewIndex::all(views)
+                .map(|view| rig.position(view))
+                .collect();
+            let stride = self.targets.atlas.tiles.stride;
+            variant.set_views(gl, (plan.shear, plan.flat), &places, stride);
+        }
+        let rules = *self
+            .points
+            .rules
+            .get_or_insert_with(|| PointRules::ask(gl, self.state.has.compatibility));
+        if let Some(samples) = &self.points.samples {
+            self.queries.pause(gl);
+            let send = &mut *draw.send;
+            self.variants.programs.draw_points(
+                gl,
+                &self.state,
+                (samples, self.targets.atlas.flipped),
+                (&self.known.rig, plan.shear, views),
+                &rules,
+                how,
+                &mut || send(Send::InMode(c::POINTS)),
+            );
+            self.queries.resume(gl);
+        }
+        gl.use_program(program);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.targets.atlas.framebuffer());
+        self.targets.atlas.forget_row();
+        current.put(gl);
+        draw.views = Some([].into_iter().collect());
+        self.replay_in(gl, draw);
+        self.points.owed = true;
+    }
+
+    /// Takes the samples that the panel shows out of the tiles; false where that cannot be done.
+    fn gather_samples(&mut self, gl: &Gl) -> bool {
+        self.state.keep_errors(gl);
+        let done = self.in_neutral(gl, |layer, neutral| layer.gather(gl, neutral));
+        self.drain_own_errors(gl);
+        done
+    }
+
+    fn gather(&mut self, gl: &Gl, neutral: &Neutral) -> bool {
+        let glsl = self.session.support.glsl;
+        let passes = self.points.passes.get_or_insert_with(|| {
+            let made = Step::ALL.map(|step| {
+                let program = Program::new(gl, glsl, Pass::Samples(step));
+                program.ok().map(|program| (step, program))
+            });
+            made.into_iter().flatten().collect()
+        });
+        if passes.len() < Step::ALL.len() {
+            return false;
+        }
+        let panel = PanelPlacement {
+            display: self.session.display(),
+            placement: self.placement(),
+        };
+        let of = (panel.placement, panel.display.lens());
+        let interleaver = &mut self.targets.interleaver;
+        let Some((period, whole)) =
+            interleaver.bind_views(gl, neutral, self.session.config, &panel)
+        else {
+            return false;
+        };
+        let vertex_array = interleaver.vertex_array();
+        let parts = if whole { 1 } else { 3 };
+        let wanted = ([self.state.window.width, self.state.window.height], parts);
+        let there = self.points.samples.as_ref();
+        if there.is_none_or(|samples| (samples.size, samples.parts) != wanted) {
+            if let Some(old) = self.points.take() {
+                old.delete(gl);
+            }
+            let (names, window) = (&mut self.targets.names, &self.state.window);
+            let flipped = self.targets.atlas.flipped;
+            // The mask is bound at another unit.
+            gl.active_texture(c::TEXTURE0 + SEEN_UNIT);
+            let made = keep_bindings(gl, || Samples::new(gl, names, window, flipped, parts));
+            self.points.samples = made;
+        }
+        let words = self.sample_words(period, parts, None);
+        let (Some(samples), Some(passes)) = (&self.points.samples, &self.points.passes) else {
+            return false;
+        };
+        let [width, height] = samples.size.map(|n| n as i32);
+        gl.viewport(0, 0, width * parts as i32, height);
+        if self.points.seen != Some(of) {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, samples.seen_framebuffer);
+            run(gl, passes, Step::Views, &words, vertex_array);
+            self.points.seen = Some(of);
+        }
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, samples.framebuffer);
+        let atlas = &self.targets.atlas;
+        bind_sources(gl, samples, [atlas.sampled(BACK), atlas.depth]);
+        with_depths(gl, self.state.window.srgb, || {
+            run(gl, passes, Step::Gather, &words, vertex_array);
+        });
+        true
+    }
+
+    /// Puts what was drawn to the samples back into the tiles, if there is any.
+    pub fn settle(&mut self, gl: &Gl) {
+        if !std::mem::take(&mut self.points.owed) {
+            return;
+        }
+        self.state.keep_errors(gl);
+        self.in_neutral(gl, |layer, _| layer.scatter(gl));
+        self.drain_own_errors(gl);
+    }
+
+    fn scatter(&mut self, gl: &Gl) {
+        let vertex_array = self.targets.interleaver.vertex_array();
+        let (Some(samples), Some(passes)) = (&self.points.samples, &self.points.passes) else {
+            return;
+        };
+        let (own, tiles) = (self.targets.atlas.tiles.own(), self.targets.atlas.tiles);
+        bind_sources(gl, samples, [samples.color, samples.depth]);
+        let parts = samples.parts;
+        let srgb = self.state.window.srgb;
+        for view in tiles.order().filter(|view| *view != own) {
+            let words = self.sample_words([1; 2], parts, Some(view));
+            let x = self.targets.atlas.enter(gl, view);
+            gl.viewport(x, 0, tiles.width as i32, tiles.height as i32);
+            with_depths(gl, srgb, || {
+                run(gl, passes, Step::Scatter, &words, vertex_array)
+            });
+        }
+    }
+
+    /// The words of `struct Uniforms` in `shaders/samples.wgsl`.
+    fn sample_words(&self, period: [u32; 2], parts: u32, view: Option<ViewIndex>) -> [u32; 12] {
+        let atlas = &self.targets.atlas;
+        let tiles = &atlas.tiles;
+        let left = view.map_or(0, |view| tiles.place(view).1);
+        [
+            tiles.width,
+            tiles.height,
+            period[0],
+            period[1],
+            tiles.stride,
+            tiles.columns,
+            tiles.views,
+            u32::from(atlas.flipped),
+            parts,
+            view.map_or(0, |view| view.0),
+            left,
+            0,
+        ]
+    }
+}
+
+fn bind_sources(gl: &Gl, samples: &Samples, [color, depth]: [crate::gl::TextureName; 2]) {
+    gl.active_texture(c::TEXTURE0 + SEEN_UNIT);
+    gl.bind_texture(c::TEXTURE_2D, samples.seen);
+    for (unit, texture) in [(DEPTH_UNIT, depth), (VIEWS_UNIT, color)] {
+        gl.active_texture(c::TEXTURE0 + unit);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
+    }
+}
+
+fn run(
+    gl: &Gl,
+    passes: &[(Step, Program)],
+    step: Step,
+    words: &[u32],
+    vertex_array: VertexArrayName,
+) {
+    if let Some((_, program)) = passes.iter().find(|(known, _)| *known == step) {
+        program.bind(gl, words);
+        gl.draw_triangle(vertex_array);
+    }
+}
+
+/// Runs a pass that writes all depths, in neutral state.
+fn with_depths(gl: &Gl, srgb: bool, pass: impl FnOnce()) {
+    let mask = gl.get_integer(c::DEPTH_WRITEMASK) as u8;
+    let func = gl.get_integer(c::DEPTH_FUNC) as u32;
+    gl.enable(c::DEPTH_TEST);
+    gl.depth_mask(1);
+    gl.depth_func(c::ALWAYS);
+    if srgb {
+        gl.enable_srgb(true);
+    }
+    pass();
+    if srgb {
+        gl.enable_srgb(false);
+    }
+    gl.depth_func(func);
+    gl.depth_mask(mask);
+    gl.disable(c::DEPTH_TEST);
+}

@@ -1,0 +1,219 @@
+//! `--strategy splats`: points of a program, drawn once for all views, against the pictures that the program itself draws for each view, behind the same mask.
+//!
+//! The oracle's pictures come from `cloud --view i/N` without the layer. They are put together here, subpixel by subpixel. At most 0.02 % of the subpixels differ:
+//! a point whose edge lies on the border of a rounded place to within the last bit of a float may be a pixel aside. Measured on llvmpipe 22.3: at most 0.004 %
+//! differ by more than 8 steps.
+#![forbid(unsafe_code)]
+
+mod support;
+
+use image::RgbImage;
+use manyview::display::{Display, Placement};
+use manyview::interleave::reference;
+use manyview::metric::pixels_over;
+use std::path::Path;
+use std::process::Command;
+use support::{bare, demo, layered, rgb, run, screen, succeed};
+
+const WIDTH: u32 = 400;
+const HEIGHT: u32 = 300;
+const EYES: [&str; 4] = ["--eye-spacing", "0.3", "--focal-depth", "8"];
+/// Wrong subpixels of a panel's picture, in percent.
+const WRONG: f64 = 0.02;
+
+fn cloud(mut command: Command, options: &[&str]) -> Command {
+    let size = format!("{WIDTH}x{HEIGHT}");
+    command.args(["--check", "--frames", "3", "--size", &size]);
+    command.args(options);
+    command
+}
+
+/// The picture that each subpixel's own view would show, from views that the program draws itself.
+fn expected(folder: &Path, display: &str, views: u32, options: &[&str]) -> RgbImage {
+    let screen = screen();
+    let view = |view: u32| {
+        let mut command = cloud(bare(demo("cloud")), options);
+        command
+            .args(["--view", &format!("{view}/{views}")])
+            .args(EYES);
+        command.arg("--dump").arg(folder.join("view-%d.png"));
+        succeed(screen.give(&mut command));
+        // The demos count from 0.
+        rgb(&folder.join("view-2.png"))
+    };
+    let tiles: Vec<RgbImage> = (0..views).map(view).collect();
+    let display = Display::load(display).expect("a display");
+    let mask = display.mask(&Placement::full_screen(WIDTH, HEIGHT), views);
+    let mask = mask.expect("a mask");
+    reference::interleave(&tiles, &mask).expect("a picture")
+}
+
+struct Shown {
+    picture: RgbImage,
+    report: serde_json::Value,
+}
+
+impl Shown {
+    fn drawn(&self, method: &str) -> u64 {
+        self.report["draws"][method].as_u64().unwrap_or(0)
+    }
+
+    fn reasons(&self) -> String {
+        self.report["fallbacks"].to_string()
+    }
+}
+
+fn shown(folder: &Path, variables: &[(&str, &str)], options: &[&str]) -> Shown {
+    let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let (out, report) = (at("picture.png"), at("report.json"));
+    let given = [
+        ("STRATEGY", "splats"),
+        ("VIEW_SCALE", "1"),
+        ("EYE_SPACING", EYES[1]),
+        ("FOCAL_DEPTH", EYES[3]),
+        ("REPORT", &report),
+        ("CAPTURE_OUT", &out),
+        ("CAPTURE_FRAMES", "3"),
+    ];
+    let all: Vec<_> = given.iter().chain(variables).copied().collect();
+    let mut command = cloud(layered(demo("cloud"), &all), options);
+    succeed(screen().give(&mut command));
+    let text = std::fs::read_to_string(folder.join("report.json")).expect("a report");
+    let shown = Shown {
+        picture: rgb(&folder.join("picture.png")),
+        report: serde_json::from_str(&text).expect("JSON"),
+    };
+    assert_eq!(shown.report["gl_errors"], 0, "{options:?}");
+    shown
+}
+
+fn wrong_percent(expected: &RgbImage, actual: &RgbImage) -> f64 {
+    assert_eq!(expected.dimensions(), actual.dimensions());
+    let pairs = expected.as_raw().iter().zip(actual.as_raw());
+    let wrong = pairs.filter(|(a, b)| a.abs_diff(**b) > 1).count();
+    100.0 * wrong as f64 / expected.as_raw().len() as f64
+}
+
+#[track_caller]
+fn check(display: &str, views: u32, options: &[&str]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let expected = expected(folder.path(), display, views, options);
+    let number = views.to_string();
+    let shown = shown(
+        folder.path(),
+        &[("DISPLAY", display), ("VIEWS", &number)],
+        options,
+    );
+    let wrong = wrong_percent(&expected, &shown.picture);
+    let what = format!("{display}, {views} views, {options:?}");
+    println!("{what}: {wrong:.4} %");
+    assert!(
+        shown.drawn("splats") >= 6,
+        "{what}: {}",
+        shown.report["draws"]
+    );
+    assert_eq!(shown.reasons(), "{}", "{what}");
+    assert!(
+        wrong <= WRONG,
+        "{what}: {wrong:.4} % of the subpixels are wrong"
+    );
+    // The points are there, and their views differ.
+    let own = rgb(&folder.path().join("view-2.png"));
+    assert!(pixels_over(&own, &shown.picture, 8) > 2000, "{what}");
+}
+
+#[test]
+fn points_of_fixed_function_are_those_of_each_view() {
+    for options in [
+        &[][..],
+        &["--point-size", "1"],
+        &["--point-size", "8", "--attenuate"],
+        &["--sprites", "--point-size", "4"],
+        &["--lit"],
+        &["--blend"],
+        &["--clip"],
+        &["--texture"],
+    ] {
+        check("huebner8", 8, options);
+    }
+}
+
+#[test]
+fn points_of_shaders_are_those_of_each_view() {
+    for options in [
+        &["--glsl", "120"][..],
+        &["--glsl", "120", "--sprites", "--attenuate"],
+        &["--glsl", "120", "--blend"],
+        &["--glsl", "330", "--profile", "core"],
+        &[
+            "--glsl",
+            "330",
+            "--profile",
+            "core",
+            "--sprites",
+            "--attenuate",
+        ],
+    ] {
+        check("huebner8", 8, options);
+    }
+}
+
+/// Masks by subpixels and by pixels, slanted and upright, few views and many.
+#[test]
+fn every_mask_shows_its_views() {
+    for (display, views) in [
+        ("slanted8", 8),
+        ("lenticular-5", 5),
+        ("rows", 2),
+        ("checkerboard", 2),
+        ("lenticular-48", 48),
+    ] {
+        check(display, views, &["--attenuate", "--point-size", "5"]);
+    }
+}
+
+/// What cannot be drawn so is replayed, and the report says why.
+#[test]
+fn what_is_replayed_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let base = [("DISPLAY", "huebner8"), ("VIEWS", "8")];
+    for (variables, options, reason) in [
+        (
+            &[("OUTPUT", "quilt")][..],
+            &[][..],
+            "points in views that the panel does not show pixel by pixel",
+        ),
+        (
+            &[("FILTER", "blend")],
+            &[],
+            "points in views that the panel does not show pixel by pixel",
+        ),
+        (
+            &[("CAPTURE_WHAT", "view:0")],
+            &[],
+            "points of frames whose views are wanted as a whole",
+        ),
+        (&[], &["--samples", "4"], "multisampled points"),
+        (
+            &[],
+            &["--sprites", "--texture"],
+            "textured point sprites under `splats`",
+        ),
+    ] {
+        let all: Vec<_> = base.iter().chain(variables).copied().collect();
+        let shown = shown(folder.path(), &all, options);
+        let reasons = shown.reasons();
+        assert!(
+            reasons.contains(reason),
+            "{variables:?} {options:?}: {reasons}"
+        );
+    }
+}
+
+/// The option takes the word, and its help names it.
+#[test]
+fn the_strategy_has_a_word() {
+    let (code, stdout, _) = run(support::manyview().args(["run", "--help"]));
+    assert_eq!(code, 0);
+    assert!(stdout.contains("splats"), "{stdout}");
+}
