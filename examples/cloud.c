@@ -1,11 +1,12 @@
 /* Clouds of points around and between surfaces: one from arrays, one by indices, and with fixed function one by glBegin. Some points are on the near plane, behind
  * the eye, far outside, or not numbers. --glsl 0: fixed function; 120, 330: shaders. --attenuate: smaller with the distance; --sprites: as GL_POINT_SPRITE, with
- * shaders round by gl_PointCoord; --lit: by a light, and fog; --blend: half transparent; --clip: by a plane; --texture: points with a texel each. */
+ * shaders round by gl_PointCoord; --lit: by a light, and fog; --blend: half transparent; --clip: by a plane; --texture: points with a texel each. --framebuffer N: drawn to a framebuffer with N samples,
+ * which is then copied to the window. */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>
 
-static int version, attenuate, sprites, lit, blend, clip, texture, count = 20000, size = 3;
+static int version, attenuate, sprites, lit, blend, clip, texture, framebuffer, count = 20000, size = 3;
 const struct demo_option demo_options[] = {
     {"--glsl", "0, 120 or 330 (default 0)", &version, DEMO_NUMBER},
     {"--count", "number of points (default 20000)", &count, DEMO_NUMBER},
@@ -16,6 +17,7 @@ const struct demo_option demo_options[] = {
     {"--blend", "half transparent", &blend, DEMO_NOTHING},
     {"--clip", "behind a plane", &clip, DEMO_NOTHING},
     {"--texture", "a texel for each point", &texture, DEMO_NOTHING},
+    {"--framebuffer", "1: by a framebuffer of its own; 2 to 4: with so many samples", &framebuffer, DEMO_NUMBER},
     {0}};
 
 static const char *const vertex_120 =
@@ -79,7 +81,7 @@ static const char *const fragment_330 =
 
 static GLfloat *places, *normals;
 static GLubyte *colours;
-static GLuint program, buffers[3], arrays;
+static GLuint program, buffers[3], arrays, inside, stores[2];
 static unsigned seed = 2026;
 
 static double chance(void)
@@ -126,6 +128,18 @@ void demo_setup(void)
     }
     buffers[2] = demo_buffer(GL_ELEMENT_ARRAY_BUFFER, numbers, sizeof *numbers * (size_t)count);
     free(numbers);
+    if (framebuffer) {
+        static const GLenum formats[2] = {GL_RGBA8, GL_DEPTH_COMPONENT24}, points[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+        glGenFramebuffers(1, &inside);
+        glBindFramebuffer(GL_FRAMEBUFFER, inside);
+        glGenRenderbuffers(2, stores);
+        for (int i = 0; i < 2; i++) {
+            glBindRenderbuffer(GL_RENDERBUFFER, stores[i]);
+            glRenderbufferStorageMultisample(GL_RENDERBUFFER, framebuffer > 1 ? framebuffer : 0, formats[i], demo_width, demo_height);
+            glFramebufferRenderbuffer(GL_FRAMEBUFFER, points[i], GL_RENDERBUFFER, stores[i]);
+        }
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    }
     glClearColor(0.05f, 0.06f, 0.11f, 1.0f);
     glEnable(GL_DEPTH_TEST);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -230,7 +244,7 @@ static void by_fixed_function(double t)
     glDisableClientState(GL_TEXTURE_COORD_ARRAY);
 }
 
-void demo_frame(int frame)
+static void scene(int frame)
 {
     double t = demo_time(frame);
     demo_matrix projection;
@@ -268,4 +282,18 @@ void demo_frame(int frame)
         glVertex3f(0.08f * (GLfloat)(i - 20), -0.9f + 0.01f * (GLfloat)i, 2.2f);
     }
     glEnd();
+}
+
+void demo_frame(int frame)
+{
+    if (!framebuffer) {
+        scene(frame);
+        return;
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, inside);
+    scene(frame);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, inside);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, demo_width, demo_height, demo_x, demo_y, demo_x + demo_width, demo_y + demo_height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }

@@ -7,16 +7,17 @@
 
 mod support;
 
-use image::RgbImage;
+use image::{RgbImage, imageops};
 use manyview::display::{Display, Placement};
 use manyview::interleave::reference;
-use manyview::metric::pixels_over;
+use manyview::metric::{Comparison, Gate, pixels_over};
 use std::path::Path;
 use std::process::Command;
 use support::{bare, demo, layered, rgb, run, screen, succeed};
 
 const WIDTH: u32 = 400;
 const HEIGHT: u32 = 300;
+const VIEWS: u32 = 5;
 const EYES: [&str; 4] = ["--eye-spacing", "0.3", "--focal-depth", "8"];
 /// Wrong subpixels of a panel's picture, in percent.
 const WRONG: f64 = 0.02;
@@ -28,19 +29,21 @@ fn cloud(mut command: Command, options: &[&str]) -> Command {
     command
 }
 
+/// A view as the program itself draws it, without the layer.
+fn program_view(folder: &Path, (view, views): (u32, u32), options: &[&str]) -> RgbImage {
+    let mut command = cloud(bare(demo("cloud")), options);
+    command
+        .args(["--view", &format!("{view}/{views}")])
+        .args(EYES);
+    command.arg("--dump").arg(folder.join("view-%d.png"));
+    succeed(screen().give(&mut command));
+    // The demos count from 0.
+    rgb(&folder.join("view-2.png"))
+}
+
 /// The picture that each subpixel's own view would show, from views that the program draws itself.
 fn expected(folder: &Path, display: &str, views: u32, options: &[&str]) -> RgbImage {
-    let screen = screen();
-    let view = |view: u32| {
-        let mut command = cloud(bare(demo("cloud")), options);
-        command
-            .args(["--view", &format!("{view}/{views}")])
-            .args(EYES);
-        command.arg("--dump").arg(folder.join("view-%d.png"));
-        succeed(screen.give(&mut command));
-        // The demos count from 0.
-        rgb(&folder.join("view-2.png"))
-    };
+    let view = |view| program_view(folder, (view, views), options);
     let tiles: Vec<RgbImage> = (0..views).map(view).collect();
     let display = Display::load(display).expect("a display");
     let mask = display.mask(&Placement::full_screen(WIDTH, HEIGHT), views);
@@ -172,42 +175,80 @@ fn every_mask_shows_its_views() {
     }
 }
 
+/// Every view of a picture that does not go straight to a panel: points are drawn to the layers of the views, and equal what the program draws.
+#[test]
+fn whole_views_are_those_of_the_program() {
+    for options in [
+        &[][..],
+        &["--lit", "--clip", "--attenuate", "--point-size", "6"],
+        &["--sprites", "--texture", "--point-size", "9"],
+        &["--glsl", "120", "--sprites", "--blend"],
+        &["--glsl", "330", "--profile", "core", "--attenuate"],
+        &["--framebuffer", "1"],
+        &["--framebuffer", "4"],
+        &["--framebuffer", "4", "--glsl", "120", "--blend"],
+        &["--framebuffer", "1", "--glsl", "330", "--profile", "core"],
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (views, count) = (VIEWS, VIEWS.to_string());
+        let variables = [("VIEWS", &*count), ("CAPTURE_WHAT", "atlas")];
+        let shown = shown(folder.path(), &variables, options);
+        assert!(
+            shown.drawn("splats") >= 6,
+            "{options:?}: {}",
+            shown.report["draws"]
+        );
+        assert_eq!(shown.reasons(), "{}", "{options:?}");
+        for view in 0..views {
+            let own = program_view(folder.path(), (view, views), options);
+            let tile = imageops::crop_imm(&shown.picture, view * WIDTH, 0, WIDTH, HEIGHT);
+            let compared = Comparison::new(&own, &tile.to_image(), None).expect("one size");
+            assert!(
+                Gate::DESIGN.check(&compared).is_ok(),
+                "view {view} of {options:?}: {compared:?}"
+            );
+        }
+    }
+}
+
+/// More views than a geometry shader makes at once: the last batch is not full, and nothing of it may be seen.
+#[test]
+fn many_views_take_several_draws() {
+    for (strategy, options) in [
+        ("splats", &["--glsl", "120"][..]),
+        ("splats", &[]),
+        ("geometry", &["--point-size", "1"]),
+    ] {
+        let options = [&["--count", "3000"], options].concat();
+        let folder = tempfile::tempdir().expect("a folder");
+        let variables = [
+            ("VIEWS", "37"),
+            ("CAPTURE_WHAT", "atlas"),
+            ("STRATEGY", strategy),
+        ];
+        let shown = shown(folder.path(), &variables, &options);
+        assert!(shown.drawn(strategy) >= 6, "{}", shown.report["draws"]);
+        for view in [0, 15, 16, 18, 35, 36] {
+            let own = program_view(folder.path(), (view, 37), &options);
+            let tile = imageops::crop_imm(&shown.picture, view * WIDTH, 0, WIDTH, HEIGHT);
+            let compared = Comparison::new(&own, &tile.to_image(), None).expect("one size");
+            let what = format!("view {view} by {strategy}, {options:?}: {compared:?}");
+            // A shift after the program's own product rounds otherwise.
+            assert!(compared.over_eight <= 16, "{what}");
+        }
+    }
+}
+
 /// What cannot be drawn so is replayed, and the report says why.
 #[test]
 fn what_is_replayed_is_told() {
     let folder = tempfile::tempdir().expect("a folder");
     let base = [("DISPLAY", "huebner8"), ("VIEWS", "8")];
-    for (variables, options, reason) in [
-        (
-            &[("OUTPUT", "quilt")][..],
-            &[][..],
-            "points in views that the panel does not show pixel by pixel",
-        ),
-        (
-            &[("FILTER", "blend")],
-            &[],
-            "points in views that the panel does not show pixel by pixel",
-        ),
-        (
-            &[("CAPTURE_WHAT", "view:0")],
-            &[],
-            "points of frames whose views are wanted as a whole",
-        ),
-        (&[], &["--samples", "4"], "multisampled points"),
-        (
-            &[],
-            &["--sprites", "--texture"],
-            "textured point sprites under `splats`",
-        ),
-    ] {
-        let all: Vec<_> = base.iter().chain(variables).copied().collect();
-        let shown = shown(folder.path(), &all, options);
-        let reasons = shown.reasons();
-        assert!(
-            reasons.contains(reason),
-            "{variables:?} {options:?}: {reasons}"
-        );
-    }
+    let options = ["--sprites", "--texture"];
+    let shown = shown(folder.path(), &base, &options);
+    let reasons = shown.reasons();
+    let reason = "textured point sprites under `splats`";
+    assert!(reasons.contains(reason), "{reasons}");
 }
 
 /// The option takes the word, and its help names it.

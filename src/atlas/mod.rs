@@ -161,8 +161,7 @@ fn texel_bytes(format: u32) -> u64 {
     }
 }
 
-/// A width, in texels, at which rows are not a multiple of 4096 bytes apart, if the driver's limit allows one. Otherwise the same column
-/// of neighbouring rows would compete for a few cache lines.
+/// A width in texels, within the driver's limit, at which the same column of neighbouring rows does not compete for a few cache lines.
 fn padded(gl: &Gl, width: u32) -> u32 {
     let wider = width + 16;
     let most = gl.get_integer(c::MAX_TEXTURE_SIZE).max(0).unsigned_abs();
@@ -344,8 +343,7 @@ impl Atlas {
         &self.textures
     }
 
-    /// Copies the program's own view to all other views that are drawn. The back buffer must be the read buffer. Changes the
-    /// framebuffer bindings; the scissor test must be off.
+    /// Copies the program's own view to all other views that are drawn. The back buffer must be the read buffer, the scissor test off. Changes the framebuffer bindings.
     pub fn share_own(&self, gl: &Gl) {
         let (w, h) = (self.tiles.width as i32, self.tiles.height as i32);
         let own = self.tiles.own();

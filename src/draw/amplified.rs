@@ -243,8 +243,8 @@ impl Batch<'_> {
             [guard.centre(x), 0.0, layer as f32, 0.0]
         };
         let mut places: Vec<[f32; 4]> = views.iter().map(place).collect();
-        // A geometry shader always makes a whole batch: surplus views are placed outside of the clip volume and of the layers.
-        rows.resize(self.size, [0.0; 4]);
+        // A geometry shader always makes a whole batch: surplus views are placed outside of the clip volume.
+        rows.resize(self.size, OUTSIDE);
         places.resize(self.size, [4.0, 0.0, f32::from(u16::MAX), 0.0]);
         Uniforms {
             rows,
@@ -276,6 +276,9 @@ pub(super) fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<
     }
     Ok(())
 }
+
+/// A row of a projection that places everything outside of the clip volume. Layers that do not exist would not do: llvmpipe draws to the last one in their place.
+pub(super) const OUTSIDE: [f32; 4] = [0.0, 0.0, 0.0, 1e30];
 
 /// Row 0 of P · M, both column-major, summed in single precision in the order of Mesa's `matmul4`. The driver computes its own
 /// product in this way, and equal bits give equal pixels.

@@ -19,7 +19,7 @@ mod variant;
 pub use amplified::Amplified;
 pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
-pub use points::{PointRules, Pointed};
+pub use points::{POINTS_AT_ONCE, PointRules, Pointed};
 pub use programs::Programs;
 pub use reference::{Drawing, Rays, draw_to_reference};
 pub use replay::{ReplayHazard, cut, enter_own, others, replay, set_tile_viewport};

@@ -1,12 +1,14 @@
 //! Points for all views at once, drawn to the samples that a panel shows (`fixed/points.rs` has the shaders, `atlas/samples.rs` the target).
 
+use super::amplified::{OUTSIDE, first_row};
 use super::fixed_state::FixedState;
 use super::fragment_state;
 use super::point_locations::PointLocations;
-use super::programs::{DISTORTION_UNIT, Program, Programs, Stages};
+use super::programs::{DISTORTION_UNIT, Program, Programs, Stages, Uniforms};
+use super::state_guard::toggle;
 use super::variant::Variant;
-use crate::atlas::Samples;
-use crate::fixed::{Amplifier, PointSize, Tiles};
+use crate::atlas::{Samples, Tiles as TilePlaces};
+use crate::fixed::{Amplifier, PointSize, Primitive, Tiles};
 use crate::gl::{Gl, TextureName, consts as c};
 use crate::plan::reason::{Reason, Replayed};
 use crate::plan::{Rig, Shear};
@@ -55,7 +57,14 @@ enum How {
     Variant(Arc<Variant>, Vec<u32>),
     /// A generated one, with the modelview matrix.
     Generated(Box<Stages>, [f32; 16]),
+    /// A variant that emits each point for so many views to their layers.
+    VariantToLayers,
+    /// The same of a generated one.
+    GeneratedToLayers(Box<Stages>, [f32; 16]),
 }
+
+/// Views that a variant draws at once, whose outputs all drivers have room for: 1024 numbers for all vertices.
+pub const POINTS_AT_ONCE: u32 = 16;
 
 impl Pointed {
     /// A variant from [`super::pointed`], which has to be in use for the draw, and the texture units that it samples.
@@ -64,10 +73,22 @@ impl Pointed {
         Pointed(How::Variant(variant, units))
     }
 
-    /// Whether it is such a variant.
+    /// A variant from [`super::pointed`] that draws to layers.
+    #[must_use]
+    pub fn by_variant_to_layers() -> Self {
+        Pointed(How::VariantToLayers)
+    }
+
+    /// Whether it is a variant, which has to be in use for the draw.
     #[must_use]
     pub fn is_variant(&self) -> bool {
-        matches!(self.0, How::Variant(..))
+        matches!(self.0, How::Variant(..) | How::VariantToLayers)
+    }
+
+    /// Whether it draws to layers, and not to the samples of a panel.
+    #[must_use]
+    pub fn is_to_layers(&self) -> bool {
+        matches!(self.0, How::VariantToLayers | How::GeneratedToLayers(..))
     }
 }
 
@@ -229,6 +250,89 @@ impl Programs {
         Ok(Pointed(How::Generated(Box::new(stages), modelview)))
     }
 
+    /// The program of points of fixed function that are drawn to layers, of so many views; it is compiled if it is new.
+    ///
+    /// # Errors
+    /// Why the draw has to be replayed.
+    pub fn prepare_layered_points(
+        &mut self,
+        gl: &Gl,
+        fixed: &FixedState,
+        material: bool,
+        views: u32,
+    ) -> Result<Pointed, Reason> {
+        let modelview = gl.get_matrix(c::MODELVIEW_MATRIX);
+        let (mut key, surroundings) = fixed.for_mode(c::POINTS, &modelview, material);
+        key.target.primitive = Primitive::Points;
+        key.target.tiles = Tiles::Layer;
+        key.target.amplifier = Amplifier::GeometryLoop;
+        key.target.views = 1;
+        let batch = crate::fixed::batch(&key, &self.limits);
+        key.target.views = batch.min(views).clamp(1, POINTS_AT_ONCE) as u8;
+        surroundings.allow(&key).map_err(Reason::Fixed)?;
+        if surroundings.point_smooth {
+            // Measured on llvmpipe 22.3: they are torn after a geometry shader.
+            return Err(Reason::Replayed(Replayed::SmoothPoints));
+        }
+        let stages = (key.canonical(), None);
+        self.compile(gl, &key, &stages)?;
+        Ok(Pointed(How::GeneratedToLayers(Box::new(stages), modelview)))
+    }
+
+    /// Draws points to the layers of the framebuffer that is bound, by a program from [`Programs::prepare_layered_points`]. `call` makes the draw for some views. All state
+    /// is as before, but for the program in use.
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the parts of one draw; a struct of them would be built for this call alone"
+    )]
+    pub fn draw_layered_points(
+        &mut self,
+        gl: &Gl,
+        state: &State,
+        (rig, shear): (&Rig, Option<Shear>),
+        tiles: &TilePlaces,
+        fixed: &FixedState,
+        how: &Pointed,
+        call: &mut dyn FnMut(),
+    ) {
+        let How::GeneratedToLayers(stages, modelview) = &how.0 else {
+            return;
+        };
+        let Some(Some(program)) = self.cache.get_mut(&**stages) else {
+            return;
+        };
+        gl.use_program(program.name);
+        let toggled = toggle(gl, &stages.0, &program.patches, fixed);
+        let batch = usize::from(stages.0.target.views.max(1));
+        let drawn: Vec<ViewIndex> = tiles.order().collect();
+        for views in drawn.chunks(batch) {
+            let row = |&view: &ViewIndex| {
+                let p = shear.map_or(state.matrices.projection, |shear| {
+                    shear.projection(&state.matrices.projection, rig.position(view))
+                });
+                first_row(&p, modelview)
+            };
+            let mut rows: Vec<[f32; 4]> = views.iter().map(row).collect();
+            let layer = |&view: &ViewIndex| [0.0, 0.0, tiles.slot(view) as f32, 0.0];
+            let mut places: Vec<[f32; 4]> = views.iter().map(layer).collect();
+            // Of a whole batch.
+            rows.resize(batch, OUTSIDE);
+            places.resize(batch, [0.0; 4]);
+            program.upload(
+                gl,
+                Uniforms {
+                    rows,
+                    tiles: places,
+                    ..Uniforms::default()
+                },
+            );
+            call();
+        }
+        for (cap, was) in toggled {
+            if was { gl.enable(cap) } else { gl.disable(cap) }
+        }
+    }
+
     /// Draws points to the samples of a panel. All state is as before, but for the framebuffer and the program in use.
     #[allow(
         clippy::too_many_arguments,
@@ -262,7 +366,7 @@ impl Programs {
                     let p = shear.map_or(state.matrices.projection, |shear| {
                         shear.projection(&state.matrices.projection, rig.position(view))
                     });
-                    super::amplified::first_row(&p, modelview)
+                    first_row(&p, modelview)
                 };
                 let rows: Vec<[f32; 4]> = ViewIndex::all(views).map(rows).collect();
                 program.upload_rows(gl, rows);
@@ -275,6 +379,7 @@ impl Programs {
                     Some((planes, distances)),
                 )
             }
+            How::VariantToLayers | How::GeneratedToLayers(..) => return,
         };
         let guard = PointGuard::enter(gl, state, target.0, unit);
         switch_planes(gl, planes, true);

@@ -59,7 +59,12 @@ impl Region {
 }
 
 /// Enables and disables capabilities as the generated program needs them; returns those that changed, with their former values.
-fn toggle(gl: &Gl, key: &FixedKey, patches: &Patches, fixed: &FixedState) -> Vec<(u32, bool)> {
+pub(super) fn toggle(
+    gl: &Gl,
+    key: &FixedKey,
+    patches: &Patches,
+    fixed: &FixedState,
+) -> Vec<(u32, bool)> {
     let mut toggled = Vec::new();
     let mut set = |cap, was: bool, is: bool| {
         if was != is {

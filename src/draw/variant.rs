@@ -5,7 +5,8 @@ use super::point_locations::PointLocations;
 use crate::gl::{Active, Gl, ProgramName, ShaderName, consts as c};
 use crate::plan::{Along, Flat, Shear};
 use crate::rewrite::{
-    Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, points, rewrite,
+    Amplifier, Names, Options, PointsTo, Refusal, Stage, Target, Uniform, VertexLayer, facts,
+    points, rewrite,
 };
 use crate::state::ShaderSource;
 use std::borrow::Cow;
@@ -142,7 +143,7 @@ pub fn drawn(
     Ok(Drawn::ByVariant(Arc::new(variant)))
 }
 
-/// Links the variant of a program that draws points for all views at once (see [`crate::rewrite::points`]). `compatibility`: of the context's profile.
+/// Links the variant of a program that draws points for all views at once (see [`crate::rewrite::points`]); `to`: where. `compatibility`: of the context's profile.
 ///
 /// # Errors
 /// Why there is no such variant.
@@ -150,6 +151,7 @@ pub fn pointed(
     gl: &Gl,
     program: ProgramName,
     sources: &[ShaderSource],
+    to: PointsTo,
     compatibility: bool,
 ) -> Result<Variant, NoVariant> {
     last_stage(sources)?;
@@ -160,7 +162,7 @@ pub fn pointed(
     if sources.len() > 2 {
         return Err(NoVariant::Stages);
     }
-    let new = points(&vertex.source, &fragment.source, compatibility)?;
+    let new = points(&vertex.source, &fragment.source, to, compatibility)?;
     let rewritten = Rewritten {
         sources: vec![
             (vertex.kind, vertex.source.as_slice().into()),

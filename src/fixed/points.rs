@@ -152,6 +152,13 @@ pub fn point_globals(prefix: &str) -> String {
     format!("vec4 {prefix}coord; vec2 {prefix}point_coord;")
 }
 
+/// `float PREFIX_x(p, vertex, view)`: x of a point in clip space in a view, by the shift of program variants, which is declared before.
+pub fn point_shift(prefix: &str) -> String {
+    let mut text = Text::default();
+    write_x(&mut text, prefix, PointPlace::Shift);
+    text.finish()
+}
+
 fn write_uniforms(text: &mut Text, prefix: &str, place: PointPlace) {
     let views = super::VIEWS;
     let name = match place {
@@ -173,7 +180,7 @@ fn write_uniforms(text: &mut Text, prefix: &str, place: PointPlace) {
     ]);
 }
 
-fn write_functions(text: &mut Text, prefix: &str, place: PointPlace) {
+fn write_x(text: &mut Text, prefix: &str, place: PointPlace) {
     text.open(format!("float {prefix}x(vec4 p, vec4 vertex, int view) {{"));
     match place {
         PointPlace::Rows => {
@@ -194,6 +201,10 @@ fn write_functions(text: &mut Text, prefix: &str, place: PointPlace) {
         }
     }
     text.close("}");
+}
+
+fn write_functions(text: &mut Text, prefix: &str, place: PointPlace) {
+    write_x(text, prefix, place);
     text.open(format!("float {prefix}centre(float x, float w) {{"));
     text.line(format!(
         "return x * (1.0 / w) * {prefix}window.x + {prefix}window.y;"

@@ -29,7 +29,7 @@ fn layout(config: &Config, support: &Support, strategy: Strategy) -> AtlasLayout
         // The user has asked for clip distances by name, to compare.
         _ if config.clip.is_some() => AtlasLayout::SideBySide,
         // A geometry shader can always choose a layer.
-        Strategy::Geometry => AtlasLayout::Layers,
+        Strategy::Geometry | Strategy::Splats => AtlasLayout::Layers,
         Strategy::Instanced if support.layers() => AtlasLayout::Layers,
         _ => config.atlas,
     }

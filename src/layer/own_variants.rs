@@ -30,8 +30,10 @@ pub(super) enum VariantUse {
     Instances,
     /// The reference image of an occlusion camera.
     Rays,
-    /// Points for all views at once.
+    /// Points for all views at once, to the samples of a panel.
     Points,
+    /// Points for all views at once, to their layers.
+    PointLayers,
 }
 
 /// A variant in use.
@@ -80,8 +82,8 @@ pub(super) struct ProgramRecord {
     how: Result<Drawn, NoVariant>,
     /// The variants that choose layers, for one view and for all: none until one is wanted, `Some(None)` where there cannot be one.
     layered: [Option<Option<Arc<Variant>>>; 2],
-    /// The variants of [`VariantUse::Rays`] and [`VariantUse::Points`], or why there is none, once one has been wanted.
-    others: [Made; 2],
+    /// The variants of [`VariantUse::Rays`], [`VariantUse::Points`] and [`VariantUse::PointLayers`], or why there is none, once one has been wanted.
+    others: [Made; 3],
     matrices: Matrices,
     samplers: Samplers,
     effects: SideEffects,
@@ -92,7 +94,7 @@ pub(super) struct ProgramRecord {
     unprojections: ([u64; 2], f64, Arc<Unprojections>),
     camera: CameraSearch,
     /// By [`VariantUse`]: [`uniform_change`] when uniforms were last copied to the variant, and what that returned.
-    followed: [(u64, u64); 5],
+    followed: [(u64, u64); 6],
 }
 
 impl ProgramRecord {
@@ -121,9 +123,9 @@ impl ProgramRecord {
                 oblique: None,
                 seen: [0; 2],
             },
-            followed: [(0, 0); 5],
+            followed: [(0, 0); 6],
             layered: [None, None],
-            others: [None, None],
+            others: [None, None, None],
         }
     }
 
@@ -152,15 +154,16 @@ impl OwnVariants {
         with: VariantUse,
     ) -> Option<Entered> {
         let known = self.known.get_mut(&program)?;
-        let [alone, layer, instances, rays, points] = &mut known.followed;
+        let [alone, layer, instances, rays, points, point_layers] = &mut known.followed;
         let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
-        let [distorting, pointed] = known
+        let [distorting, pointed, layered_points] = known
             .others
             .each_ref()
             .map(|made| made.as_ref()?.as_ref().ok());
         let (variant, followed, layers) = match (with, by_layer, by_instances, &known.how) {
             (VariantUse::Rays, ..) => (distorting?, rays, false),
             (VariantUse::Points, ..) => (pointed?, points, false),
+            (VariantUse::PointLayers, ..) => (layered_points?, point_layers, true),
             (VariantUse::Instances, _, Some(variant), _) => (variant, instances, true),
             (VariantUse::Layers, Some(variant), _, _) => (variant, layer, true),
             (VariantUse::Layers | VariantUse::Views, _, _, Ok(Drawn::ByVariant(variant))) => {
@@ -265,9 +268,10 @@ impl OwnVariants {
         program: ProgramName,
         with: VariantUse,
     ) -> Option<Result<Arc<Variant>, String>> {
-        let [rays, points] = &self.known.get(&program)?.others;
+        let [rays, points, layers] = &self.known.get(&program)?.others;
         match with {
             VariantUse::Points => points.clone(),
+            VariantUse::PointLayers => layers.clone(),
             _ => rays.clone(),
         }
     }
@@ -280,9 +284,10 @@ impl OwnVariants {
         made: Result<Arc<Variant>, String>,
     ) {
         if let Some(known) = self.known.get_mut(&program) {
-            let [rays, points] = &mut known.others;
+            let [rays, points, layers] = &mut known.others;
             match with {
                 VariantUse::Points => *points = Some(made),
+                VariantUse::PointLayers => *layers = Some(made),
                 _ => *rays = Some(made),
             }
         }
@@ -387,7 +392,7 @@ impl OwnVariants {
         };
         if locations(&new) != locations(found) {
             // Variants have values of the layer's own in matrices that are no longer of these.
-            known.followed = [(0, 0); 5];
+            known.followed = [(0, 0); 6];
         }
         (*seen, *before) = (change, aspect);
         if new != **found {

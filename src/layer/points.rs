@@ -1,13 +1,17 @@
-//! Points for all views at once: they are drawn to the samples that the panel shows, which are taken out of the tiles before the first of them and put back
-//! before anything else is drawn or read. The program's own view is replayed as ever.
+//! Points for all views at once.
+//!
+//! Where the window is the panel, they are drawn to the samples that this shows, which are taken out of the tiles before the first of them and put back before anything else is
+//! drawn or read; the program's own view is replayed as ever. Elsewhere a geometry shader emits each point again for each view, to the layer of that.
 
 use super::draw::{Draw, Send};
 use super::own_variants::{Entered, VariantUse};
 use super::{Layer, keep_bindings};
-use crate::atlas::Samples;
+use crate::atlas::{Samples, Surface};
 use crate::config::{CaptureWhat, Filter, Output};
 use crate::display::{Lens, Placement};
-use crate::draw::{Current, Drawing, PointRules, Pointed, ReplayHazard};
+use crate::draw::{
+    Current, Drawing, FixedState, POINTS_AT_ONCE, PointRules, Pointed, Programs, ReplayHazard,
+};
 use crate::gl::{Gl, VertexArrayName, consts as c};
 use crate::interleave::shader::{DEPTH_UNIT, Pass, SEEN_UNIT, Samples as Step, VIEWS_UNIT};
 use crate::interleave::{PanelPlacement, Program};
@@ -59,12 +63,15 @@ impl Layer {
         plan: &Plan,
         drawing: &Drawing,
     ) -> Option<Pointed> {
-        let ready = self.point_program(gl, plan, drawing).and_then(|how| {
-            match self.points.owed || self.gather_samples(gl) {
-                true => Ok(how),
-                false => Err(Reason::Replayed(Replayed::OtherPixels)),
-            }
-        });
+        if self.is_mono() {
+            // All strategies draw such a frame alike.
+            self.count_draw(Method::Replay, plan);
+            return None;
+        }
+        let ready = match self.points_hindrance(gl) {
+            None => self.points_to_samples(gl, plan, drawing),
+            Some(why) => self.points_to_layers(gl, plan, drawing, why),
+        };
         match ready {
             Ok(how) => {
                 self.frame.amplifies();
@@ -72,6 +79,7 @@ impl Layer {
                 Some(how)
             }
             Err(reason) => {
+                self.diagnostics.proving.replayed();
                 self.count_draw(Method::Replay, plan);
                 self.diagnostics.fallback(reason);
                 None
@@ -79,33 +87,90 @@ impl Layer {
         }
     }
 
-    fn point_program(
+    fn points_to_samples(
         &mut self,
         gl: &Gl,
         plan: &Plan,
         drawing: &Drawing,
     ) -> Result<Pointed, Reason> {
-        if let Some(why) = self.points_hindrance(gl) {
-            return Err(Reason::Replayed(why));
-        }
-        if plan.variant {
+        let how = if plan.variant {
             let program = self.state.in_use.program;
             let variant = self.link_other(gl, program, VariantUse::Points);
             let variant = variant.map_err(Reason::NoPoints)?;
             let units = self.variants.own.units(gl, program);
             let units = units.into_iter().map(|(unit, _)| unit).collect();
-            return Ok(Pointed::by_variant(variant, units));
+            Pointed::by_variant(variant, units)
+        } else {
+            let material = drawing.material;
+            self.generated(gl, |programs, fixed| {
+                programs.prepare_points(gl, fixed, material)
+            })?
+        };
+        match self.points.owed || self.gather_samples(gl) {
+            true => Ok(how),
+            false => Err(Reason::Replayed(Replayed::OtherPixels)),
         }
+    }
+
+    /// Prepares a draw to the layers of the views; `why` it does not go to the samples of the panel.
+    fn points_to_layers(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        drawing: &Drawing,
+        why: Replayed,
+    ) -> Result<Pointed, Reason> {
+        let framebuffer = self.state.framebuffers.draw;
+        let layered = match framebuffer.is_zero() {
+            true => self.targets.atlas.layered().is_some(),
+            false => {
+                let target = self.targets.offscreen.target(gl, framebuffer);
+                target.layered().is_some()
+            }
+        };
+        let full = self.targets.atlas.tiles.grid.is_full() || !framebuffer.is_zero();
+        let able = layered
+            && full
+            && !gl.is_es()
+            && self.session.support.point_quads()
+            && !self.queries.feeds()
+            && !self.state.rectangles.are_several();
+        if !able {
+            let why = if layered {
+                why
+            } else {
+                Replayed::PointsElsewhere
+            };
+            return Err(Reason::Replayed(why));
+        }
+        if plan.variant {
+            let program = self.state.in_use.program;
+            let variant = self.link_other(gl, program, VariantUse::PointLayers);
+            variant.map_err(Reason::NoPoints)?;
+            return Ok(Pointed::by_variant_to_layers());
+        }
+        let (views, material) = (self.session.config.views, drawing.material);
+        self.generated(gl, |programs, fixed| {
+            programs.prepare_layered_points(gl, fixed, material, views)
+        })
+    }
+
+    /// Prepares a program that is generated for the state of fixed function.
+    fn generated(
+        &mut self,
+        gl: &Gl,
+        prepare: impl FnOnce(&mut Programs, &FixedState) -> Result<Pointed, Reason>,
+    ) -> Result<Pointed, Reason> {
         self.read_fixed(gl);
         let fixed = self.variants.fixed.as_ref().ok_or(Reason::Compile)?;
         let programs = &mut self.variants.programs;
-        let how = programs.prepare_points(gl, fixed, drawing.material);
+        let how = prepare(programs, fixed);
         self.state.keep(programs.take_errors());
         self.diagnostics.report.shaders(programs.compiled);
         how
     }
 
-    /// Why the window's points cannot be drawn to the samples of the panel now.
+    /// Why points cannot be drawn to the samples of the panel now.
     fn points_hindrance(&self, gl: &Gl) -> Option<Replayed> {
         let (session, tiles) = (&self.session, &self.targets.atlas.tiles);
         let captured = session.config.capture.as_ref().map(|capture| capture.what);
@@ -121,9 +186,12 @@ impl Layer {
             && [tiles.width, tiles.height] == [placement.width, placement.height];
         let whole = self.targets.undrawn
             || session.config.prove.is_some()
-            || captured.is_some_and(|what| what != CaptureWhat::Output)
-            || self.is_mono();
+            || captured.is_some_and(|what| what != CaptureWhat::Output);
         let hindrances = [
+            (
+                !self.state.framebuffers.draw.is_zero(),
+                Replayed::PointsElsewhere,
+            ),
             (!panel || !same, Replayed::OtherPixels),
             (whole, Replayed::WholeViews),
             (
@@ -145,8 +213,100 @@ impl Layer {
         found.map(|(_, why)| why)
     }
 
-    /// Draws points to the samples of the panel, and in the program's own view.
+    /// Draws points for all views.
     pub(super) fn draw_points(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
+        match how.is_to_layers() {
+            true => self.draw_points_to_layers(gl, draw, how),
+            false => self.draw_points_to_samples(gl, draw, how),
+        }
+    }
+
+    fn draw_points_to_layers(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
+        self.settle(gl);
+        self.prove_points(gl, draw, how);
+        let (program, plan) = (self.state.in_use.program, draw.plan);
+        let framebuffer = self.state.framebuffers.draw;
+        let current = match draw.hazard {
+            ReplayHazard::Current(effect) => Current::take(gl, effect, false),
+            _ => Current::default(),
+        };
+        let target = self
+            .targets
+            .offscreen
+            .take(framebuffer, self.wanted_views());
+        let atlas = self.targets.atlas.tiles;
+        let tiles = target.as_ref().map_or(atlas, |target| target.tiles());
+        match target.as_ref().and_then(|target| target.layered()) {
+            Some(name) => gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name),
+            None => self.targets.atlas.bind_layered(gl),
+        }
+        let (send, mut first) = (&mut *draw.send, true);
+        let mut call = || {
+            // Each batch of views starts from the same current values.
+            if !std::mem::take(&mut first) {
+                current.put(gl);
+            }
+            send(Send::InMode(c::POINTS));
+        };
+        if how.is_variant() {
+            let entered = self
+                .variants
+                .own
+                .enter(gl, program, VariantUse::PointLayers);
+            let views: Vec<ViewIndex> = tiles.order().collect();
+            for views in views.chunks(POINTS_AT_ONCE as usize) {
+                let places: Vec<f64> = views
+                    .iter()
+                    .map(|&view| self.known.rig.position(view))
+                    .collect();
+                let layers: Vec<u32> = views.iter().map(|&view| tiles.slot(view)).collect();
+                if let Some(Entered { variant, .. }) = &entered {
+                    variant.set_views(gl, (plan.shear, plan.flat), &places, tiles.stride);
+                    variant.set_layers(gl, &layers);
+                    call();
+                }
+            }
+        } else if let Some(fixed) = &self.variants.fixed {
+            let by = (&self.known.rig, plan.shear);
+            let programs = &mut self.variants.programs;
+            programs.draw_layered_points(gl, &self.state, by, &tiles, fixed, how, &mut call);
+        }
+        gl.use_program(program);
+        match target {
+            Some(target) => {
+                gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
+                self.targets.offscreen.drawn_to(&target);
+                self.targets.offscreen.put(target);
+            }
+            None => self.targets.atlas.bind_row(gl, 0),
+        }
+    }
+
+    /// Draws them for a proof, view by view.
+    fn prove_points(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
+        if self.diagnostics.proving.atlas().is_none() {
+            return;
+        }
+        let (program, plan) = (self.state.in_use.program, draw.plan);
+        let (rig, stride) = (self.known.rig, self.targets.atlas.tiles.stride);
+        let entered = match how.is_variant() {
+            true => self.variants.own.enter(gl, program, VariantUse::Views),
+            false => None,
+        };
+        let shear = plan.shear.filter(|_| !how.is_variant());
+        let send = &mut *draw.send;
+        self.prove(gl, shear, draw.hazard, draw.images, &mut |view| {
+            if let Some(Entered { variant, .. }) = &entered {
+                let shifts = (plan.shear, plan.flat);
+                variant.set_views(gl, shifts, &[rig.position(view)], stride);
+            }
+            send(Send::AsItIs);
+        });
+        gl.use_program(program);
+    }
+
+    /// Draws points to the samples of the panel, and in the program's own view.
+    fn draw_points_to_samples(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
         let current = match draw.hazard {
             ReplayHazard::Current(effect) => Current::take(gl, effect, false),
             _ => Current::default(),

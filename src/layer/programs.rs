@@ -5,11 +5,11 @@ use super::blocks::BlockReader;
 use super::own_variants::{OwnVariants, ProgramRecord, VariantUse};
 use super::unprojections::Unprojections;
 use crate::config::Strategy;
-use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn, pointed};
+use crate::draw::{Drawn, NoVariant, POINTS_AT_ONCE, Variant, VariantKind, drawn, pointed};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
 use crate::plan::Pose;
 use crate::plan::decide::{Linked as Linking, Shaders, VariantFacts};
-use crate::rewrite::Stage;
+use crate::rewrite::{PointsTo, Stage};
 use crate::state::{
     Linked, Matrices, Samplers, ShaderSource, Shaders as ProgramSources, SideEffects, link_change,
     sources,
@@ -262,7 +262,7 @@ impl Layer {
         self.variants.own.put(gl, program, new);
     }
 
-    /// Makes the variant for [`VariantUse::Rays`] or [`VariantUse::Points`], once for each link. The error says why there is none.
+    /// Makes the variant for [`VariantUse::Rays`], [`VariantUse::Points`] or [`VariantUse::PointLayers`], once for each link. The error says why there is none.
     pub(super) fn link_other(
         &mut self,
         gl: &Gl,
@@ -275,9 +275,13 @@ impl Layer {
         let linked = self.linked_from(program).ok_or(NoVariant::NoSource);
         self.state.keep_errors(gl);
         let made = linked.and_then(|linked| match with {
-            VariantUse::Points => {
+            VariantUse::Points | VariantUse::PointLayers => {
+                let to = match with {
+                    VariantUse::Points => PointsTo::Samples,
+                    _ => PointsTo::Layers(POINTS_AT_ONCE),
+                };
                 let compatibility = self.state.has.compatibility;
-                pointed(gl, program, &linked.sources, compatibility).map(Arc::new)
+                pointed(gl, program, &linked.sources, to, compatibility).map(Arc::new)
             }
             _ => match drawn(gl, program, &linked.sources, VariantKind::DistortedRays)? {
                 Drawn::ByVariant(variant) => Ok(variant),

@@ -117,8 +117,8 @@ pub enum Replayed {
     /// Samples of the panel have no stencil.
     #[error("points with a stencil test")]
     StencilledPoints,
-    /// A framebuffer of the program's, or the front buffer.
-    #[error("points in other images than the window's back buffer")]
+    /// Images whose views are not layers of one framebuffer: of an older driver, or of the front buffer.
+    #[error("points in images whose views are not layers")]
     PointsElsewhere,
     /// Points in one of several viewports.
     #[error("points in several viewports")]

@@ -43,7 +43,7 @@ pub use error::Refusal;
 pub use facts::{Facts, Matrix};
 pub use memory_writes::MemoryWrites;
 pub use names::{Names, Uniform};
-pub use points::{PointShaders, points};
+pub use points::{PointShaders, PointsTo, points};
 pub use version::Version;
 
 use edit::Edits;

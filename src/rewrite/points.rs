@@ -1,5 +1,5 @@
-//! A program that draws points, for all views at once: a geometry shader between its two shaders, and its fragment shader behind a test of what the view of
-//! a pixel sees; see [`crate::fixed::point_quads`].
+//! A program that draws points, for all views at once: a geometry shader between its two shaders. It emits one quad for all views, and the fragment shader is behind a test
+//! of what the view of a pixel sees (see [`crate::fixed::point_quads`]); or it emits the point again for each view, to the layer of that.
 //!
 //! The vertex shader stays as it is. The geometry shader passes its outputs on under other names, as a name cannot be both input and output of a stage; the
 //! fragment shader gets these. All of a point's values are constant over it, so nothing is interpolated.
@@ -8,10 +8,10 @@ use super::edit::Edits;
 use super::entry;
 use super::error::Refusal;
 use super::facts::Facts;
-use super::names::Names;
+use super::names::{Names, Uniform};
 use super::scan::{Kind, Scan};
 use super::version::Version;
-use crate::fixed::{PointPlace, point_globals, point_quads, point_sight};
+use crate::fixed::{PointPlace, point_globals, point_quads, point_shift, point_sight};
 use std::fmt::Write;
 
 /// The shaders of points for all views.
@@ -38,6 +38,15 @@ const TYPES: [&[u8]; 14] = [
     b"uvec3", b"uvec4", b"mat3", b"mat4",
 ];
 
+/// Where the points of all views go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointsTo {
+    /// To the samples that a panel shows.
+    Samples,
+    /// To the layers of the views, so many views at most in a draw.
+    Layers(u32),
+}
+
 /// Makes the shaders of points of a program with a vertex and a fragment shader, one object each. `compatibility`: of the context's profile.
 ///
 /// # Errors
@@ -45,19 +54,135 @@ const TYPES: [&[u8]; 14] = [
 pub fn points(
     vertex: &[u8],
     fragment: &[u8],
+    to: PointsTo,
     compatibility: bool,
 ) -> Result<PointShaders, Refusal> {
-    let [from, to] = [super::readable(vertex)?, super::readable(fragment)?];
-    let [first, version] = [&from, &to].map(|scan| Version::of(scan, false));
-    if first.es || version.es {
-        return Err(Refusal::Es);
+    match to {
+        PointsTo::Samples => to_samples(vertex, fragment, compatibility),
+        PointsTo::Layers(views) => to_layers(vertex, fragment, views, compatibility),
     }
-    let names = Names::of(&to);
-    if names != Names::of(&from) {
-        return Err(Refusal::Clash);
+}
+
+fn to_layers(
+    vertex: &[u8],
+    fragment: &[u8],
+    views: u32,
+    compatibility: bool,
+) -> Result<PointShaders, Refusal> {
+    let pair = Pair::of(vertex, fragment)?;
+    let Pair {
+        from, to, names, ..
+    } = &pair;
+    let used = |scan: &Scan, word: &[u8]| (0..scan.tokens.len()).any(|at| *scan.name(at) == *word);
+    let taken = [
+        ("gl_Layer", pair.facts.layer),
+        ("gl_ViewportIndex", pair.facts.viewport_index),
+        ("gl_ClipDistance", pair.facts.clip_distance),
+        ("memory that it writes to", !pair.facts.writes.is_empty()),
+        ("helpers", !pair.facts.main),
+    ];
+    if let Some((name, _)) = taken.into_iter().find(|&(_, used)| used) {
+        return Err(Refusal::Uses(name));
     }
-    check_vertex(&from, &Facts::of(&from, first))?;
-    let facts = Facts::of(&to, version);
+    let varyings = varyings(to)?;
+    check_members(to, &varyings)?;
+    let mut edits = Edits::new(to, pair.version);
+    for (at, token) in to.tokens.iter().enumerate() {
+        let number = varyings
+            .iter()
+            .position(|varying| varying.name == *to.name(at));
+        if let Some(number) = number.filter(|_| !to.is(at.wrapping_sub(1), b'.')) {
+            edits.replace(token, renamed(names, number));
+        }
+    }
+    let newest = pair.first.number.max(pair.version.number);
+    let output = format!("layout(points, max_vertices = {views}) out;");
+    let mut text = head(names, to, &varyings, (newest, compatibility), &output)?;
+    let (shift, tile) = (names.uniform(Uniform::Shift), names.uniform(Uniform::Tile));
+    let (count, x, pass) = (
+        names.uniform(Uniform::Views),
+        names.other("x"),
+        names.other("pass"),
+    );
+    let _ = writeln!(
+        text,
+        "uniform vec4 {shift}[{views}], {tile}[{views}];\nuniform int {count};"
+    );
+    text.push_str(&point_shift(&names.other("")));
+    let _ = writeln!(
+        text,
+        "void main() {{\n    for (int i = 0; i < {count}; ++i) {{\n        {pass}();"
+    );
+    if used(from, b"gl_PointSize") {
+        text.push_str("        gl_PointSize = gl_in[0].gl_PointSize;\n");
+    }
+    if used(to, b"gl_PrimitiveID") {
+        text.push_str("        gl_PrimitiveID = gl_PrimitiveIDIn;\n");
+    }
+    let _ = writeln!(text, "        gl_Layer = int({tile}[i].z);");
+    text.push_str("        vec4 p = gl_in[0].gl_Position;\n");
+    let _ = writeln!(
+        text,
+        "        p.x = {x}(p, vec4(0.0), i);\n        gl_Position = p;"
+    );
+    text.push_str("        EmitVertex();\n        EndPrimitive();\n    }\n}\n");
+    let fragment = edits.finish()?.into_owned();
+    Ok(PointShaders {
+        geometry: text,
+        fragment,
+        names: names.clone(),
+    })
+}
+
+/// The two shaders of a program, as far as both ways look into them.
+struct Pair<'a> {
+    from: Scan<'a>,
+    to: Scan<'a>,
+    /// Of the vertex shader, and of the fragment shader.
+    first: Version,
+    version: Version,
+    names: Names,
+    /// Of the fragment shader.
+    facts: Facts,
+}
+
+impl<'a> Pair<'a> {
+    fn of(vertex: &'a [u8], fragment: &'a [u8]) -> Result<Self, Refusal> {
+        let [from, to] = [super::readable(vertex)?, super::readable(fragment)?];
+        let [first, version] = [&from, &to].map(|scan| Version::of(scan, false));
+        if first.es || version.es {
+            return Err(Refusal::Es);
+        }
+        let names = Names::of(&to);
+        if names != Names::of(&from) {
+            return Err(Refusal::Clash);
+        }
+        check_vertex(&from, &Facts::of(&from, first))?;
+        let facts = Facts::of(&to, version);
+        Ok(Self {
+            from,
+            to,
+            first,
+            version,
+            names,
+            facts,
+        })
+    }
+}
+
+fn to_samples(
+    vertex: &[u8],
+    fragment: &[u8],
+    compatibility: bool,
+) -> Result<PointShaders, Refusal> {
+    let Pair {
+        to,
+        first,
+        version,
+        names,
+        facts,
+        ..
+    } = Pair::of(vertex, fragment)?;
     let coordinates = check_fragment(&to, &facts)?;
     let varyings = varyings(&to)?;
     check_members(&to, &varyings)?;
@@ -289,7 +414,7 @@ fn declared(
     }
 }
 
-/// The geometry shader; `newest` is the version of the newer of the program's shaders.
+/// The geometry shader of quads; `newest` is the version of the newer of the program's shaders.
 fn geometry(
     names: &Names,
     fragment: &Scan,
@@ -297,14 +422,37 @@ fn geometry(
     newest: u32,
     compatibility: bool,
 ) -> Result<String, Refusal> {
+    let output = "layout(triangle_strip, max_vertices = 4) out;";
+    let mut text = head(names, fragment, varyings, (newest, compatibility), output)?;
+    let prefix = names.other("");
+    text.push_str(&point_quads(
+        &prefix,
+        PointPlace::Shift,
+        Version::of(fragment, false).number,
+        ["gl_in[0].gl_PointSize", "vec4(0.0)"],
+    ));
+    Ok(text)
+}
+
+/// The beginning of a geometry shader: its layouts, the variables between the stages, and the function that passes them on.
+fn head(
+    names: &Names,
+    fragment: &Scan,
+    varyings: &[Varying],
+    (newest, compatibility): (u32, bool),
+    output: &str,
+) -> Result<String, Refusal> {
     let mut text = String::new();
     let profile = if compatibility { " compatibility" } else { "" };
     let located = varyings.iter().any(|v| v.qualifiers.contains("layout"));
     if located && newest < 410 {
         return Err(Refusal::Varyings);
     }
-    let _ = writeln!(text, "#version {}{profile}", newest.max(150));
-    text.push_str("layout(points) in;\nlayout(triangle_strip, max_vertices = 4) out;\n");
+    let _ = writeln!(
+        text,
+        "#version {}{profile}\nlayout(points) in;\n{output}",
+        newest.max(150)
+    );
     for (number, varying) in varyings.iter().enumerate() {
         let Varying {
             qualifiers, kind, ..
@@ -327,13 +475,6 @@ fn geometry(
         built_in(&mut text, fragment)?;
     }
     text.push_str("}\n");
-    let prefix = names.other("");
-    text.push_str(&point_quads(
-        &prefix,
-        PointPlace::Shift,
-        Version::of(fragment, false).number,
-        ["gl_in[0].gl_PointSize", "vec4(0.0)"],
-    ));
     Ok(text)
 }
 

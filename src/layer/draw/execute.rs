@@ -70,7 +70,7 @@ impl Layer {
 
     /// Makes a draw as [`Layer::choose`] has chosen.
     pub(in crate::layer) fn execute_by(&mut self, gl: &Gl, draw: &mut Draw, execution: &Execution) {
-        if !matches!(execution, Execution::Points(_)) {
+        if !matches!(execution, Execution::Points(how) if !how.is_to_layers()) {
             self.settle(gl);
         }
         let written = self.queries.feeds();

@@ -1,4 +1,4 @@
-//! Points are drawn once for all views, where the strategy is `splats` and they go to the window.
+//! Points are drawn once for all views, where the strategy is `splats`.
 
 use super::{Facts, Method, Plan, Settings, Shaders};
 use crate::config::Strategy;
@@ -18,9 +18,7 @@ pub(super) fn plan(facts: &Facts, settings: &Settings, plan: Plan) -> Plan {
     }
     let replayed = |why| Some(Reason::Replayed(why));
     let reason = match &facts.shaders {
-        _ if !facts.destination.is_window() || facts.destination.front => {
-            replayed(Replayed::PointsElsewhere)
-        }
+        _ if facts.destination.front => replayed(Replayed::PointsElsewhere),
         _ if facts.counted => replayed(Replayed::Counted),
         _ if facts.reads_views || facts.unprojects() => replayed(Replayed::SplitTexture),
         Shaders::Fixed => None,

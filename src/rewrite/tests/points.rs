@@ -5,7 +5,11 @@ use super::*;
 const VERTEX: &str = "#version 330 core\nin vec3 place;\nout vec4 shade;\nvoid main() { shade = vec4(1.0); gl_Position = vec4(place, 1.0); }\n";
 
 fn made(vertex: &str, fragment: &str, compatibility: bool) -> String {
-    match points(vertex.as_bytes(), fragment.as_bytes(), compatibility) {
+    made_for(PointsTo::Samples, vertex, fragment, compatibility)
+}
+
+fn made_for(to: PointsTo, vertex: &str, fragment: &str, compatibility: bool) -> String {
+    match points(vertex.as_bytes(), fragment.as_bytes(), to, compatibility) {
         Ok(made) => format!(
             "// geometry\n{}\n// fragment\n{}",
             made.geometry,
@@ -93,4 +97,17 @@ fn refusals() {
     // A texture at a place that all of a point has.
     let sampled = with("uniform sampler2D s; in vec2 at; vec4 f() { return texture(s, at); }");
     assert!(!made(&plain, &sampled, true).contains("refused"));
+}
+
+#[test]
+fn points_in_layers() {
+    let vertex = "#version 330 core\nin vec3 place;\nflat out vec4 shade;\nout float far;\n\
+                  void main() { shade = vec4(1.0); far = 1.0; gl_PointSize = 2.0; gl_Position = vec4(place, 1.0); }\n";
+    let fragment = "#version 330 core\n\
+                    flat in vec4 shade; in float far;\n\
+                    out vec4 colour;\n\
+                    void main() { colour = shade * far + float(gl_PrimitiveID) * gl_PointCoord.x; }\n";
+    insta::assert_snapshot!(made_for(PointsTo::Layers(16), vertex, fragment, false));
+    let layer = "#version 430\nvoid main() { int a = gl_Layer; }\n";
+    assert!(made_for(PointsTo::Layers(16), vertex, layer, false).contains("refused"));
 }
