@@ -228,6 +228,12 @@ fn full_memory_of_lists() {
 
 #[test]
 #[ignore = "minutes, under valgrind"]
+fn full_memory_of_points() {
+    a_demo("cloud", &["splats"]);
+}
+
+#[test]
+#[ignore = "minutes, under valgrind"]
 fn full_memory_of_copies() {
     a_demo("echo", &["replay"]);
 }

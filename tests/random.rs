@@ -306,6 +306,12 @@ fn random_calls_in_layers() {
     compare(Api::Egl, "layers", "replay", 10_000..10_050);
 }
 
+/// What is drawn to the samples of a panel is put back before anything else.
+#[test]
+fn random_calls_with_points_once() {
+    compare(Api::Egl, "layers", "splats", 30_000..30_040);
+}
+
 #[test]
 fn random_calls_in_windows() {
     let [front, _] = APART;

@@ -1,4 +1,5 @@
-//! `--strategy splats`: points of a program, drawn once for all views, against the pictures that the program itself draws for each view, behind the same mask.
+//! `--strategy splats`: points of a program, drawn once for all views, against the pictures that the program itself draws for each view; straight to a panel, behind the same
+//! mask, and to the layers of the views.
 //!
 //! The oracle's pictures come from `cloud --view i/N` without the layer. They are put together here, subpixel by subpixel. At most 0.02 % of the subpixels differ:
 //! a point whose edge lies on the border of a rounded place to within the last bit of a float may be a pixel aside. Measured on llvmpipe 22.3: at most 0.004 %
@@ -136,6 +137,7 @@ fn points_of_fixed_function_are_those_of_each_view() {
         &["--blend"],
         &["--clip"],
         &["--texture"],
+        &["--texture", "--sprites", "--point-size", "9"],
     ] {
         check("huebner8", 8, options);
     }
@@ -243,12 +245,23 @@ fn many_views_take_several_draws() {
 #[test]
 fn what_is_replayed_is_told() {
     let folder = tempfile::tempdir().expect("a folder");
-    let base = [("DISPLAY", "huebner8"), ("VIEWS", "8")];
-    let options = ["--sprites", "--texture"];
-    let shown = shown(folder.path(), &base, &options);
-    let reasons = shown.reasons();
-    let reason = "textured point sprites under `splats`";
-    assert!(reasons.contains(reason), "{reasons}");
+    let report = folder.path().join("report.json");
+    let variables = [
+        ("VIEWS", "8"),
+        ("STRATEGY", "splats"),
+        ("REPORT", &report.to_string_lossy()),
+    ];
+    let mut command = layered(demo("points"), &variables);
+    succeed(screen().give(command.args(["--frames", "2"])));
+    let text = std::fs::read_to_string(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let reasons = &report["fallbacks"];
+    assert_eq!(
+        reasons["smooth points under `splats` are replayed"], 2,
+        "{reasons}"
+    );
+    // Plain ones, and textured sprites.
+    assert_eq!(report["draws"]["splats"], 4, "{report}");
 }
 
 /// The option takes the word, and its help names it.

@@ -8,7 +8,7 @@ use super::programs::{DISTORTION_UNIT, Program, Programs, Stages, Uniforms};
 use super::state_guard::toggle;
 use super::variant::Variant;
 use crate::atlas::{Samples, Tiles as TilePlaces};
-use crate::fixed::{Amplifier, PointSize, Primitive, Tiles};
+use crate::fixed::{Amplifier, PointSize, Primitive, Tiles, Unsupported};
 use crate::gl::{Gl, TextureName, consts as c};
 use crate::plan::reason::{Reason, Replayed};
 use crate::plan::{Rig, Shear};
@@ -243,7 +243,8 @@ impl Programs {
         let fragment = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
         let sampled = fragment.canonical().sampled().next().is_some();
         if sampled && gl.is_enabled(c::POINT_SPRITE) {
-            return Err(Reason::Replayed(Replayed::TexturedSprites));
+            // Neighbours of a pixel are of other views, so the texture has no level of detail.
+            return Err(Reason::Fixed(Unsupported::TextureEnvironment));
         }
         let stages = (key.canonical(), Some(fragment.canonical()));
         self.compile(gl, &key, &stages)?;

@@ -68,9 +68,13 @@ impl Layer {
             self.count_draw(Method::Replay, plan);
             return None;
         }
-        let ready = match self.points_hindrance(gl) {
-            None => self.points_to_samples(gl, plan, drawing),
-            Some(why) => self.points_to_layers(gl, plan, drawing, why),
+        let sampled = match self.may_draw_to_samples(gl) {
+            true => self.points_to_samples(gl, plan, drawing).ok(),
+            false => None,
+        };
+        let ready = match sampled {
+            Some(how) => Ok(how),
+            None => self.points_to_layers(gl, plan, drawing),
         };
         match ready {
             Ok(how) => {
@@ -108,17 +112,15 @@ impl Layer {
         };
         match self.points.owed || self.gather_samples(gl) {
             true => Ok(how),
-            false => Err(Reason::Replayed(Replayed::OtherPixels)),
+            false => Err(Reason::Compile),
         }
     }
 
-    /// Prepares a draw to the layers of the views; `why` it does not go to the samples of the panel.
     fn points_to_layers(
         &mut self,
         gl: &Gl,
         plan: &Plan,
         drawing: &Drawing,
-        why: Replayed,
     ) -> Result<Pointed, Reason> {
         let framebuffer = self.state.framebuffers.draw;
         let layered = match framebuffer.is_zero() {
@@ -129,18 +131,17 @@ impl Layer {
             }
         };
         let full = self.targets.atlas.tiles.grid.is_full() || !framebuffer.is_zero();
-        let able = layered
-            && full
-            && !gl.is_es()
-            && self.session.support.point_quads()
-            && !self.queries.feeds()
-            && !self.state.rectangles.are_several();
-        if !able {
-            let why = if layered {
-                why
-            } else {
-                Replayed::PointsElsewhere
-            };
+        let able = layered && !gl.is_es() && self.session.support.point_quads();
+        let hindrances = [
+            (!full, Replayed::TilesApart),
+            (!able, Replayed::NoLayers),
+            (self.queries.feeds(), Replayed::Counted),
+            (
+                self.state.rectangles.are_several(),
+                Replayed::PointsInViewports,
+            ),
+        ];
+        if let Some((_, why)) = hindrances.into_iter().find(|(hinders, _)| *hinders) {
             return Err(Reason::Replayed(why));
         }
         if plan.variant {
@@ -170,9 +171,9 @@ impl Layer {
         how
     }
 
-    /// Why points cannot be drawn to the samples of the panel now.
-    fn points_hindrance(&self, gl: &Gl) -> Option<Replayed> {
-        let (session, tiles) = (&self.session, &self.targets.atlas.tiles);
+    /// Whether the window's points may be drawn to the samples of the panel now: it shows the views pixel by pixel, and nobody wants whole views.
+    fn may_draw_to_samples(&self, gl: &Gl) -> bool {
+        let (session, tiles, state) = (&self.session, &self.targets.atlas.tiles, &self.state);
         let captured = session.config.capture.as_ref().map(|capture| capture.what);
         let placement = self.placement();
         let panel = self.output() == Output::Panel
@@ -187,30 +188,15 @@ impl Layer {
         let whole = self.targets.undrawn
             || session.config.prove.is_some()
             || captured.is_some_and(|what| what != CaptureWhat::Output);
-        let hindrances = [
-            (
-                !self.state.framebuffers.draw.is_zero(),
-                Replayed::PointsElsewhere,
-            ),
-            (!panel || !same, Replayed::OtherPixels),
-            (whole, Replayed::WholeViews),
-            (
-                self.targets.atlas.multisampled(),
-                Replayed::MultisampledPoints,
-            ),
-            (
-                self.state.framebuffers.draws_front() || self.targets.atlas.has_front(),
-                Replayed::PointsElsewhere,
-            ),
-            (self.queries.feeds(), Replayed::Counted),
-            (
-                self.state.rectangles.are_several(),
-                Replayed::PointsInViewports,
-            ),
-            (gl.is_enabled(c::STENCIL_TEST), Replayed::StencilledPoints),
-        ];
-        let found = hindrances.into_iter().find(|(hinders, _)| *hinders);
-        found.map(|(_, why)| why)
+        // Samples have one value each, and no stencil.
+        let plain = state.framebuffers.draw.is_zero()
+            && !state.framebuffers.draws_front()
+            && !self.targets.atlas.has_front()
+            && !self.targets.atlas.multisampled()
+            && !state.rectangles.are_several()
+            && !self.queries.feeds()
+            && !gl.is_enabled(c::STENCIL_TEST);
+        panel && same && !whole && plain
     }
 
     /// Draws points for all views.

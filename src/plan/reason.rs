@@ -102,24 +102,9 @@ pub enum Replayed {
     /// Smooth points have a coverage that the driver computes.
     #[error("smooth points under `splats`")]
     SmoothPoints,
-    /// Neighbours of a pixel are of other views, so textures have no level of detail.
-    #[error("textured point sprites under `splats`")]
-    TexturedSprites,
-    /// Only the samples that a panel shows are drawn.
-    #[error("points of frames whose views are wanted as a whole")]
-    WholeViews,
-    /// The pixels of the tiles are not those of the panel.
-    #[error("points in views that the panel does not show pixel by pixel")]
-    OtherPixels,
-    /// A multisampled window.
-    #[error("multisampled points")]
-    MultisampledPoints,
-    /// Samples of the panel have no stencil.
-    #[error("points with a stencil test")]
-    StencilledPoints,
     /// Images whose views are not layers of one framebuffer: of an older driver, or of the front buffer.
     #[error("points in images whose views are not layers")]
-    PointsElsewhere,
+    NoLayers,
     /// Points in one of several viewports.
     #[error("points in several viewports")]
     PointsInViewports,

@@ -108,12 +108,23 @@ impl User {
         cleared.expect("sent").check().expect("cleared");
     }
 
-    /// Gives a window the keyboard focus.
+    /// Gives a window the keyboard focus, which only one that can be seen takes: it may not be mapped yet.
     pub(crate) fn focus(&self, window: Window) {
-        let given =
-            self.connection
-                .set_input_focus(InputFocus::PARENT, window, x11rb::CURRENT_TIME);
-        given.expect("sent").check().expect("focus");
+        let give = || {
+            let given =
+                self.connection
+                    .set_input_focus(InputFocus::PARENT, window, x11rb::CURRENT_TIME);
+            given.expect("sent").check()
+        };
+        let mut given = give();
+        for _ in 0..200 {
+            if given.is_ok() {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(25));
+            given = give();
+        }
+        given.expect("focus");
     }
 
     /// Adds a monitor to the screen: a name, left, top, width and height.

@@ -18,7 +18,7 @@ pub(super) fn plan(facts: &Facts, settings: &Settings, plan: Plan) -> Plan {
     }
     let replayed = |why| Some(Reason::Replayed(why));
     let reason = match &facts.shaders {
-        _ if facts.destination.front => replayed(Replayed::PointsElsewhere),
+        _ if facts.destination.front => replayed(Replayed::NoLayers),
         _ if facts.counted => replayed(Replayed::Counted),
         _ if facts.reads_views || facts.unprojects() => replayed(Replayed::SplitTexture),
         Shaders::Fixed => None,

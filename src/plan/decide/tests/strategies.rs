@@ -84,7 +84,7 @@ fn points_are_drawn_once_where_that_is_wanted() {
     );
     assert_eq!(
         why(&|facts| facts.destination.front = true),
-        replayed(Replayed::PointsElsewhere)
+        replayed(Replayed::NoLayers)
     );
     assert_eq!(
         why(&|facts| facts.reads_views = true),
