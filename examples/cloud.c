@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static int version, attenuate, sprites, lit, blend, clip, texture, framebuffer, count = 20000, size = 3;
+static int version, attenuate, sprites, lit, blend, clip, texture, smooth, upper_left, framebuffer, count = 20000, size = 3;
 const struct demo_option demo_options[] = {
     {"--glsl", "0, 120 or 330 (default 0)", &version, DEMO_NUMBER},
     {"--count", "number of points (default 20000)", &count, DEMO_NUMBER},
@@ -17,6 +17,8 @@ const struct demo_option demo_options[] = {
     {"--blend", "half transparent", &blend, DEMO_NOTHING},
     {"--clip", "behind a plane", &clip, DEMO_NOTHING},
     {"--texture", "a texel for each point", &texture, DEMO_NOTHING},
+    {"--smooth", "by GL_POINT_SMOOTH", &smooth, DEMO_NOTHING},
+    {"--upper-left", "with the origin of the clip volume at the upper left (OpenGL 4.5)", &upper_left, DEMO_NOTHING},
     {"--framebuffer", "1: by a framebuffer of its own; 2 to 4: with so many samples", &framebuffer, DEMO_NUMBER},
     {0}};
 
@@ -143,6 +145,10 @@ void demo_setup(void)
     glClearColor(0.05f, 0.06f, 0.11f, 1.0f);
     glEnable(GL_DEPTH_TEST);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    if (smooth)
+        glEnable(GL_POINT_SMOOTH);
+    if (upper_left)
+        ((void (*)(GLenum, GLenum))demo_proc("glClipControl"))(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
     if (texture && !version) {
         static const GLubyte a[3] = {250, 220, 90}, b[3] = {90, 160, 250};
         demo_checker(32, 8, a, b);
@@ -171,6 +177,8 @@ static void by_shaders(double t, const demo_matrix projection)
     demo_matrix m;
     if (sprites && version < 330)
         glEnable(GL_POINT_SPRITE);
+    if (clip && version < 330)
+        glEnable(GL_CLIP_PLANE2);
     glUseProgram(program);
     glEnableVertexAttribArray(0);
     glEnableVertexAttribArray(1);
@@ -186,8 +194,10 @@ static void by_shaders(double t, const demo_matrix projection)
     glDisableVertexAttribArray(0);
     glDisableVertexAttribArray(1);
     glUseProgram(0);
-    if (version < 330)
+    if (version < 330) {
         glDisable(GL_POINT_SPRITE);
+        glDisable(GL_CLIP_PLANE2);
+    }
 }
 
 static void by_fixed_function(double t)

@@ -163,6 +163,28 @@ fn points_of_shaders_are_those_of_each_view() {
     }
 }
 
+/// State of which the samples of a panel know nothing: such points go to layers, or are replayed.
+#[test]
+fn odd_state_is_that_of_each_view() {
+    for options in [
+        &["--smooth", "--blend", "--point-size", "6"][..],
+        &["--smooth", "--blend", "--point-size", "6", "--glsl", "120"],
+        &["--upper-left"],
+        &["--upper-left", "--glsl", "120"],
+        &["--clip", "--glsl", "120"],
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let expected = expected(folder.path(), "huebner8", 8, options);
+        let variables = [("DISPLAY", "huebner8"), ("VIEWS", "8")];
+        let shown = shown(folder.path(), &variables, options);
+        let wrong = wrong_percent(&expected, &shown.picture);
+        assert!(
+            wrong <= WRONG,
+            "{options:?}: {wrong:.4} % of the subpixels are wrong"
+        );
+    }
+}
+
 /// Masks by subpixels and by pixels, slanted and upright, few views and many.
 #[test]
 fn every_mask_shows_its_views() {

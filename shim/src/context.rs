@@ -159,14 +159,14 @@ fn current<R>(f: impl FnOnce(&Context) -> R) -> Option<R> {
 /// context, if the call comes from inside the layer or the driver or between glBegin and glEnd, or if the layer is off. A panic turns
 /// the layer off for good.
 pub(crate) fn enter<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
-    enter_unsettled(|gl, l| {
-        l.settle(gl);
+    enter_unflushed(|gl, l| {
+        l.flush_points(gl);
         f(gl, l)
     })
 }
 
 /// As [`enter`], for commands after which more may be drawn to the samples of the panel.
-pub(crate) fn enter_unsettled<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
+pub(crate) fn enter_unflushed<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
     with_context(|gl, _, work| work.layer.as_mut().map(|l| f(gl, l))).flatten()
 }
 

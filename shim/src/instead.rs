@@ -1,20 +1,20 @@
 //! Work of the layer in place of a call of the program's.
 
-use crate::context::{enter_unsettled, own_call, take_owed};
+use crate::context::{enter_unflushed, own_call, take_owed};
 use manyview_core::gl::Gl;
 use manyview_core::layer::Layer;
 
 /// Runs `f` in place of the program's own call, which it gets. Where there is no layer to run it on, and where a fault ends it before the
 /// program's own view has got the call, the call is made as it is.
 pub(crate) fn instead(call: &mut dyn FnMut(), f: impl FnOnce(&Gl, &mut Layer, &mut dyn FnMut())) {
-    instead_unsettled(call, |gl, l, call| {
-        l.settle(gl);
+    instead_unflushed(call, |gl, l, call| {
+        l.flush_points(gl);
         f(gl, l, call);
     });
 }
 
-/// As [`instead`] and [`enter_unsettled`].
-pub(crate) fn instead_unsettled(
+/// As [`instead`] and [`enter_unflushed`].
+pub(crate) fn instead_unflushed(
     call: &mut dyn FnMut(),
     f: impl FnOnce(&Gl, &mut Layer, &mut dyn FnMut()),
 ) {
@@ -30,7 +30,7 @@ pub(crate) fn instead_at<P>(
     f: impl FnOnce(&Gl, &mut Layer, &mut dyn FnMut(P)),
 ) {
     at_places(as_it_is, call, |gl, l, call| {
-        l.settle(gl);
+        l.flush_points(gl);
         f(gl, l, call);
     });
 }
@@ -41,7 +41,7 @@ fn at_places<P>(
     f: impl FnOnce(&Gl, &mut Layer, &mut dyn FnMut(P)),
 ) {
     let mut made = false;
-    let done = enter_unsettled(|gl, l| {
+    let done = enter_unflushed(|gl, l| {
         f(gl, l, &mut |place| {
             own_call(|| call(place));
             made = true;

@@ -219,9 +219,7 @@ impl Batch<'_> {
     /// Row 0 of P_i · modelview of a view.
     fn first_row(&self, view: ViewIndex) -> [f32; 4] {
         let (state, tiles) = (self.state, &self.tiles);
-        let p = self.shear.map_or(state.matrices.projection, |s| {
-            s.projection(&state.matrices.projection, self.rig.position(view))
-        });
+        let p = projection_of(state, self.rig, self.shear, view);
         if tiles.grid.is_full() {
             return first_row(&p, &self.modelview);
         }
@@ -275,6 +273,17 @@ pub(super) fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<
         return Err(Reason::Replayed(Replayed::CutPrimitives));
     }
     Ok(())
+}
+
+/// P_i, for a shift.
+pub(super) fn projection_of(
+    state: &State,
+    rig: &Rig,
+    shear: Option<Shear>,
+    view: ViewIndex,
+) -> [f32; 16] {
+    let p = state.matrices.projection;
+    shear.map_or(p, |shear| shear.projection(&p, rig.position(view)))
 }
 
 /// A row of a projection that places everything outside of the clip volume. Layers that do not exist would not do: llvmpipe draws to the last one in their place.

@@ -9,8 +9,8 @@ pub(super) struct PointLocations {
     pub(super) target: i32,
     pub(super) window: i32,
     pub(super) rule: i32,
-    pub(super) tie: i32,
-    pub(super) origin: i32,
+    pub(super) rows_down: i32,
+    pub(super) coord_sign: i32,
     pub(super) seen: i32,
 }
 
@@ -25,8 +25,8 @@ impl PointLocations {
             target: at("target"),
             window: at("window"),
             rule: at("rule"),
-            tie: at("tie"),
-            origin: at("origin"),
+            rows_down: at("rows_down"),
+            coord_sign: at("coord_sign"),
             seen: at("seen"),
         }
     }

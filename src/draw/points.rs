@@ -1,6 +1,6 @@
 //! Points for all views at once, drawn to the samples that a panel shows (`fixed/points.rs` has the shaders, `atlas/samples.rs` the target).
 
-use super::amplified::{OUTSIDE, first_row};
+use super::amplified::{OUTSIDE, first_row, projection_of};
 use super::fixed_state::FixedState;
 use super::fragment_state;
 use super::point_locations::PointLocations;
@@ -10,20 +10,13 @@ use super::variant::Variant;
 use crate::atlas::{Samples, Tiles as TilePlaces};
 use crate::fixed::{Amplifier, PointSize, Primitive, Tiles, Unsupported};
 use crate::gl::{Gl, TextureName, consts as c};
-use crate::plan::reason::{Reason, Replayed};
+use crate::plan::reason::Reason;
 use crate::plan::{Rig, Shear};
 use crate::state::State;
 use crate::view::ViewIndex;
 use std::sync::Arc;
 
-/// GL_SUBPIXEL_BITS
-const SUBPIXEL_BITS: u32 = 0x0D50;
-/// GL_ALIASED_POINT_SIZE_RANGE
-const ALIASED_POINT_SIZE_RANGE: u32 = 0x846D;
-/// GL_POINT_SPRITE_COORD_ORIGIN
-const POINT_SPRITE_COORD_ORIGIN: u32 = 0x8CA0;
-
-/// How a driver rasterises points.
+/// Kind a driver rasterises points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointRules {
     /// Places in a pixel that it rounds to.
@@ -38,10 +31,10 @@ impl PointRules {
     /// Asks the current context.
     #[must_use]
     pub fn ask(gl: &Gl, compatibility: bool) -> Self {
-        let bits = gl.get_integer(SUBPIXEL_BITS).clamp(0, 12);
+        let bits = gl.get_integer(c::SUBPIXEL_BITS).clamp(0, 12);
         PointRules {
             parts: f32::from(1_u16 << bits),
-            most: gl.get_floats::<2>(ALIASED_POINT_SIZE_RANGE)[1],
+            most: gl.get_floats::<2>(c::ALIASED_POINT_SIZE_RANGE)[1],
             compatibility,
         }
     }
@@ -49,10 +42,10 @@ impl PointRules {
 
 /// A program of points for a draw.
 #[derive(Clone, Debug)]
-pub struct Pointed(How);
+pub struct PointProgram(Kind);
 
 #[derive(Clone, Debug)]
-enum How {
+enum Kind {
     /// A variant of the program's own, which is in use, and the texture units that it samples.
     Variant(Arc<Variant>, Vec<u32>),
     /// A generated one, with the modelview matrix.
@@ -66,29 +59,29 @@ enum How {
 /// Views that a variant draws at once, whose outputs all drivers have room for: 1024 numbers for all vertices.
 pub const POINTS_AT_ONCE: u32 = 16;
 
-impl Pointed {
-    /// A variant from [`super::pointed`], which has to be in use for the draw, and the texture units that it samples.
+impl PointProgram {
+    /// A variant from [`super::point_variant`], which has to be in use for the draw, and the texture units that it samples.
     #[must_use]
     pub fn by_variant(variant: Arc<Variant>, units: Vec<u32>) -> Self {
-        Pointed(How::Variant(variant, units))
+        PointProgram(Kind::Variant(variant, units))
     }
 
-    /// A variant from [`super::pointed`] that draws to layers.
+    /// A variant from [`super::point_variant`] that draws to layers.
     #[must_use]
     pub fn by_variant_to_layers() -> Self {
-        Pointed(How::VariantToLayers)
+        PointProgram(Kind::VariantToLayers)
     }
 
     /// Whether it is a variant, which has to be in use for the draw.
     #[must_use]
     pub fn is_variant(&self) -> bool {
-        matches!(self.0, How::Variant(..) | How::VariantToLayers)
+        matches!(self.0, Kind::Variant(..) | Kind::VariantToLayers)
     }
 
     /// Whether it draws to layers, and not to the samples of a panel.
     #[must_use]
     pub fn is_to_layers(&self) -> bool {
-        matches!(self.0, How::VariantToLayers | How::GeneratedToLayers(..))
+        matches!(self.0, Kind::VariantToLayers | Kind::GeneratedToLayers(..))
     }
 }
 
@@ -102,8 +95,8 @@ struct PointGuard {
     sampler: u32,
 }
 
-/// What would spoil a quad that stands for a point.
-const SPOILERS: [(u32, bool); 5] = [
+/// State that applies to a quad and not to a point; with whether only compatibility contexts have it.
+const DISABLED: [(u32, bool); 5] = [
     (c::CULL_FACE, false),
     (c::POLYGON_OFFSET_FILL, false),
     (c::POLYGON_SMOOTH, false),
@@ -122,8 +115,8 @@ impl PointGuard {
             gl.scissor(x.saturating_mul(parts), y, w.saturating_mul(parts), h);
         }
         let there = |&&(_, compatibility): &&(u32, bool)| !compatibility || state.has.compatibility;
-        let spoilers = SPOILERS.iter().filter(there).map(|spoiler| spoiler.0);
-        let toggled: Vec<u32> = spoilers.filter(|&cap| gl.is_enabled(cap)).collect();
+        let disabled = DISABLED.iter().filter(there).map(|entry| entry.0);
+        let toggled: Vec<u32> = disabled.filter(|&cap| gl.is_enabled(cap)).collect();
         toggled.iter().for_each(|&cap| gl.disable(cap));
         let [front, back] = gl.get_integers::<2>(c::POLYGON_MODE).map(|m| m as u32);
         // A core context has one mode for both.
@@ -195,13 +188,13 @@ fn set_uniforms(
         true => 0.0,
         false => gl.get_floats::<1>(c::POINT_SIZE)[0],
     };
-    let upper = gl.get_integer(POINT_SPRITE_COORD_ORIGIN) as u32 != c::LOWER_LEFT;
+    let upper = gl.get_integer(c::POINT_SPRITE_COORD_ORIGIN) as u32 != c::LOWER_LEFT;
     gl.uniform_4fv(at.target, &[[width * parts, height, parts, views as f32]]);
     gl.uniform_4fv(at.window, &[[vw / 2.0, vx + vw / 2.0, up, middle]]);
     let rule = [f32::from(u8::from(sprites)), rules.parts, rules.most, size];
     gl.uniform_4fv(at.rule, &[rule]);
-    gl.uniform_1f(at.tie, f32::from(u8::from(flipped)));
-    gl.uniform_1f(at.origin, if upper == flipped { 1.0 } else { -1.0 });
+    gl.uniform_1f(at.rows_down, f32::from(u8::from(flipped)));
+    gl.uniform_1f(at.coord_sign, if upper == flipped { 1.0 } else { -1.0 });
     gl.uniform_1i(at.seen, unit as i32);
 }
 
@@ -230,16 +223,13 @@ impl Programs {
         gl: &Gl,
         fixed: &FixedState,
         material: bool,
-    ) -> Result<Pointed, Reason> {
+    ) -> Result<PointProgram, Reason> {
         let modelview = gl.get_matrix(c::MODELVIEW_MATRIX);
         let (mut key, surroundings) = fixed.for_mode(c::POINTS, &modelview, material);
         key.target.amplifier = Amplifier::Points;
         key.target.tiles = Tiles::Layer;
         key.target.views = 1;
         surroundings.allow(&key).map_err(Reason::Fixed)?;
-        if surroundings.point_smooth {
-            return Err(Reason::Replayed(Replayed::SmoothPoints));
-        }
         let fragment = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
         let sampled = fragment.canonical().sampled().next().is_some();
         if sampled && gl.is_enabled(c::POINT_SPRITE) {
@@ -248,7 +238,7 @@ impl Programs {
         }
         let stages = (key.canonical(), Some(fragment.canonical()));
         self.compile(gl, &key, &stages)?;
-        Ok(Pointed(How::Generated(Box::new(stages), modelview)))
+        Ok(PointProgram(Kind::Generated(Box::new(stages), modelview)))
     }
 
     /// The program of points of fixed function that are drawn to layers, of so many views; it is compiled if it is new.
@@ -261,7 +251,7 @@ impl Programs {
         fixed: &FixedState,
         material: bool,
         views: u32,
-    ) -> Result<Pointed, Reason> {
+    ) -> Result<PointProgram, Reason> {
         let modelview = gl.get_matrix(c::MODELVIEW_MATRIX);
         let (mut key, surroundings) = fixed.for_mode(c::POINTS, &modelview, material);
         key.target.primitive = Primitive::Points;
@@ -271,13 +261,12 @@ impl Programs {
         let batch = crate::fixed::batch(&key, &self.limits);
         key.target.views = batch.min(views).clamp(1, POINTS_AT_ONCE) as u8;
         surroundings.allow(&key).map_err(Reason::Fixed)?;
-        if surroundings.point_smooth {
-            // Measured on llvmpipe 22.3: they are torn after a geometry shader.
-            return Err(Reason::Replayed(Replayed::SmoothPoints));
-        }
         let stages = (key.canonical(), None);
         self.compile(gl, &key, &stages)?;
-        Ok(Pointed(How::GeneratedToLayers(Box::new(stages), modelview)))
+        Ok(PointProgram(Kind::GeneratedToLayers(
+            Box::new(stages),
+            modelview,
+        )))
     }
 
     /// Draws points to the layers of the framebuffer that is bound, by a program from [`Programs::prepare_layered_points`]. `call` makes the draw for some views. All state
@@ -293,10 +282,10 @@ impl Programs {
         (rig, shear): (&Rig, Option<Shear>),
         tiles: &TilePlaces,
         fixed: &FixedState,
-        how: &Pointed,
+        how: &PointProgram,
         call: &mut dyn FnMut(),
     ) {
-        let How::GeneratedToLayers(stages, modelview) = &how.0 else {
+        let Kind::GeneratedToLayers(stages, modelview) = &how.0 else {
             return;
         };
         let Some(Some(program)) = self.cache.get_mut(&**stages) else {
@@ -307,12 +296,8 @@ impl Programs {
         let batch = usize::from(stages.0.target.views.max(1));
         let drawn: Vec<ViewIndex> = tiles.order().collect();
         for views in drawn.chunks(batch) {
-            let row = |&view: &ViewIndex| {
-                let p = shear.map_or(state.matrices.projection, |shear| {
-                    shear.projection(&state.matrices.projection, rig.position(view))
-                });
-                first_row(&p, modelview)
-            };
+            let row =
+                |&view: &ViewIndex| first_row(&projection_of(state, rig, shear, view), modelview);
             let mut rows: Vec<[f32; 4]> = views.iter().map(row).collect();
             let layer = |&view: &ViewIndex| [0.0, 0.0, tiles.slot(view) as f32, 0.0];
             let mut places: Vec<[f32; 4]> = views.iter().map(layer).collect();
@@ -346,11 +331,11 @@ impl Programs {
         target: (&Samples, bool),
         (rig, shear, views): (&Rig, Option<Shear>, u32),
         rules: &PointRules,
-        how: &Pointed,
+        how: &PointProgram,
         call: &mut dyn FnMut(),
     ) {
         let (at, unit, written, planes) = match &how.0 {
-            How::Variant(variant, units) => {
+            Kind::Variant(variant, units) => {
                 let unit = (0..=DISTORTION_UNIT)
                     .rev()
                     .find(|unit| !units.contains(unit));
@@ -358,17 +343,12 @@ impl Programs {
                 let unit = unit.unwrap_or(DISTORTION_UNIT);
                 (variant.point_locations(), unit, written, None)
             }
-            How::Generated(stages, modelview) => {
+            Kind::Generated(stages, modelview) => {
                 let Some(Some(program)) = self.cache.get_mut(&**stages) else {
                     return;
                 };
                 gl.use_program(program.name);
-                let rows = |view| {
-                    let p = shear.map_or(state.matrices.projection, |shear| {
-                        shear.projection(&state.matrices.projection, rig.position(view))
-                    });
-                    first_row(&p, modelview)
-                };
+                let rows = |view| first_row(&projection_of(state, rig, shear, view), modelview);
                 let rows: Vec<[f32; 4]> = ViewIndex::all(views).map(rows).collect();
                 program.upload_rows(gl, rows);
                 let (planes, distances) = (stages.0.clip_planes, program.patches.clip_distances);
@@ -380,7 +360,7 @@ impl Programs {
                     Some((planes, distances)),
                 )
             }
-            How::VariantToLayers | How::GeneratedToLayers(..) => return,
+            Kind::VariantToLayers | Kind::GeneratedToLayers(..) => return,
         };
         let guard = PointGuard::enter(gl, state, target.0, unit);
         switch_planes(gl, planes, true);

@@ -147,7 +147,7 @@ pub fn drawn(
 ///
 /// # Errors
 /// Why there is no such variant.
-pub fn pointed(
+pub fn point_variant(
     gl: &Gl,
     program: ProgramName,
     sources: &[ShaderSource],
@@ -389,7 +389,7 @@ impl Variant {
         self.name
     }
 
-    /// The locations of the uniforms of a variant from [`pointed`].
+    /// The locations of the uniforms of a variant from [`point_variant`].
     pub(super) fn point_locations(&self) -> PointLocations {
         self.points
     }

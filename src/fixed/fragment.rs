@@ -14,7 +14,7 @@ use super::environment;
 use super::fragment_key::{FogMode, FragmentKey, FragmentUnit, TextureTarget};
 use super::key::Dialect;
 use super::limits::Limits;
-use super::points::{PointPlace, point_globals, point_sight};
+use super::points::{PointPlace, point_globals, point_test};
 use super::reason::Unsupported;
 use super::text::{Text, VERSION};
 use super::{LIMITS, UNIFORM_GRID};
@@ -65,13 +65,13 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
     }
     if key.points {
         text.line(point_globals("mv_"));
-        text.line(point_sight("mv_", PointPlace::Rows, VERSION));
+        text.line(point_test("mv_", PointPlace::Rows, VERSION));
     }
     text.line("");
     text.open("void main() {");
     let samples = sampled(&key).next().is_some();
     if key.points && !samples {
-        text.line("if (!mv_see()) discard;");
+        text.line("if (!mv_visible()) discard;");
     }
     for (unit, state) in sampled(&key) {
         write_texel(&mut text, &key, unit, state);
@@ -92,7 +92,7 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
     write_fog(&mut text, key.fog);
     // The discard comes last, because textures that are sampled after it have no gradients.
     if key.points && samples {
-        text.line("if (!mv_see()) discard;");
+        text.line("if (!mv_visible()) discard;");
     }
     if key.discard {
         text.line(format!(

@@ -69,7 +69,7 @@ pub use key::{
 };
 pub use limits::{Limits, VertexLayer};
 pub use patches::Patches;
-pub use points::{PointPlace, point_globals, point_quads, point_shift, point_sight};
+pub use points::{PointPlace, point_globals, point_quads, point_shift, point_test};
 pub use reason::{Rasterised, Surroundings, Unsupported};
 pub use tessellation::{LEVELS, UNIFORM_LEVELS};
 

@@ -36,17 +36,17 @@ pub fn point_quads(
         &format!("{output} vec4 {prefix}clip;"),
         &format!("{output} vec4 {prefix}vertex;"),
         // Size in pixels, and the row of the centre in the framebuffer.
-        &format!("{output} vec2 {prefix}spot;"),
+        &format!("{output} vec2 {prefix}square;"),
         "",
     ]);
     write_functions(&mut text, prefix, place);
     text.open(format!(
-        "void {prefix}corner(vec2 at, vec4 p, vec2 spot) {{"
+        "void {prefix}corner(vec2 at, vec4 p, vec2 square) {{"
     ));
     text.line(format!("{prefix}pass();"));
     text.line(format!("{prefix}clip = p;"));
     text.line(format!("{prefix}vertex = {vertex};"));
-    text.line(format!("{prefix}spot = spot;"));
+    text.line(format!("{prefix}square = square;"));
     // All corners have the depth of the point.
     text.line(format!(
         "gl_Position = vec4(at * vec2(2.0 / {prefix}target.x, 2.0 / {prefix}target.y) - 1.0, p.z * (1.0 / p.w), 1.0);"
@@ -79,29 +79,29 @@ pub fn point_quads(
         "float row = p.y * (1.0 / p.w) * {prefix}window.z + {prefix}window.w;"
     ));
     text.line(format!(
-        "vec2 rows = clamp({prefix}span(row, size, {prefix}tie), 0.0, {prefix}target.y);"
+        "vec2 rows = clamp({prefix}span(row, size, {prefix}rows_down), 0.0, {prefix}target.y);"
     ));
     text.line("if (!(columns.x < columns.y) || !(rows.x < rows.y)) return;");
     text.line(format!(
-        "if ({prefix}tie > 0.5) rows = {prefix}target.y - rows.yx;"
+        "if ({prefix}rows_down > 0.5) rows = {prefix}target.y - rows.yx;"
     ));
-    text.line("vec2 spot = vec2(size, row);");
+    text.line("vec2 square = vec2(size, row);");
     for corner in [
         "columns.x, rows.x",
         "columns.y, rows.x",
         "columns.x, rows.y",
         "columns.y, rows.y",
     ] {
-        text.line(format!("{prefix}corner(vec2({corner}), p, spot);"));
+        text.line(format!("{prefix}corner(vec2({corner}), p, square);"));
     }
     text.line("EndPrimitive();");
     text.close("}");
     text.finish()
 }
 
-/// What the fragment shader adds, for a shader of this version of GLSL: `bool PREFIX_see()`, which says whether the view of a pixel sees the point there, and sets
+/// What the fragment shader adds, for a shader of this version of GLSL: `bool PREFIX_visible()`, which says whether the view of a pixel sees the point there, and sets
 /// `PREFIX_coord` and `PREFIX_point_coord`, which stand for gl_FragCoord and gl_PointCoord; these are declared here.
-pub fn point_sight(prefix: &str, place: PointPlace, glsl: u32) -> String {
+pub fn point_test(prefix: &str, place: PointPlace, glsl: u32) -> String {
     let mut text = Text::default();
     let (input, fetch) = match glsl < 130 {
         true => ("varying", "texture2D"),
@@ -112,13 +112,13 @@ pub fn point_sight(prefix: &str, place: PointPlace, glsl: u32) -> String {
     text.lines(&[
         &format!("{input} vec4 {prefix}clip;"),
         &format!("{input} vec4 {prefix}vertex;"),
-        &format!("{input} vec2 {prefix}spot;"),
+        &format!("{input} vec2 {prefix}square;"),
         "",
     ]);
     write_functions(&mut text, prefix, place);
-    text.open(format!("bool {prefix}see() {{"));
+    text.open(format!("bool {prefix}visible() {{"));
     text.line(format!(
-        "float up = {prefix}tie > 0.5 ? {prefix}target.y - gl_FragCoord.y : gl_FragCoord.y;"
+        "float up = {prefix}rows_down > 0.5 ? {prefix}target.y - gl_FragCoord.y : gl_FragCoord.y;"
     ));
     text.line(format!(
         "int view = int({fetch}({prefix}seen, vec2(gl_FragCoord.x, up) / {prefix}target.xy).x * 255.0 + 0.5);"
@@ -130,7 +130,7 @@ pub fn point_sight(prefix: &str, place: PointPlace, glsl: u32) -> String {
     text.line("if (x > p.w || x < -p.w) return false;");
     text.line(format!("float at = {prefix}centre(x, p.w);"));
     text.line(format!(
-        "vec2 columns = {prefix}span(at, {prefix}spot.x, 0.0);"
+        "vec2 columns = {prefix}span(at, {prefix}square.x, 0.0);"
     ));
     text.line(format!(
         "float column = floor(gl_FragCoord.x / {prefix}target.z);"
@@ -140,14 +140,14 @@ pub fn point_sight(prefix: &str, place: PointPlace, glsl: u32) -> String {
         "{prefix}coord = vec4(column + 0.5, gl_FragCoord.yz, 1.0 / p.w);"
     ));
     text.line(format!(
-        "{prefix}point_coord = 0.5 + vec2(column + 0.5 - at, (up - {prefix}spot.y) * {prefix}origin) / {prefix}spot.x;"
+        "{prefix}point_coord = 0.5 + vec2(column + 0.5 - at, (up - {prefix}square.y) * {prefix}coord_sign) / {prefix}square.x;"
     ));
     text.line("return true;");
     text.close("}");
     text.finish()
 }
 
-/// The globals that [`point_sight`] sets; they may be used before it.
+/// The globals that [`point_test`] sets; they may be used before it.
 pub fn point_globals(prefix: &str) -> String {
     format!("vec4 {prefix}coord; vec2 {prefix}point_coord;")
 }
@@ -174,9 +174,9 @@ fn write_uniforms(text: &mut Text, prefix: &str, place: PointPlace) {
         // x: 1 for squares about the centre, 0 for whole pixels. y: places in a pixel. z: largest size. w: size, 0 where the vertex has it.
         &format!("uniform vec4 {prefix}rule;"),
         // 1 where rows of the framebuffer run down.
-        &format!("uniform float {prefix}tie;"),
+        &format!("uniform float {prefix}rows_down;"),
         // From rows to gl_PointCoord: 1 or -1.
-        &format!("uniform float {prefix}origin;"),
+        &format!("uniform float {prefix}coord_sign;"),
     ]);
 }
 
@@ -212,13 +212,13 @@ fn write_functions(text: &mut Text, prefix: &str, place: PointPlace) {
     text.close("}");
     // The first pixel of a square, and the one after the last.
     text.open(format!(
-        "vec2 {prefix}span(float at, float size, float tie) {{"
+        "vec2 {prefix}span(float at, float size, float rows_down) {{"
     ));
     text.line(format!("float parts = {prefix}rule.y;"));
     text.open(format!("if ({prefix}rule.x > 0.5) {{"));
     text.lines(&[
         "float wide = size * parts;",
-        "float low = floor((at - 0.5) * parts + 0.5) - floor(wide * 0.5) + tie;",
+        "float low = floor((at - 0.5) * parts + 0.5) - floor(wide * 0.5) + rows_down;",
         "return ceil(vec2(low, low + wide) / parts);",
     ]);
     text.close("}");
@@ -226,7 +226,7 @@ fn write_functions(text: &mut Text, prefix: &str, place: PointPlace) {
         "float whole = max(ceil(size - 0.5), 1.0);",
         "float before = floor(whole * 0.5);",
         "float even = before * 2.0 == whole ? 0.5 : 0.0;",
-        "float first = floor((floor(at * parts + 0.5) - tie) / parts + even) - before;",
+        "float first = floor((floor(at * parts + 0.5) - rows_down) / parts + even) - before;",
         "return vec2(first, first + whole);",
     ]);
     text.close("}");

@@ -162,7 +162,7 @@ impl Layer {
                 layer.switch(gl, [drawable, read], elsewhere, lives)
             });
         }
-        self.settle(gl);
+        self.flush_points(gl);
         self.yield_taken_names(gl);
         let as_before = [drawable.id, read.id] == [self.canvases.current; 2]
             && self.canvases.reading == Reading::Drawn
@@ -376,7 +376,7 @@ impl Layer {
 
     /// The program leaves the drawable. `handed_over`: another context draws to it next.
     pub fn leave_drawable(&mut self, gl: &Gl, handed_over: bool) {
-        self.settle(gl);
+        self.flush_points(gl);
         self.give_read_buffer(gl);
         self.picture_unfinished(gl, handed_over);
     }

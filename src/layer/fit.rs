@@ -122,7 +122,7 @@ impl Layer {
         if self.size() == (width, height) {
             return;
         }
-        self.settle(gl);
+        self.flush_points(gl);
         self.drop_proof(gl);
         self.known.mono = Mono::default();
         self.forget_scene();

@@ -91,7 +91,7 @@ impl Layer {
         if !self.may_show() {
             return;
         }
-        self.settle(gl);
+        self.flush_points(gl);
         self.finish_explanation(gl);
         self.refit(gl);
         if self.is_plain() {

@@ -34,7 +34,7 @@ impl Layer {
         }
         self.state.refresh(gl);
         if !self.state.makes_pictures() || mode != c::POINTS {
-            self.settle(gl);
+            self.flush_points(gl);
         }
         if !self.state.makes_pictures() || mode > c::POLYGON {
             self.queries.drawn();

@@ -346,7 +346,7 @@ impl Layer {
         if let Some(osd) = self.targets.osd.take() {
             osd.delete(gl);
         }
-        self.settle(gl);
+        self.flush_points(gl);
         if let Some(samples) = self.points.take() {
             samples.delete(gl);
         }
@@ -390,7 +390,7 @@ impl Layer {
         if self.is_plain() {
             return true;
         }
-        self.settle(gl);
+        self.flush_points(gl);
         self.state.refresh(gl);
         self.leave_mono(gl);
         let grid = self.grid();

@@ -12,7 +12,7 @@ impl Layer {
         gl: &Gl,
         work: impl FnOnce(&mut Self, &Neutral) -> R,
     ) -> R {
-        self.settle(gl);
+        self.flush_points(gl);
         self.yield_taken_names(gl);
         self.queries.pause(gl);
         self.queries.lift_condition(gl);

@@ -83,7 +83,7 @@ pub(super) struct ProgramRecord {
     /// The variants that choose layers, for one view and for all: none until one is wanted, `Some(None)` where there cannot be one.
     layered: [Option<Option<Arc<Variant>>>; 2],
     /// The variants of [`VariantUse::Rays`], [`VariantUse::Points`] and [`VariantUse::PointLayers`], or why there is none, once one has been wanted.
-    others: [Made; 3],
+    optional: [Made; 3],
     matrices: Matrices,
     samplers: Samplers,
     effects: SideEffects,
@@ -125,7 +125,7 @@ impl ProgramRecord {
             },
             followed: [(0, 0); 6],
             layered: [None, None],
-            others: [None, None, None],
+            optional: [None, None, None],
         }
     }
 
@@ -136,11 +136,11 @@ impl ProgramRecord {
             _ => None,
         };
         let layered = self.layered.iter().flatten().flatten();
-        let others = self.others.iter().flatten().flatten();
+        let optional = self.optional.iter().flatten().flatten();
         whole
             .into_iter()
             .chain(layered)
-            .chain(others)
+            .chain(optional)
             .map(|variant| variant.name())
     }
 }
@@ -156,13 +156,13 @@ impl OwnVariants {
         let known = self.known.get_mut(&program)?;
         let [alone, layer, instances, rays, points, point_layers] = &mut known.followed;
         let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
-        let [distorting, pointed, layered_points] = known
-            .others
+        let [distorting, points_variant, layered_points] = known
+            .optional
             .each_ref()
             .map(|made| made.as_ref()?.as_ref().ok());
         let (variant, followed, layers) = match (with, by_layer, by_instances, &known.how) {
             (VariantUse::Rays, ..) => (distorting?, rays, false),
-            (VariantUse::Points, ..) => (pointed?, points, false),
+            (VariantUse::Points, ..) => (points_variant?, points, false),
             (VariantUse::PointLayers, ..) => (layered_points?, point_layers, true),
             (VariantUse::Instances, _, Some(variant), _) => (variant, instances, true),
             (VariantUse::Layers, Some(variant), _, _) => (variant, layer, true),
@@ -268,7 +268,7 @@ impl OwnVariants {
         program: ProgramName,
         with: VariantUse,
     ) -> Option<Result<Arc<Variant>, String>> {
-        let [rays, points, layers] = &self.known.get(&program)?.others;
+        let [rays, points, layers] = &self.known.get(&program)?.optional;
         match with {
             VariantUse::Points => points.clone(),
             VariantUse::PointLayers => layers.clone(),
@@ -284,7 +284,7 @@ impl OwnVariants {
         made: Result<Arc<Variant>, String>,
     ) {
         if let Some(known) = self.known.get_mut(&program) {
-            let [rays, points, layers] = &mut known.others;
+            let [rays, points, layers] = &mut known.optional;
             match with {
                 VariantUse::Points => *points = Some(made),
                 VariantUse::PointLayers => *layers = Some(made),

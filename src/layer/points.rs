@@ -6,11 +6,11 @@
 use super::draw::{Draw, Send};
 use super::own_variants::{Entered, VariantUse};
 use super::{Layer, keep_bindings};
-use crate::atlas::{Samples, Surface};
+use crate::atlas::{Samples, Tiles};
 use crate::config::{CaptureWhat, Filter, Output};
 use crate::display::{Lens, Placement};
 use crate::draw::{
-    Current, Drawing, FixedState, POINTS_AT_ONCE, PointRules, Pointed, Programs, ReplayHazard,
+    Current, Drawing, FixedState, POINTS_AT_ONCE, PointProgram, PointRules, Programs, ReplayHazard,
 };
 use crate::gl::{Gl, VertexArrayName, consts as c};
 use crate::interleave::shader::{DEPTH_UNIT, Pass, SEEN_UNIT, Samples as Step, VIEWS_UNIT};
@@ -33,7 +33,7 @@ pub(super) struct MultiViewPoints {
     passes: Option<Vec<(Step, Program)>>,
     rules: Option<PointRules>,
     /// The tiles lack what was drawn to the samples.
-    owed: bool,
+    unflushed: bool,
 }
 
 impl MultiViewPoints {
@@ -44,7 +44,7 @@ impl MultiViewPoints {
     /// Hands the samples over, for deletion.
     pub(super) fn take(&mut self) -> Option<Samples> {
         self.seen = None;
-        self.owed = false;
+        self.unflushed = false;
         self.samples.take()
     }
 
@@ -62,13 +62,21 @@ impl Layer {
         gl: &Gl,
         plan: &Plan,
         drawing: &Drawing,
-    ) -> Option<Pointed> {
+    ) -> Option<PointProgram> {
         if self.is_mono() {
             // All strategies draw such a frame alike.
             self.count_draw(Method::Replay, plan);
             return None;
         }
-        let sampled = match self.may_draw_to_samples(gl) {
+        if self.state.has.compatibility && gl.is_enabled(c::POINT_SMOOTH) {
+            // Their coverage is the driver's. Measured on llvmpipe 22.3: they are torn after a geometry shader.
+            self.diagnostics.proving.replayed();
+            self.count_draw(Method::Replay, plan);
+            self.diagnostics
+                .fallback(Reason::Replayed(Replayed::SmoothPoints));
+            return None;
+        }
+        let sampled = match self.may_draw_to_samples(gl, plan) {
             true => self.points_to_samples(gl, plan, drawing).ok(),
             false => None,
         };
@@ -96,21 +104,21 @@ impl Layer {
         gl: &Gl,
         plan: &Plan,
         drawing: &Drawing,
-    ) -> Result<Pointed, Reason> {
+    ) -> Result<PointProgram, Reason> {
         let how = if plan.variant {
             let program = self.state.in_use.program;
             let variant = self.link_other(gl, program, VariantUse::Points);
             let variant = variant.map_err(Reason::NoPoints)?;
             let units = self.variants.own.units(gl, program);
             let units = units.into_iter().map(|(unit, _)| unit).collect();
-            Pointed::by_variant(variant, units)
+            PointProgram::by_variant(variant, units)
         } else {
             let material = drawing.material;
             self.generated(gl, |programs, fixed| {
                 programs.prepare_points(gl, fixed, material)
             })?
         };
-        match self.points.owed || self.gather_samples(gl) {
+        match self.points.unflushed || self.gather_samples(gl) {
             true => Ok(how),
             false => Err(Reason::Compile),
         }
@@ -121,7 +129,7 @@ impl Layer {
         gl: &Gl,
         plan: &Plan,
         drawing: &Drawing,
-    ) -> Result<Pointed, Reason> {
+    ) -> Result<PointProgram, Reason> {
         let framebuffer = self.state.framebuffers.draw;
         let layered = match framebuffer.is_zero() {
             true => self.targets.atlas.layered().is_some(),
@@ -148,7 +156,7 @@ impl Layer {
             let program = self.state.in_use.program;
             let variant = self.link_other(gl, program, VariantUse::PointLayers);
             variant.map_err(Reason::NoPoints)?;
-            return Ok(Pointed::by_variant_to_layers());
+            return Ok(PointProgram::by_variant_to_layers());
         }
         let (views, material) = (self.session.config.views, drawing.material);
         self.generated(gl, |programs, fixed| {
@@ -160,8 +168,8 @@ impl Layer {
     fn generated(
         &mut self,
         gl: &Gl,
-        prepare: impl FnOnce(&mut Programs, &FixedState) -> Result<Pointed, Reason>,
-    ) -> Result<Pointed, Reason> {
+        prepare: impl FnOnce(&mut Programs, &FixedState) -> Result<PointProgram, Reason>,
+    ) -> Result<PointProgram, Reason> {
         self.read_fixed(gl);
         let fixed = self.variants.fixed.as_ref().ok_or(Reason::Compile)?;
         let programs = &mut self.variants.programs;
@@ -172,7 +180,7 @@ impl Layer {
     }
 
     /// Whether the window's points may be drawn to the samples of the panel now: it shows the views pixel by pixel, and nobody wants whole views.
-    fn may_draw_to_samples(&self, gl: &Gl) -> bool {
+    fn may_draw_to_samples(&self, gl: &Gl, plan: &Plan) -> bool {
         let (session, tiles, state) = (&self.session, &self.targets.atlas.tiles, &self.state);
         let captured = session.config.capture.as_ref().map(|capture| capture.what);
         let placement = self.placement();
@@ -196,36 +204,29 @@ impl Layer {
             && !state.rectangles.are_several()
             && !self.queries.feeds()
             && !gl.is_enabled(c::STENCIL_TEST);
-        panel && same && !whole && plain
+        let upright =
+            !state.has.clip_control || gl.get_integer(c::CLIP_ORIGIN) as u32 != c::UPPER_LEFT;
+        // Planes of fixed function cut the corners of quads, unless a generated shader gives them the distance of the point.
+        let cut = plan.variant && (0..8).any(|i| gl.is_enabled(c::CLIP_DISTANCE0 + i));
+        panel && same && !whole && plain && upright && !cut
     }
 
     /// Draws points for all views.
-    pub(super) fn draw_points(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
+    pub(super) fn draw_points(&mut self, gl: &Gl, draw: &mut Draw, how: &PointProgram) {
         match how.is_to_layers() {
             true => self.draw_points_to_layers(gl, draw, how),
             false => self.draw_points_to_samples(gl, draw, how),
         }
     }
 
-    fn draw_points_to_layers(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
-        self.settle(gl);
-        self.prove_points(gl, draw, how);
+    fn draw_points_to_layers(&mut self, gl: &Gl, draw: &mut Draw, how: &PointProgram) {
+        self.flush_points(gl);
+        self.prove_by_variant(gl, draw);
         let (program, plan) = (self.state.in_use.program, draw.plan);
-        let framebuffer = self.state.framebuffers.draw;
         let current = match draw.hazard {
             ReplayHazard::Current(effect) => Current::take(gl, effect, false),
             _ => Current::default(),
         };
-        let target = self
-            .targets
-            .offscreen
-            .take(framebuffer, self.wanted_views());
-        let atlas = self.targets.atlas.tiles;
-        let tiles = target.as_ref().map_or(atlas, |target| target.tiles());
-        match target.as_ref().and_then(|target| target.layered()) {
-            Some(name) => gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name),
-            None => self.targets.atlas.bind_layered(gl),
-        }
         let (send, mut first) = (&mut *draw.send, true);
         let mut call = || {
             // Each batch of views starts from the same current values.
@@ -234,65 +235,43 @@ impl Layer {
             }
             send(Send::InMode(c::POINTS));
         };
-        if how.is_variant() {
-            let entered = self
-                .variants
-                .own
-                .enter(gl, program, VariantUse::PointLayers);
-            let views: Vec<ViewIndex> = tiles.order().collect();
-            for views in views.chunks(POINTS_AT_ONCE as usize) {
-                let places: Vec<f64> = views
-                    .iter()
-                    .map(|&view| self.known.rig.position(view))
-                    .collect();
-                let layers: Vec<u32> = views.iter().map(|&view| tiles.slot(view)).collect();
-                if let Some(Entered { variant, .. }) = &entered {
-                    variant.set_views(gl, (plan.shear, plan.flat), &places, tiles.stride);
-                    variant.set_layers(gl, &layers);
-                    call();
-                }
+        self.in_layers(gl, |layer, tiles| {
+            if how.is_variant() {
+                layer.draw_points_by_variant(gl, plan, tiles, &mut call);
+            } else if let Some(fixed) = &layer.variants.fixed {
+                let by = (&layer.known.rig, plan.shear);
+                let programs = &mut layer.variants.programs;
+                programs.draw_layered_points(gl, &layer.state, by, tiles, fixed, how, &mut call);
             }
-        } else if let Some(fixed) = &self.variants.fixed {
-            let by = (&self.known.rig, plan.shear);
-            let programs = &mut self.variants.programs;
-            programs.draw_layered_points(gl, &self.state, by, &tiles, fixed, how, &mut call);
-        }
-        gl.use_program(program);
-        match target {
-            Some(target) => {
-                gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
-                self.targets.offscreen.drawn_to(&target);
-                self.targets.offscreen.put(target);
-            }
-            None => self.targets.atlas.bind_row(gl, 0),
-        }
-    }
-
-    /// Draws them for a proof, view by view.
-    fn prove_points(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
-        if self.diagnostics.proving.atlas().is_none() {
-            return;
-        }
-        let (program, plan) = (self.state.in_use.program, draw.plan);
-        let (rig, stride) = (self.known.rig, self.targets.atlas.tiles.stride);
-        let entered = match how.is_variant() {
-            true => self.variants.own.enter(gl, program, VariantUse::Views),
-            false => None,
-        };
-        let shear = plan.shear.filter(|_| !how.is_variant());
-        let send = &mut *draw.send;
-        self.prove(gl, shear, draw.hazard, draw.images, &mut |view| {
-            if let Some(Entered { variant, .. }) = &entered {
-                let shifts = (plan.shear, plan.flat);
-                variant.set_views(gl, shifts, &[rig.position(view)], stride);
-            }
-            send(Send::AsItIs);
         });
         gl.use_program(program);
     }
 
+    fn draw_points_by_variant(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        tiles: &Tiles,
+        call: &mut dyn FnMut(),
+    ) {
+        let program = self.state.in_use.program;
+        let with = VariantUse::PointLayers;
+        let Some(Entered { variant, .. }) = self.variants.own.enter(gl, program, with) else {
+            return;
+        };
+        let views: Vec<ViewIndex> = tiles.order().collect();
+        for views in views.chunks(POINTS_AT_ONCE as usize) {
+            let places = views.iter().map(|&view| self.known.rig.position(view));
+            let places: Vec<f64> = places.collect();
+            let layers: Vec<u32> = views.iter().map(|&view| tiles.slot(view)).collect();
+            variant.set_views(gl, (plan.shear, plan.flat), &places, tiles.stride);
+            variant.set_layers(gl, &layers);
+            call();
+        }
+    }
+
     /// Draws points to the samples of the panel, and in the program's own view.
-    fn draw_points_to_samples(&mut self, gl: &Gl, draw: &mut Draw, how: &Pointed) {
+    fn draw_points_to_samples(&mut self, gl: &Gl, draw: &mut Draw, how: &PointProgram) {
         let current = match draw.hazard {
             ReplayHazard::Current(effect) => Current::take(gl, effect, false),
             _ => Current::default(),
@@ -334,7 +313,7 @@ impl Layer {
         current.put(gl);
         draw.views = Some([].into_iter().collect());
         self.replay_in(gl, draw);
-        self.points.owed = true;
+        self.points.unflushed = true;
     }
 
     /// Takes the samples that the panel shows out of the tiles; false where that cannot be done.
@@ -404,8 +383,8 @@ impl Layer {
     }
 
     /// Puts what was drawn to the samples back into the tiles, if there is any.
-    pub fn settle(&mut self, gl: &Gl) {
-        if !std::mem::take(&mut self.points.owed) {
+    pub fn flush_points(&mut self, gl: &Gl) {
+        if !std::mem::take(&mut self.points.unflushed) {
             return;
         }
         self.state.keep_errors(gl);

@@ -5,7 +5,7 @@ use super::blocks::BlockReader;
 use super::own_variants::{OwnVariants, ProgramRecord, VariantUse};
 use super::unprojections::Unprojections;
 use crate::config::Strategy;
-use crate::draw::{Drawn, NoVariant, POINTS_AT_ONCE, Variant, VariantKind, drawn, pointed};
+use crate::draw::{Drawn, NoVariant, POINTS_AT_ONCE, Variant, VariantKind, drawn, point_variant};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
 use crate::plan::Pose;
 use crate::plan::decide::{Linked as Linking, Shaders, VariantFacts};
@@ -281,7 +281,7 @@ impl Layer {
                     _ => PointsTo::Layers(POINTS_AT_ONCE),
                 };
                 let compatibility = self.state.has.compatibility;
-                pointed(gl, program, &linked.sources, to, compatibility).map(Arc::new)
+                point_variant(gl, program, &linked.sources, to, compatibility).map(Arc::new)
             }
             _ => match drawn(gl, program, &linked.sources, VariantKind::DistortedRays)? {
                 Drawn::ByVariant(variant) => Ok(variant),

@@ -11,7 +11,7 @@ use super::facts::Facts;
 use super::names::{Names, Uniform};
 use super::scan::{Kind, Scan};
 use super::version::Version;
-use crate::fixed::{PointPlace, point_globals, point_quads, point_shift, point_sight};
+use crate::fixed::{PointPlace, point_globals, point_quads, point_shift, point_test};
 use std::fmt::Write;
 
 /// The shaders of points for all views.
@@ -217,14 +217,14 @@ fn to_samples(
         Some(at) => edits.declare(point_globals(&prefix), at),
         None => edits.append(point_globals(&prefix)),
     }
-    edits.append(point_sight(&prefix, PointPlace::Shift, version.number));
+    edits.append(point_test(&prefix, PointPlace::Shift, version.number));
     edits.append("void main() {");
     // A texture that is sampled after a discard has no gradients.
-    let see = format!("    if (!{}()) discard;", names.other("see"));
+    let test = format!("    if (!{}()) discard;", names.other("visible"));
     let own = format!("    {}();", names.other("main"));
     let lines = match samples(&to) && !coordinates {
-        true => [own, see],
-        false => [see, own],
+        true => [own, test],
+        false => [test, own],
     };
     lines.iter().for_each(|line| edits.append(line));
     edits.append("}");

@@ -1,10 +1,10 @@
 //! Immediate mode, vertex arrays, pixels and display lists.
 
 use crate::context::{
-    Inside, enter, enter_unsettled, inside, peek, peek_inside, real, recording, set_inside,
+    Inside, enter, enter_unflushed, inside, peek, peek_inside, real, recording, set_inside,
 };
 use crate::hooks::{self, before_uncompiled, compile, draw, imm};
-use crate::instead::{instead, instead_unsettled};
+use crate::instead::{instead, instead_unflushed};
 use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Indices, Vertices};
 use manyview_core::gl::{ListName, Ptr, list_names, slot};
@@ -13,7 +13,7 @@ use manyview_core::plan::Kind;
 use manyview_core::state::{Command, Effect, Run, Touch};
 
 pub(crate) unsafe fn glBegin(mode: u32) {
-    let begun = enter_unsettled(|gl, l| l.begin(gl, mode));
+    let begun = enter_unflushed(|gl, l| l.begin(gl, mode));
     let own = match begun.unwrap_or(Primitive::None) {
         Primitive::None => mode,
         Primitive::Recorded { empty } => {
@@ -36,7 +36,7 @@ pub(crate) unsafe fn glEnd() {
     unsafe { real().glEnd() };
     if inside() != Inside::Outside {
         set_inside(Inside::Outside);
-        enter_unsettled(|gl, l| l.end(gl));
+        enter_unflushed(|gl, l| l.end(gl));
     }
 }
 
@@ -54,7 +54,7 @@ fn after_lists() {
 }
 
 fn primitives(p: Primitives, call: &mut dyn FnMut()) {
-    instead_unsettled(call, |gl, l, call| l.primitives(gl, p, call));
+    instead_unflushed(call, |gl, l, call| l.primitives(gl, p, call));
 }
 
 pub(crate) unsafe fn glDrawArrays(mode: u32, first: i32, count: i32) {

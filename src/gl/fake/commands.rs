@@ -65,7 +65,7 @@ const SETS: &[(&str, &[Set])] = &[
     ("glProvokingVertex", &[(c::PROVOKING_VERTEX, 0, 1)]),
     (
         "glClipControl",
-        &[(m::CLIP_ORIGIN, 0, 1), (c::CLIP_DEPTH_MODE, 1, 1)],
+        &[(c::CLIP_ORIGIN, 0, 1), (c::CLIP_DEPTH_MODE, 1, 1)],
     ),
     ("glMatrixMode", &[(c::MATRIX_MODE, 0, 1)]),
     ("glActiveTexture", &[(c::ACTIVE_TEXTURE, 0, 1)]),

@@ -15,7 +15,6 @@ pub(super) mod more {
     pub(in super::super) const STENCIL_FAIL: u32 = 0x0B94;
     pub(in super::super) const STENCIL_PASS_DEPTH_FAIL: u32 = 0x0B95;
     pub(in super::super) const STENCIL_PASS_DEPTH_PASS: u32 = 0x0B96;
-    pub(in super::super) const CLIP_ORIGIN: u32 = 0x935C;
     pub(in super::super) const QUERY_WAIT: u32 = 0x8E13;
     pub(in super::super) const COPY_WRITE_BUFFER: u32 = 0x8F37;
     pub(in super::super) const SHADER_STORAGE_BUFFER: u32 = 0x90D2;
@@ -142,7 +141,7 @@ const INITIAL: &[(u32, &[f64])] = &[
     (c::PROVOKING_VERTEX, &[c::LAST_VERTEX_CONVENTION as f64]),
     (c::QUADS_FOLLOW_PROVOKING_VERTEX_CONVENTION, &[1.0]),
     (c::CLAMP_VERTEX_COLOR, &[1.0]),
-    (m::CLIP_ORIGIN, &[0x8CA1 as f64]),
+    (c::CLIP_ORIGIN, &[0x8CA1 as f64]),
     (c::CLIP_DEPTH_MODE, &[0x935E as f64]),
     (c::ACTIVE_TEXTURE, &[c::TEXTURE0 as f64]),
     (c::CLIENT_ACTIVE_TEXTURE, &[c::TEXTURE0 as f64]),

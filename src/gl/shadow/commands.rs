@@ -138,8 +138,10 @@ impl Shadow {
     pub(in crate::gl) unsafe fn glClipControl(&mut self, origin: u32, depth: u32) {
         let known = [c::LOWER_LEFT, c::UPPER_LEFT].contains(&origin)
             && [c::ZERO_TO_ONE, c::NEGATIVE_ONE_TO_ONE].contains(&depth);
-        let value = one(depth).filter(|_| known);
-        self.change(Change::Put(Key::Value(c::CLIP_DEPTH_MODE), value));
+        for (name, value) in [(c::CLIP_DEPTH_MODE, depth), (c::CLIP_ORIGIN, origin)] {
+            let value = one(value).filter(|_| known);
+            self.change(Change::Put(Key::Value(name), value));
+        }
     }
 
     pub(in crate::gl) unsafe fn glLineWidth(&mut self, width: f32) {
@@ -154,28 +156,42 @@ impl Shadow {
     }
 
     pub(in crate::gl) unsafe fn glPointParameterfv(&mut self, pname: u32, params: Ptr) {
-        let value = match pname {
-            // SAFETY: three values have this name, one the others.
-            c::POINT_DISTANCE_ATTENUATION => unsafe { read::<f32, 3>(params) }.and_then(floats),
-            // SAFETY: as above.
-            _ => unsafe { read::<f32, 1>(params) }
-                .filter(|[v]| *v >= 0.0)
-                .and_then(floats),
-        };
+        if pname != c::POINT_DISTANCE_ATTENUATION {
+            // SAFETY: one value has this name.
+            let param = unsafe { read::<f32, 1>(params) };
+            return self.point_parameter(pname, param.map(|[param]| param));
+        }
+        // SAFETY: three values have this name.
+        let value = unsafe { read::<f32, 3>(params) }.and_then(floats);
         self.change(Change::Put(Key::Value(pname), value));
     }
 
     pub(in crate::gl) unsafe fn glPointParameterf(&mut self, pname: u32, param: f32) {
-        let value = floats([param]).filter(|_| param >= 0.0);
-        self.change(Change::Put(Key::Value(pname), value));
+        self.point_parameter(pname, Some(param));
     }
 
-    pub(in crate::gl) unsafe fn glPointParameteri(&mut self, pname: u32, _param: i32) {
-        self.change(Change::Put(Key::Value(pname), None));
+    pub(in crate::gl) unsafe fn glPointParameteri(&mut self, pname: u32, param: i32) {
+        let origin = pname == c::POINT_SPRITE_COORD_ORIGIN;
+        self.point_parameter(pname, origin.then_some(param as f32));
     }
 
     pub(in crate::gl) unsafe fn glPointParameteriv(&mut self, pname: u32, _params: Ptr) {
-        self.change(Change::Put(Key::Value(pname), None));
+        self.point_parameter(pname, None);
+    }
+
+    /// Sets a parameter of one value, or one that is not known.
+    fn point_parameter(&mut self, pname: u32, param: Option<f32>) {
+        let value = match pname {
+            // A name as a number, which floats hold.
+            c::POINT_SPRITE_COORD_ORIGIN => param
+                .map(|param| param as u32)
+                .filter(|origin| [c::LOWER_LEFT, c::UPPER_LEFT].contains(origin))
+                .and_then(one),
+            _ => param
+                .filter(|param| *param >= 0.0)
+                .and_then(|param| floats([param])),
+        };
+        self.change(Change::Put(Key::Value(pname), value));
     }
 
     pub(in crate::gl) unsafe fn glBindTexture(&mut self, target: u32, texture: u32) {

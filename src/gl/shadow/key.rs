@@ -128,6 +128,8 @@ pub(super) fn kept(name: u32) -> Option<(Kept, Form)> {
         | c::DEPTH_WRITEMASK
         | c::DEPTH_FUNC
         | c::CLIP_DEPTH_MODE
+        | c::CLIP_ORIGIN
+        | c::POINT_SPRITE_COORD_ORIGIN
         | c::COLOR_WRITEMASK
         | c::STENCIL_WRITEMASK
         | c::POLYGON_MODE
@@ -262,7 +264,7 @@ impl Key {
                 c::DEPTH_WRITEMASK | c::DEPTH_FUNC | c::DEPTH_CLEAR_VALUE => {
                     (c::DEPTH_BUFFER_BIT, 0)
                 }
-                c::CLIP_DEPTH_MODE => (0, c::TRANSFORM_BIT),
+                c::CLIP_DEPTH_MODE | c::CLIP_ORIGIN => (0, c::TRANSFORM_BIT),
                 c::COLOR_WRITEMASK => (c::COLOR_BUFFER_BIT, 0),
                 c::STENCIL_WRITEMASK => (c::STENCIL_BUFFER_BIT, 0),
                 c::POLYGON_MODE | c::CULL_FACE_MODE | c::FRONT_FACE => (bits::POLYGON, 0),
@@ -280,7 +282,8 @@ impl Key {
                 c::POINT_SIZE
                 | c::POINT_SIZE_MIN
                 | c::POINT_FADE_THRESHOLD_SIZE
-                | c::POINT_DISTANCE_ATTENUATION => (bits::POINT, 0),
+                | c::POINT_DISTANCE_ATTENUATION
+                | c::POINT_SPRITE_COORD_ORIGIN => (bits::POINT, 0),
                 c::VERTEX_ARRAY_BINDING => (0, bits::CLIENT_ARRAYS),
                 c::CURRENT_PROGRAM | c::PROGRAM_PIPELINE_BINDING => (0, 0),
                 _ if is_pixel_store(name) => (bits::CLIENT_PIXELS, 0),

@@ -7,7 +7,7 @@ use super::super::targets::Targets;
 use super::{Draw, Images, Send};
 use crate::atlas::{Surface, Tiles};
 use crate::draw::{
-    Amplified, Current, Drawing, FixedState, Pointed, Programs, ReplayHazard, Variant, replay,
+    Amplified, Current, Drawing, FixedState, PointProgram, Programs, ReplayHazard, Variant, replay,
 };
 use crate::gl::{Gl, Object, consts as c};
 use crate::offscreen::Target;
@@ -30,7 +30,7 @@ pub(in crate::layer) enum Execution {
     /// By a generated program.
     Amplified(Amplified),
     /// Points for all views at once.
-    Points(Pointed),
+    Points(PointProgram),
 }
 
 impl Layer {
@@ -71,7 +71,7 @@ impl Layer {
     /// Makes a draw as [`Layer::choose`] has chosen.
     pub(in crate::layer) fn execute_by(&mut self, gl: &Gl, draw: &mut Draw, execution: &Execution) {
         if !matches!(execution, Execution::Points(how) if !how.is_to_layers()) {
-            self.settle(gl);
+            self.flush_points(gl);
         }
         let written = self.queries.feeds();
         // Otherwise no view is drawn, and what GL_FEEDBACK or GL_SELECT tells is told once.
@@ -268,35 +268,33 @@ impl Layer {
     /// Draws all views at once, by a variant that has an instance for each view and chooses its layer.
     fn draw_instances(&mut self, gl: &Gl, draw: &mut Draw) {
         let (plan, program, rig) = (draw.plan, self.state.in_use.program, self.known.rig);
+        self.prove_by_variant(gl, draw);
+        self.in_layers(gl, |layer, tiles| {
+            let entered = layer.variants.own.enter(gl, program, VariantUse::Instances);
+            if let (Some(Entered { variant, .. }), Some(mode)) = (entered, draw.drawing.mode) {
+                let count = set_all_views(gl, &variant, plan, &rig, tiles);
+                (draw.send)(Send::Instances { mode, count });
+            } else {
+                (draw.send)(Send::AsItIs);
+            }
+        });
+        gl.use_program(program);
+        self.frame.amplifies();
+        self.count_draw(Method::Instanced, plan);
+    }
+
+    /// Runs `work` with the framebuffer bound whose layers are the views, that of the window or of a framebuffer of the program's. It gets the places of the views.
+    pub(in crate::layer) fn in_layers(&mut self, gl: &Gl, work: impl FnOnce(&mut Self, &Tiles)) {
         let framebuffer = self.state.framebuffers.draw;
-        let shifts = (plan.shear, plan.flat);
-        if self.diagnostics.proving.atlas().is_some()
-            && let Some(Entered { variant, .. }) =
-                self.variants.own.enter(gl, program, VariantUse::Views)
-        {
-            let stride = self.targets.atlas.tiles.stride;
-            let send = &mut *draw.send;
-            self.prove(gl, None, ReplayHazard::None, draw.images, &mut |view| {
-                variant.set_views(gl, shifts, &[rig.position(view)], stride);
-                send(Send::AsItIs);
-            });
-        }
         let shown = self.wanted_views();
         let target = self.targets.offscreen.take(framebuffer, shown);
         let own = self.targets.atlas.tiles;
         let tiles = target.as_ref().map_or(own, |target| target.tiles());
-        let entered = self.variants.own.enter(gl, program, VariantUse::Instances);
-        if let (Some(Entered { variant, .. }), Some(mode)) = (entered, draw.drawing.mode) {
-            let count = set_all_views(gl, &variant, plan, &rig, &tiles);
-            match target.as_ref().and_then(|target| target.layered()) {
-                Some(name) => gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name),
-                None => self.targets.atlas.bind_layered(gl),
-            }
-            (draw.send)(Send::Instances { mode, count });
-        } else {
-            (draw.send)(Send::AsItIs);
+        match target.as_ref().and_then(|target| target.layered()) {
+            Some(name) => gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name),
+            None => self.targets.atlas.bind_layered(gl),
         }
-        gl.use_program(program);
+        work(self, &tiles);
         match target {
             Some(target) => {
                 gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
@@ -305,8 +303,31 @@ impl Layer {
             }
             None => self.targets.atlas.bind_row(gl, 0),
         }
-        self.frame.amplifies();
-        self.count_draw(Method::Instanced, plan);
+    }
+
+    /// Draws for a proof, view by view, with the program's variant where the plan says so.
+    pub(in crate::layer) fn prove_by_variant(&mut self, gl: &Gl, draw: &mut Draw) {
+        if self.diagnostics.proving.atlas().is_none() {
+            return;
+        }
+        let (program, plan) = (self.state.in_use.program, draw.plan);
+        let (rig, stride) = (self.known.rig, self.targets.atlas.tiles.stride);
+        let entered = match plan.variant {
+            true => self.variants.own.enter(gl, program, VariantUse::Views),
+            false => None,
+        };
+        let (shear, shifts) = (
+            plan.shear.filter(|_| !plan.variant),
+            (plan.shear, plan.flat),
+        );
+        let send = &mut *draw.send;
+        self.prove(gl, shear, draw.hazard, draw.images, &mut |view| {
+            if let Some(Entered { variant, .. }) = &entered {
+                variant.set_views(gl, shifts, &[rig.position(view)], stride);
+            }
+            send(Send::AsItIs);
+        });
+        gl.use_program(program);
     }
 
     /// Reads the fixed-function state where it is not known.
