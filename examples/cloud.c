@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static int version, attenuate, sprites, lit, blend, clip, texture, smooth, upper_left, framebuffer, count = 20000, size = 3;
+static int version, attenuate, sprites, lit, blend, clip, texture, smooth, upper_left, inset, framebuffer, count = 20000, size = 3;
 const struct demo_option demo_options[] = {
     {"--glsl", "0, 120 or 330 (default 0)", &version, DEMO_NUMBER},
     {"--count", "number of points (default 20000)", &count, DEMO_NUMBER},
@@ -19,6 +19,7 @@ const struct demo_option demo_options[] = {
     {"--texture", "a texel for each point", &texture, DEMO_NOTHING},
     {"--smooth", "by GL_POINT_SMOOTH", &smooth, DEMO_NOTHING},
     {"--upper-left", "with the origin of the clip volume at the upper left (OpenGL 4.5)", &upper_left, DEMO_NOTHING},
+    {"--inset", "in a part of the window, of which a scissor cuts a part", &inset, DEMO_NOTHING},
     {"--framebuffer", "1: by a framebuffer of its own; 2 to 4: with so many samples", &framebuffer, DEMO_NUMBER},
     {0}};
 
@@ -177,8 +178,15 @@ static void by_shaders(double t, const demo_matrix projection)
     demo_matrix m;
     if (sprites && version < 330)
         glEnable(GL_POINT_SPRITE);
-    if (clip && version < 330)
+    if (clip && version < 330) {
+        static const GLdouble plane[4] = {0.0, 1.0, 0.0, 0.4};
+        glMatrixMode(GL_MODELVIEW);
+        glPushMatrix();
+        glLoadIdentity();
+        glClipPlane(GL_CLIP_PLANE2, plane);
+        glPopMatrix();
         glEnable(GL_CLIP_PLANE2);
+    }
     glUseProgram(program);
     glEnableVertexAttribArray(0);
     glEnableVertexAttribArray(1);
@@ -260,6 +268,10 @@ static void scene(int frame)
     demo_matrix projection;
     demo_viewport(0, 0, demo_width, demo_height);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (inset) {
+        demo_viewport(21, 17, demo_width - 50, demo_height - 40);
+        demo_scissor(90, 60, demo_width - 170, demo_height - 130);
+    }
     demo_frustum(projection, 42.0, (double)demo_width / demo_height, 1.5, 40.0);
     demo_view(projection);
     if (version == 330) {
@@ -298,6 +310,7 @@ void demo_frame(int frame)
 {
     if (!framebuffer) {
         scene(frame);
+        demo_scissor_off();
         return;
     }
     glBindFramebuffer(GL_FRAMEBUFFER, inside);

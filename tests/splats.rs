@@ -135,6 +135,7 @@ fn points_of_fixed_function_are_those_of_each_view() {
         &["--sprites", "--point-size", "4"],
         &["--lit"],
         &["--blend"],
+        &["--inset"],
         &["--clip"],
         &["--texture"],
         &["--texture", "--sprites", "--point-size", "9"],
@@ -170,7 +171,14 @@ fn odd_state_is_that_of_each_view() {
         &["--smooth", "--blend", "--point-size", "6"][..],
         &["--smooth", "--blend", "--point-size", "6", "--glsl", "120"],
         &["--upper-left"],
-        &["--upper-left", "--glsl", "120"],
+        &[
+            "--upper-left",
+            "--glsl",
+            "120",
+            "--sprites",
+            "--point-size",
+            "8",
+        ],
         &["--clip", "--glsl", "120"],
     ] {
         let folder = tempfile::tempdir().expect("a folder");
