@@ -1,12 +1,12 @@
 /* Clouds of points around and between surfaces: one from arrays, one by indices, and with fixed function one by glBegin. Some points are on the near plane, behind
  * the eye, far outside, or not numbers. --glsl 0: fixed function; 120, 330: shaders. --attenuate: smaller with the distance; --sprites: as GL_POINT_SPRITE, with
  * shaders round by gl_PointCoord; --lit: by a light, and fog; --blend: half transparent; --clip: by a plane; --texture: points with a texel each. --framebuffer N: drawn to a framebuffer with N samples,
- * which is then copied to the window. */
+ * which is then copied to the window. --disks: shaders draw each point as a disk that closes the gap to its neighbours. */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>
 
-static int version, attenuate, sprites, lit, blend, clip, texture, smooth, upper_left, inset, framebuffer, count = 20000, size = 3;
+static int version, attenuate, sprites, lit, blend, clip, texture, smooth, upper_left, inset, framebuffer, disks, count = 20000, size = 3;
 const struct demo_option demo_options[] = {
     {"--glsl", "0, 120 or 330 (default 0)", &version, DEMO_NUMBER},
     {"--count", "number of points (default 20000)", &count, DEMO_NUMBER},
@@ -20,14 +20,16 @@ const struct demo_option demo_options[] = {
     {"--smooth", "by GL_POINT_SMOOTH", &smooth, DEMO_NOTHING},
     {"--upper-left", "with the origin of the clip volume at the upper left (OpenGL 4.5)", &upper_left, DEMO_NOTHING},
     {"--inset", "in a part of the window, of which a scissor cuts a part", &inset, DEMO_NOTHING},
+    {"--disks", "with shaders: as large as the gaps between neighbours", &disks, DEMO_NOTHING},
     {"--framebuffer", "1: by a framebuffer of its own; 2 to 4: with so many samples", &framebuffer, DEMO_NUMBER},
     {0}};
 
 static const char *const vertex_120 =
     "#version 120\n"
     "attribute vec3 position, normal;\n"
+    "attribute float radius;\n"
     "uniform mat4 projection, modelview;\n"
-    "uniform float size, attenuate;\n"
+    "uniform float size, attenuate, disks;\n"
     "varying vec4 shade;\n"
     "void main()\n"
     "{\n"
@@ -36,6 +38,7 @@ static const char *const vertex_120 =
     "    gl_FrontColor = vec4(shade.bgr, 0.6);\n"
     "    gl_PointSize = attenuate > 0.0 ? size * 8.0 / max(-eye.z, 0.1) : size;\n"
     "    gl_Position = projection * eye;\n"
+    "    if (disks > 0.0) gl_PointSize = max(radius * disks / gl_Position.w, 1.0);\n"
     "}\n";
 static const char *const fragment_120 =
     "#version 120\n"
@@ -45,15 +48,23 @@ static const char *const fragment_120 =
     "{\n"
     "    vec2 at = 2.0 * gl_PointCoord - 1.0;\n"
     "    if (around > 0.0 && dot(at, at) > 1.0) discard;\n"
-    "    vec4 colour = around > 0.0 ? vec4(shade.rg, 0.5 + 0.5 * at.y, 1.0) : shade;\n"
+    "    vec4 colour = around > 0.75 ? vec4(shade.rg, 0.5 + 0.5 * at.y, 1.0) : shade;\n"
     "    gl_FragColor = vec4(mix(colour.rgb, gl_Color.rgb, 0.5), gl_Color.a);\n"
+    "}\n";
+static const char *const plain_120 =
+    "#version 120\n"
+    "varying vec4 shade;\n"
+    "void main()\n"
+    "{\n"
+    "    gl_FragColor = vec4(mix(shade.rgb, gl_Color.rgb, 0.5), gl_Color.a);\n"
     "}\n";
 static const char *const vertex_330 =
     "#version 330 core\n"
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
+    "layout(location = 2) in float radius;\n"
     "uniform mat4 projection, modelview;\n"
-    "uniform float size, attenuate;\n"
+    "uniform float size, attenuate, disks;\n"
     "flat out vec4 shade;\n"
     "out float far, height;\n"
     "flat out ivec2 parts;\n"
@@ -66,6 +77,7 @@ static const char *const vertex_330 =
     "    parts = ivec2(gl_VertexID % 7, gl_VertexID % 3);\n"
     "    gl_PointSize = attenuate > 0.0 ? size * 8.0 / max(-eye.z, 0.1) : size;\n"
     "    gl_Position = projection * eye;\n"
+    "    if (disks > 0.0) gl_PointSize = max(radius * disks / gl_Position.w, 1.0);\n"
     "}\n";
 static const char *const fragment_330 =
     "#version 330 core\n"
@@ -82,15 +94,70 @@ static const char *const fragment_330 =
     "    colour = vec4(mix(shade.rgb, vec3(0.1, 0.2, 0.3), far) * (0.8 + 0.05 * float(parts.x)) + 0.1 * net * float(parts.y), shade.a);\n"
     "}\n";
 
-static GLfloat *places, *normals;
+static const char *const plain_330 =
+    "#version 330 core\n"
+    "flat in vec4 shade;\n"
+    "in float far, height;\n"
+    "flat in ivec2 parts;\n"
+    "out vec4 colour;\n"
+    "void main()\n"
+    "{\n"
+    "    float net = mod(floor(gl_FragCoord.x) + floor(gl_FragCoord.y), 2.0);\n"
+    "    colour = vec4(mix(shade.rgb, vec3(0.1, 0.2, 0.3), far) * (0.8 + 0.05 * float(parts.x)) + 0.1 * net * float(parts.y), shade.a);\n"
+    "}\n";
+
+static GLfloat *places, *normals, *radii;
 static GLubyte *colours;
-static GLuint program, buffers[3], arrays, inside, stores[2];
+static GLuint program, buffers[4], arrays, inside, image, stores[2];
 static unsigned seed = 2026;
 
 static double chance(void)
 {
     seed = seed * 1664525u + 1013904223u;
     return (seed >> 8) / 16777216.0;
+}
+
+/* The distance of the sixth nearest of some points. */
+static GLfloat distance(int point, int first, int end)
+{
+    GLfloat nearest[6];
+    int found = 0;
+    for (int i = first; i < end; i++) {
+        GLfloat squared = 0.0f;
+        int at = found < 6 ? found : 5;
+        for (int k = 0; k < 3; k++)
+            squared += (places[3 * i + k] - places[3 * point + k]) * (places[3 * i + k] - places[3 * point + k]);
+        if (i == point || !isfinite(squared) || squared == 0.0f || (found == 6 && squared >= nearest[5]))
+            continue;
+        for (; at > 0 && nearest[at - 1] > squared; at--)
+            nearest[at] = nearest[at - 1];
+        nearest[at] = squared;
+        found += found < 6;
+    }
+    return found ? sqrtf(nearest[found - 1]) : 0.0f;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    GLfloat x = *(const GLfloat *)a, y = *(const GLfloat *)b;
+    return (x > y) - (x < y);
+}
+
+/* Disks of some points that reach a little beyond the middle of the way to the sixth nearest; those far from all others have thrice the median at most. */
+static void find_radii(int first, int end)
+{
+    GLfloat *sorted = malloc(sizeof *sorted * (size_t)(end - first)), most;
+    int found = 0;
+    for (int i = first; i < end; i++) {
+        radii[i] = distance(i, first, end);
+        if (radii[i] > 0.0f)
+            sorted[found++] = radii[i];
+    }
+    qsort(sorted, (size_t)found, sizeof *sorted, by_size);
+    most = 3.0f * sorted[found / 2];
+    for (int i = first; i < end; i++)
+        radii[i] = 1.1f * (radii[i] < most ? radii[i] : most);
+    free(sorted);
 }
 
 void demo_setup(void)
@@ -115,17 +182,25 @@ void demo_setup(void)
             places[3 * i + k] = strange[i][k];
         numbers[i] = (GLuint)(count - 1 - i);
     }
+    radii = calloc((size_t)count, sizeof *radii);
+    if (disks) {
+        find_radii(0, count / 2);
+        find_radii(count - count / 2, count);
+    }
     if (version) {
+        const char *round = disks || sprites ? (version == 330 ? fragment_330 : fragment_120) : (version == 330 ? plain_330 : plain_120);
         int core = version == 330;
         if (core) {
             glGenVertexArrays(1, &arrays);
             glBindVertexArray(arrays);
         }
-        program = core ? demo_program(vertex_330, fragment_330) : demo_program(vertex_120, fragment_120);
+        program = demo_program(core ? vertex_330 : vertex_120, round);
         buffers[0] = demo_buffer(GL_ARRAY_BUFFER, places, sizeof *places * 3 * (size_t)count);
         glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, 0);
         buffers[1] = demo_buffer(GL_ARRAY_BUFFER, normals, sizeof *normals * 3 * (size_t)count);
         glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, 0);
+        buffers[3] = demo_buffer(GL_ARRAY_BUFFER, radii, sizeof *radii * (size_t)count);
+        glVertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, 0, 0);
         glBindBuffer(GL_ARRAY_BUFFER, 0);
         glEnable(GL_PROGRAM_POINT_SIZE);
     }
@@ -140,6 +215,15 @@ void demo_setup(void)
             glBindRenderbuffer(GL_RENDERBUFFER, stores[i]);
             glRenderbufferStorageMultisample(GL_RENDERBUFFER, framebuffer > 1 ? framebuffer : 0, formats[i], demo_width, demo_height);
             glFramebufferRenderbuffer(GL_FRAMEBUFFER, points[i], GL_RENDERBUFFER, stores[i]);
+        }
+        if (framebuffer == 1) {
+            /* A format without sizes, as many programs have. */
+            glGenTextures(1, &image);
+            glBindTexture(GL_TEXTURE_2D, image);
+            glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, demo_width, demo_height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            glBindTexture(GL_TEXTURE_2D, 0);
+            glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image, 0);
         }
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
     }
@@ -176,7 +260,7 @@ static void half(int second)
 static void by_shaders(double t, const demo_matrix projection)
 {
     demo_matrix m;
-    if (sprites && version < 330)
+    if ((sprites || disks) && version < 330)
         glEnable(GL_POINT_SPRITE);
     if (clip && version < 330) {
         static const GLdouble plane[4] = {0.0, 1.0, 0.0, 0.4};
@@ -190,10 +274,12 @@ static void by_shaders(double t, const demo_matrix projection)
     glUseProgram(program);
     glEnableVertexAttribArray(0);
     glEnableVertexAttribArray(1);
+    glEnableVertexAttribArray(2);
     glUniformMatrix4fv(glGetUniformLocation(program, "projection"), 1, 0, projection);
     glUniform1f(glGetUniformLocation(program, "size"), (GLfloat)size);
     glUniform1f(glGetUniformLocation(program, "attenuate"), (GLfloat)attenuate);
-    glUniform1f(glGetUniformLocation(program, "around"), (GLfloat)sprites);
+    glUniform1f(glGetUniformLocation(program, "around"), disks ? 0.5f : (GLfloat)sprites);
+    glUniform1f(glGetUniformLocation(program, "disks"), disks ? projection[0] * (GLfloat)demo_width : 0.0f);
     for (int k = 0; k < 2; k++) {
         demo_turned(m, t + k, 0.0, 1.0, 0.8 - 1.6 * k, 0.2 * k, -8.0);
         glUniformMatrix4fv(glGetUniformLocation(program, "modelview"), 1, 0, m);
@@ -201,6 +287,7 @@ static void by_shaders(double t, const demo_matrix projection)
     }
     glDisableVertexAttribArray(0);
     glDisableVertexAttribArray(1);
+    glDisableVertexAttribArray(2);
     glUseProgram(0);
     if (version < 330) {
         glDisable(GL_POINT_SPRITE);

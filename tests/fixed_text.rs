@@ -23,6 +23,7 @@ fn target(amplifier: Amplifier, tiles: Tiles, primitive: Primitive, views: u8) -
         primitive,
         diagonal: Diagonal::OneThree,
         views,
+        surface: false,
     }
 }
 

@@ -112,6 +112,24 @@ fn what_a_toolkit_draws_in_a_widget_has_its_views_in_the_window() {
 }
 
 #[test]
+fn the_report_counts_what_a_toolkit_draws_in_a_widget() {
+    let program = compiled("widget", Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let report = folder.path().join("report.json");
+    let options = [
+        ("VIEWS", "3"),
+        ("STRATEGY", "instanced"),
+        ("REPORT", report.to_str().expect("UTF-8")),
+    ];
+    succeed(&mut layered(&program, &options));
+    let text = std::fs::read_to_string(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    // The context that shows the frames draws one quad at most in each, and no scene.
+    let scene = report["classes"]["scene"].as_u64();
+    assert!(scene.is_some_and(|draws| draws >= 2), "{text}");
+}
+
+#[test]
 fn a_lamp_s_map_is_drawn_once_also_in_a_square_window() {
     for size in ["300x220", "256x256"] {
         let arguments = ["--size", size];

@@ -8,6 +8,8 @@
 
 mod support;
 
+#[path = "programs/cloud.rs"]
+mod cloud;
 #[path = "programs/depth.rs"]
 mod depth;
 #[path = "programs/judge.rs"]
@@ -111,6 +113,7 @@ fn programs_are_compatible() {
     let table = table::read();
     let programs = play::chosen("MANYVIEW_PROGRAMS", &table, |program| &program.name);
     play::install(programs.iter().map(|program| program.package.as_str()));
+    cloud::write();
     run(programs, &table);
 
     let rows = kept(&table);

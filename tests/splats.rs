@@ -216,6 +216,7 @@ fn whole_views_are_those_of_the_program() {
         &["--sprites", "--texture", "--point-size", "9"],
         &["--glsl", "120", "--sprites", "--blend"],
         &["--glsl", "330", "--profile", "core", "--attenuate"],
+        // A colour texture without sizes.
         &["--framebuffer", "1"],
         &["--framebuffer", "4"],
         &["--framebuffer", "4", "--glsl", "120", "--blend"],
@@ -241,6 +242,65 @@ fn whole_views_are_those_of_the_program() {
             );
         }
     }
+}
+
+/// Points as surfaces are the disks that the program itself draws when it gives each point the distance of its sixth neighbour.
+#[test]
+fn surfaces_are_the_disks_of_each_view() {
+    for options in [
+        &["--glsl", "120", "--count", "6000"][..],
+        &["--glsl", "120", "--count", "6000", "--framebuffer", "4"],
+        &["--glsl", "330", "--profile", "core", "--count", "3000"],
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (views, count) = (VIEWS, VIEWS.to_string());
+        let variables = [
+            ("VIEWS", &*count),
+            ("CAPTURE_WHAT", "atlas"),
+            ("SPLATS", "surface"),
+        ];
+        let shown = shown(folder.path(), &variables, options);
+        assert!(shown.drawn("splats") >= 6, "{}", shown.report["draws"]);
+        assert_eq!(shown.reasons(), "{}", "{options:?}");
+        let disks = [options, &["--disks"]].concat();
+        for view in 0..views {
+            let own = program_view(folder.path(), (view, views), &disks);
+            let tile = imageops::crop_imm(&shown.picture, view * WIDTH, 0, WIDTH, HEIGHT);
+            let compared = Comparison::new(&own, &tile.to_image(), None).expect("one size");
+            println!("view {view} of {options:?}: {compared:?}");
+            assert!(
+                Gate::DESIGN.check(&compared).is_ok(),
+                "view {view} of {options:?}: {compared:?}"
+            );
+        }
+    }
+}
+
+/// Fixed function has no program that draws disks; they cover the gaps through which the background is seen, and points that are sprites stay.
+#[test]
+fn surfaces_of_fixed_function_have_no_gaps() {
+    let covered = |splats: &str, options: &[&str]| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let variables = [
+            ("VIEWS", "3"),
+            ("CAPTURE_WHAT", "view:2"),
+            ("SPLATS", splats),
+        ];
+        let shown = shown(folder.path(), &variables, options).picture;
+        let ground = *shown.get_pixel(0, 0);
+        // The middle of the cloud.
+        let part = imageops::crop_imm(&shown, 150, 100, 100, 100).to_image();
+        part.pixels().filter(|pixel| **pixel != ground).count()
+    };
+    let lit = ["--lit", "--count", "3000", "--point-size", "2"];
+    let [exact, surface] = ["exact", "surface"].map(|splats| covered(splats, &lit));
+    assert!(
+        exact < 7000 && surface > 9900,
+        "{exact} and {surface} of 10000 pixels"
+    );
+    let sprites = ["--sprites", "--count", "3000"];
+    let [exact, surface] = ["exact", "surface"].map(|splats| covered(splats, &sprites));
+    assert_eq!(exact, surface);
 }
 
 /// More views than a geometry shader makes at once: the last batch is not full, and nothing of it may be seen.

@@ -42,13 +42,25 @@ pub enum ConfigError {
     },
     /// An option of `hybrid` with another strategy.
     #[error(
-        "{field} is for the strategy hybrid; give {remedy} as 'hybrid' with it, or leave it out"
+        "{field} is for the strategy {strategy}; give {remedy} as '{strategy}' with it, or leave it out"
     )]
-    NotHybrid {
+    OtherStrategy {
         /// The option.
         field: Field,
+        /// The word of the strategy that it is for.
+        strategy: &'static str,
         /// The other one.
         remedy: Field,
+    },
+    /// Points are not what the program draws, and yet they are to be proved.
+    #[error(
+        "{field} draws other points than the program does, and {proof} compares with what the program draws; leave one of them out"
+    )]
+    ProvedSurfaces {
+        /// The option of the points.
+        field: Field,
+        /// That of the proof.
+        proof: Field,
     },
     /// Two options that both give the number of true views.
     #[error("{count} and {rate} both say how many views are drawn; leave one of them out")]

@@ -79,6 +79,8 @@ pub struct Config {
     pub true_views: TrueViews,
     /// Which draws without perspective are sheared by their depths.
     pub orthographic: OrthographicDraws,
+    /// Points under `splats` are disks of a surface.
+    pub surfaces: bool,
     /// Holes of synthesised views are magenta.
     pub marks_holes: bool,
     /// The most frames per second, if the user wants a limit.

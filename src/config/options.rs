@@ -45,6 +45,8 @@ pub enum OptionId {
     Clip,
     /// How disocclusions of synthesised views are shown.
     Holes,
+    /// How `splats` draws points.
+    Splats,
     /// Which draws without perspective are sheared by their depths.
     Orthographic,
     /// Number of true views, from which the others are synthesised.
@@ -357,6 +359,9 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::Holes, "holes", "MANYVIEW_HOLES", "",
         "Fill disocclusions of synthesised views with their background, or mark them in magenta")
         .choices(&["fill", "mark"]).default("fill"),
+    OptionSpec::new(OptionId::Splats, "splats", "MANYVIEW_SPLATS", "",
+        "Draw points with --strategy splats as the program does, or as disks that close the gaps to their neighbours")
+        .choices(&["exact", "surface"]).default("exact").manual("See [Points as surfaces](strategies.md#points-as-surfaces)."),
     OptionSpec::new(OptionId::TrueViews, "true-views", "MANYVIEW_TRUE_VIEWS", "K",
         "Views that --strategy hybrid draws; the others are synthesised")
         .default("as many as --fps leaves time for"),
@@ -516,6 +521,9 @@ mod tests {
                 if matches!(row.id, OptionId::Fit | OptionId::WindowOutput) {
                     settings.set(OptionId::Panel, "auto", Origin::CommandLine);
                 }
+                if row.id == OptionId::Splats {
+                    settings.set(OptionId::Strategy, "splats", Origin::CommandLine);
+                }
                 if *choice == "reference" || *choice == "samples" {
                     settings.set(OptionId::Strategy, "occlusion", Origin::CommandLine);
                 }
@@ -553,6 +561,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 40, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 41, "a new option needs a row");
     }
 }

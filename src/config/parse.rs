@@ -37,6 +37,7 @@ impl Config {
             atlas: choice(settings, OptionId::Atlas, ATLASES)?.unwrap_or(AtlasLayout::SideBySide),
             clip: choice(settings, OptionId::Clip, CLIPS)?,
             marks_holes: choice(settings, OptionId::Holes, HOLES)?.unwrap_or(false),
+            surfaces: surfaces(settings, strategy)?,
             orthographic: choice(settings, OptionId::Orthographic, ORTHOGRAPHIC)?
                 .unwrap_or_default(),
             fps_cap: FrameCap::from_settings(settings)?,
@@ -62,6 +63,8 @@ impl Config {
 }
 
 const HOLES: &[(&str, bool)] = &[("fill", false), ("mark", true)];
+
+const SPLATS: &[(&str, bool)] = &[("exact", false), ("surface", true)];
 
 const ORTHOGRAPHIC: &[(&str, OrthographicDraws)] = &[
     ("auto", OrthographicDraws::Auto),
@@ -458,6 +461,24 @@ fn strategy(settings: &Settings) -> Result<Strategy, ConfigError> {
     Ok(given.unwrap_or(Strategy::Auto))
 }
 
+fn surfaces(settings: &Settings, strategy: Strategy) -> Result<bool, ConfigError> {
+    let wanted = choice(settings, OptionId::Splats, SPLATS)?.unwrap_or(false);
+    match settings.field(OptionId::Splats) {
+        Some((field, _)) if wanted && strategy != Strategy::Splats => {
+            Err(ConfigError::OtherStrategy {
+                remedy: field.sibling(OptionId::Strategy),
+                field,
+                strategy: "splats",
+            })
+        }
+        Some((field, _)) if wanted => match settings.field(OptionId::Prove) {
+            Some((proof, _)) => Err(ConfigError::ProvedSurfaces { field, proof }),
+            None => Ok(wanted),
+        },
+        _ => Ok(wanted),
+    }
+}
+
 fn true_views(
     settings: &Settings,
     strategy: Strategy,
@@ -467,8 +488,9 @@ fn true_views(
     let rate = settings.field(OptionId::Fps);
     let given = count.as_ref().or(rate.as_ref()).map(|(field, _)| field);
     if let (Some(field), false) = (given, strategy == Strategy::Hybrid) {
-        return Err(ConfigError::NotHybrid {
+        return Err(ConfigError::OtherStrategy {
             field: field.clone(),
+            strategy: "hybrid",
             remedy: field.sibling(OptionId::Strategy),
         });
     }

@@ -144,6 +144,16 @@ fn every_message_is_one_clear_sentence() {
         ],
         &[("MANYVIEW_STRATEGY", "hybrid"), ("MANYVIEW_FPS", "0.5")],
         &[("MANYVIEW_STRATEGY", "hybrid"), ("MANYVIEW_FPS", "fast")],
+        &[("MANYVIEW_SPLATS", "surface")],
+        &[
+            ("MANYVIEW_SPLATS", "round"),
+            ("MANYVIEW_STRATEGY", "splats"),
+        ],
+        &[
+            ("MANYVIEW_SPLATS", "surface"),
+            ("MANYVIEW_STRATEGY", "splats"),
+            ("MANYVIEW_PROVE", "10"),
+        ],
         &[("MANYVIEW_CONFIG", "no-such-file.toml")],
     ];
     let mut all = String::new();

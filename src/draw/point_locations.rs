@@ -12,6 +12,7 @@ pub(super) struct PointLocations {
     pub(super) rows_down: i32,
     pub(super) coord_sign: i32,
     pub(super) seen: i32,
+    pub(super) surface: i32,
 }
 
 impl PointLocations {
@@ -28,6 +29,7 @@ impl PointLocations {
             rows_down: at("rows_down"),
             coord_sign: at("coord_sign"),
             seen: at("seen"),
+            surface: at("surface"),
         }
     }
 }

@@ -241,7 +241,7 @@ impl Programs {
         Ok(PointProgram(Kind::Generated(Box::new(stages), modelview)))
     }
 
-    /// The program of points of fixed function that are drawn to layers, of so many views; it is compiled if it is new.
+    /// The program of points of fixed function that are drawn to layers, of so many views; it is compiled if it is new. `surfaces`: they are disks of surfaces.
     ///
     /// # Errors
     /// Why the draw has to be replayed.
@@ -249,7 +249,7 @@ impl Programs {
         &mut self,
         gl: &Gl,
         fixed: &FixedState,
-        material: bool,
+        (material, surfaces): (bool, bool),
         views: u32,
     ) -> Result<PointProgram, Reason> {
         let modelview = gl.get_matrix(c::MODELVIEW_MATRIX);
@@ -260,8 +260,13 @@ impl Programs {
         key.target.views = 1;
         let batch = crate::fixed::batch(&key, &self.limits);
         key.target.views = batch.min(views).clamp(1, POINTS_AT_ONCE) as u8;
+        key.target.surface = surfaces;
         surroundings.allow(&key).map_err(Reason::Fixed)?;
-        let stages = (key.canonical(), None);
+        let fragment = match surfaces {
+            true => Some(fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?),
+            false => None,
+        };
+        let stages = (key.canonical(), fragment.map(|key| key.canonical()));
         self.compile(gl, &key, &stages)?;
         Ok(PointProgram(Kind::GeneratedToLayers(
             Box::new(stages),
@@ -282,7 +287,7 @@ impl Programs {
         (rig, shear): (&Rig, Option<Shear>),
         tiles: &TilePlaces,
         fixed: &FixedState,
-        how: &PointProgram,
+        (how, sizes): (&PointProgram, [f32; 4]),
         call: &mut dyn FnMut(),
     ) {
         let Kind::GeneratedToLayers(stages, modelview) = &how.0 else {
@@ -292,6 +297,7 @@ impl Programs {
             return;
         };
         gl.use_program(program.name);
+        gl.uniform_4fv(program.points.surface, &[sizes]);
         let toggled = toggle(gl, &stages.0, &program.patches, fixed);
         let batch = usize::from(stages.0.target.views.max(1));
         let drawn: Vec<ViewIndex> = tiles.order().collect();

@@ -29,6 +29,8 @@ pub struct Drawing {
     pub mode: Option<u32>,
     /// The number of vertices, at least.
     pub vertices: u64,
+    /// There are no more.
+    pub counted: bool,
     /// The draw can be made with `GL_PATCHES` of three vertices, or of four for quads.
     pub cuts: bool,
     /// It may change the material.

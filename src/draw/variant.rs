@@ -394,6 +394,11 @@ impl Variant {
         self.points
     }
 
+    /// Sets how points are surfaces (see [`crate::fixed::surface_size`]); the variant is in use.
+    pub fn set_sizes(&self, gl: &Gl, sizes: [f32; 4]) {
+        gl.uniform_4fv(self.points.surface, &[sizes]);
+    }
+
     /// Copies the values of the program's uniforms and block bindings to the variant, which has to be in use: of uniforms those that may have
     /// changed since an earlier call, which has returned `since` (0 for the first).
     pub fn copy_uniforms(&self, gl: &Gl, program: ProgramName, since: u64) -> u64 {

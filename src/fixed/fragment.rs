@@ -16,6 +16,7 @@ use super::key::Dialect;
 use super::limits::Limits;
 use super::points::{PointPlace, point_globals, point_test};
 use super::reason::Unsupported;
+use super::surface::surface_disk;
 use super::text::{Text, VERSION};
 use super::{LIMITS, UNIFORM_GRID};
 
@@ -67,6 +68,9 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
         text.line(point_globals("mv_"));
         text.line(point_test("mv_", PointPlace::Rows, VERSION));
     }
+    if key.disks {
+        text.line(surface_disk("mv_"));
+    }
     text.line("");
     text.open("void main() {");
     let samples = sampled(&key).next().is_some();
@@ -93,6 +97,9 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
     // The discard comes last, because textures that are sampled after it have no gradients.
     if key.points && samples {
         text.line("if (!mv_visible()) discard;");
+    }
+    if key.disks {
+        text.line("if (!mv_in_disk()) discard;");
     }
     if key.discard {
         text.line(format!(

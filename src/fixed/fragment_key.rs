@@ -23,6 +23,8 @@ pub struct FragmentKey {
     pub displaced: bool,
     /// Pixels ask what their view sees of a point: [`Amplifier::Points`](super::Amplifier::Points) of the stages before.
     pub points: bool,
+    /// Points are disks (see [`surface_disk`](super::surface_disk)).
+    pub disks: bool,
     /// How the driver reads the specification where drivers differ.
     pub dialect: Dialect,
 }
@@ -224,6 +226,7 @@ impl FragmentKey {
         }
         self.discard = vertex.target.discards();
         self.points = vertex.target.amplifier == Amplifier::Points;
+        self.disks = vertex.target.surface;
         self.displaced = vertex.target.tiles == Tiles::DistortedRays;
         self
     }

@@ -12,6 +12,7 @@ use super::key::{Amplifier, Diagonal, FixedKey, PointSize, Primitive, Provoking}
 use super::limits::Limits;
 use super::points::{PointPlace, point_quads};
 use super::reason::Unsupported;
+use super::surface::{SURFACE_EXTENSION, surface_size};
 use super::text::{Text, VERSION};
 use super::{UNIFORM_CLIP, UNIFORM_FIRST, UNIFORM_VIEWS, vertex};
 use crate::config::Clip;
@@ -82,6 +83,9 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
     if extension {
         text.line("#extension GL_ARB_gpu_shader5 : require");
     }
+    if key.target.surface {
+        text.line(SURFACE_EXTENSION);
+    }
     text.line("");
     let runs = if invocations {
         format!(", invocations = {views}")
@@ -96,6 +100,9 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
         key.target.emitted() * loops
     ));
     vertex::write_last(&mut text, key);
+    if key.target.surface {
+        text.line(surface_size("mv_"));
+    }
     if key.target.cuts() {
         write_emit_between(&mut text, key);
         text.line("");
@@ -158,6 +165,15 @@ fn write_emit(text: &mut Text, key: &FixedKey) {
             _ => "vertex".into(),
         };
         text.line(format!("{builtin} = mv_in[{source}].{};", varying.member()));
+    }
+    if key.target.surface {
+        let size = match key.point {
+            PointSize::Attenuated => "mv_in[vertex].size",
+            PointSize::Unused | PointSize::Constant => "mv_surface.z",
+        };
+        text.line(format!(
+            "gl_PointSize = mv_point_size(gl_in[vertex].gl_Position, {size});"
+        ));
     }
     text.line("gl_PrimitiveID = gl_PrimitiveIDIn;");
     text.line("EmitVertex();");

@@ -61,6 +61,8 @@ pub struct Target {
     /// Views per draw, at least 1; [`batch`](super::batch) is the largest number that fits the driver. It enters the
     /// source of a geometry shader only: an instanced draw takes it as its instance count.
     pub views: u8,
+    /// Points are surfaces (see [`surface_size`](super::surface_size)).
+    pub surface: bool,
 }
 
 /// What repeats a primitive for each view.
@@ -403,6 +405,7 @@ impl FixedKey {
         if self.point == PointSize::Constant {
             self.point = PointSize::Unused;
         }
+        self.target.surface &= self.target.primitive == Primitive::Points;
         let quad = matches!(
             self.target.primitive,
             Primitive::Quads | Primitive::QuadStrip

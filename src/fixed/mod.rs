@@ -48,6 +48,7 @@ mod limits;
 mod patches;
 mod points;
 mod reason;
+mod surface;
 mod tessellation;
 mod texgen;
 mod text;
@@ -71,6 +72,7 @@ pub use limits::{Limits, VertexLayer};
 pub use patches::Patches;
 pub use points::{PointPlace, point_globals, point_quads, point_shift, point_test};
 pub use reason::{Rasterised, Surroundings, Unsupported};
+pub use surface::{SURFACE_BINDING, SURFACE_EXTENSION, surface_disk, surface_size};
 pub use tessellation::{LEVELS, UNIFORM_LEVELS};
 
 /// Number of views that `mv_view` holds. More views take further draws, with new contents of the array.

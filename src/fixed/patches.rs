@@ -28,7 +28,7 @@ impl Patches {
         Self {
             color_sum: key.secondary(),
             two_side: key.two_side(),
-            point_size: key.point == PointSize::Attenuated,
+            point_size: key.point == PointSize::Attenuated || key.target.surface,
             last_vertex_convention: key.geometry()
                 && key.flat
                 && key.target.primitive == Primitive::Polygon,

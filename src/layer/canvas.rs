@@ -379,6 +379,12 @@ impl Layer {
         self.flush_points(gl);
         self.give_read_buffer(gl);
         self.picture_unfinished(gl, handed_over);
+        if self.diagnostics.report.frames() == 0 && self.session.group.has_others() {
+            // Another context may show what this one draws.
+            self.diagnostics.report_fallbacks();
+            let mut unshown = self.session.group.unshown();
+            unshown.absorb(&mut self.diagnostics.report);
+        }
     }
 
     /// Draws the picture of what was drawn so far into the true framebuffer 0, where that does not have it. `handed_over`: another context

@@ -337,6 +337,9 @@ impl Layer {
         let current = self.targets.atlas.bytes;
         self.diagnostics.report.memory(current + parked);
         self.diagnostics.report_fallbacks();
+        let mut unshown = self.session.group.unshown();
+        self.diagnostics.report.absorb(&mut unshown);
+        drop(unshown);
         self.count_names();
         self.diagnostics.report.write_if_due(self.session.config);
     }

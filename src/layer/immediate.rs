@@ -70,6 +70,7 @@ impl Layer {
         let drawing = Drawing {
             mode: Some(mode),
             vertices: recording.calls() as u64,
+            counted: false,
             cuts: [c::TRIANGLES, c::QUADS].contains(&mode),
             material: self.lists.changes_material(),
         };

@@ -49,6 +49,7 @@ mod session;
 mod share_group;
 mod side_effects;
 pub mod support;
+mod surfaces;
 mod synthesis;
 mod targets;
 #[cfg(test)]

@@ -45,6 +45,10 @@ impl Layer {
             lists.orphans.framebuffers.extend(samples.framebuffers());
             lists.orphans.textures.extend(samples.textures());
         }
+        lists
+            .orphans
+            .buffers
+            .extend(self.points.surfaces.take_buffers());
         let programs = self
             .targets
             .interleaver

@@ -5,6 +5,7 @@
 
 use super::draw::{Draw, Send};
 use super::own_variants::{Entered, VariantUse};
+use super::surfaces::Surfaces;
 use super::{Layer, keep_bindings};
 use crate::atlas::{Samples, Tiles};
 use crate::config::{CaptureWhat, Filter, Output};
@@ -34,6 +35,8 @@ pub(super) struct MultiViewPoints {
     rules: Option<PointRules>,
     /// The tiles lack what was drawn to the samples.
     unflushed: bool,
+    /// Points that are disks of surfaces.
+    pub(super) surfaces: Surfaces,
 }
 
 impl MultiViewPoints {
@@ -159,8 +162,9 @@ impl Layer {
             return Ok(PointProgram::by_variant_to_layers());
         }
         let (views, material) = (self.session.config.views, drawing.material);
+        let surfaces = self.session.config.surfaces;
         self.generated(gl, |programs, fixed| {
-            programs.prepare_layered_points(gl, fixed, material, views)
+            programs.prepare_layered_points(gl, fixed, (material, surfaces), views)
         })
     }
 
@@ -198,6 +202,7 @@ impl Layer {
             || captured.is_some_and(|what| what != CaptureWhat::Output);
         // Samples have one value each, and no stencil.
         let plain = state.framebuffers.draw.is_zero()
+            && !session.config.surfaces
             && !state.framebuffers.draws_front()
             && !self.targets.atlas.has_front()
             && !self.targets.atlas.multisampled()
@@ -227,6 +232,7 @@ impl Layer {
             ReplayHazard::Current(effect) => Current::take(gl, effect, false),
             _ => Current::default(),
         };
+        let surface = self.surface_of(gl, draw);
         let (send, mut first) = (&mut *draw.send, true);
         let mut call = || {
             // Each batch of views starts from the same current values.
@@ -235,22 +241,34 @@ impl Layer {
             }
             send(Send::InMode(c::POINTS));
         };
-        self.in_layers(gl, |layer, tiles| {
-            if how.is_variant() {
-                layer.draw_points_by_variant(gl, plan, tiles, &mut call);
-            } else if let Some(fixed) = &layer.variants.fixed {
-                let by = (&layer.known.rig, plan.shear);
-                let programs = &mut layer.variants.programs;
-                programs.draw_layered_points(gl, &layer.state, by, tiles, fixed, how, &mut call);
-            }
-        });
+        let sizes = match (surface, self.session.config.surfaces) {
+            (Some(surface), _) => surface.uniform,
+            (None, true) => [0.0, 0.0, self.size_of_points(gl, plan.variant), 0.0],
+            (None, false) => [0.0; 4],
+        };
+        let mut to_layers = |layer: &mut Layer| {
+            layer.in_layers(gl, |layer, tiles| {
+                if how.is_variant() {
+                    layer.draw_points_by_variant(gl, (plan, sizes), tiles, &mut call);
+                } else if let Some(fixed) = &layer.variants.fixed {
+                    let by = (&layer.known.rig, plan.shear);
+                    let programs = &mut layer.variants.programs;
+                    let (state, how) = (&layer.state, (how, sizes));
+                    programs.draw_layered_points(gl, state, by, tiles, fixed, how, &mut call);
+                }
+            });
+        };
+        match surface {
+            Some(surface) => self.draw_surface(gl, &surface, to_layers),
+            None => to_layers(self),
+        }
         gl.use_program(program);
     }
 
     fn draw_points_by_variant(
         &mut self,
         gl: &Gl,
-        plan: &Plan,
+        (plan, sizes): (&Plan, [f32; 4]),
         tiles: &Tiles,
         call: &mut dyn FnMut(),
     ) {
@@ -259,6 +277,7 @@ impl Layer {
         let Some(Entered { variant, .. }) = self.variants.own.enter(gl, program, with) else {
             return;
         };
+        variant.set_sizes(gl, sizes);
         let views: Vec<ViewIndex> = tiles.order().collect();
         for views in views.chunks(POINTS_AT_ONCE as usize) {
             let places = views.iter().map(|&view| self.known.rig.position(view));

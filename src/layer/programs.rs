@@ -278,6 +278,7 @@ impl Layer {
             VariantUse::Points | VariantUse::PointLayers => {
                 let to = match with {
                     VariantUse::Points => PointsTo::Samples,
+                    _ if self.session.config.surfaces => PointsTo::Surfaces(POINTS_AT_ONCE),
                     _ => PointsTo::Layers(POINTS_AT_ONCE),
                 };
                 let compatibility = self.state.has.compatibility;

@@ -3,6 +3,7 @@
 use crate::gl::BufferName;
 use crate::gl::shadow::Shared;
 use crate::offscreen::{Images, SharedImages};
+use crate::report::Report;
 use crate::state::{Lists, UniformBuffers, block_changes};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -12,6 +13,7 @@ struct Group {
     lists: Mutex<Lists>,
     images: SharedImages,
     uniform_buffers: Mutex<UniformBuffers>,
+    unshown: Mutex<Report>,
     members: AtomicUsize,
     kept: Shared,
 }
@@ -61,6 +63,12 @@ impl Member {
     pub(super) fn uniform_buffers(&self) -> MutexGuard<'_, UniformBuffers> {
         let buffers = self.0.uniform_buffers.lock();
         buffers.unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What contexts have drawn that show nothing themselves, for the report of the next one that shows a frame.
+    pub(super) fn unshown(&self) -> MutexGuard<'_, Report> {
+        let report = self.0.unshown.lock();
+        report.unwrap_or_else(PoisonError::into_inner)
     }
 
     /// A context of the group that has no layer is about to unmap a buffer.

@@ -4,7 +4,7 @@
 //! texture for each layer (glTextureView). The program's own object gets the image of its view where something other than a draw reads it.
 //! Where such an array cannot be had, each other view has an object like the program's.
 
-use super::fill::fill;
+use super::fill::{Layer, copy_layer, fill};
 use super::parameters::{ParameterNames, Parameters};
 use crate::atlas::{Names, Tiles};
 use crate::gl::{
@@ -154,12 +154,20 @@ impl Image {
         let (_, layered) = first.map_or((c::NONE, c::TEXTURE_2D_ARRAY), Level::layered);
         let copy = || {
             for (at, level) in (0..).zip(&array.levels) {
-                let [w, h, _] = level.size;
                 if kind != c::RENDERBUFFER && gl.tex_level(kind, at) != Some(*level) {
                     break; // never made by the program
                 }
-                let from = (Object::Texture(array.name), layered, own_layer);
-                gl.copy_layer(from, (object, kind, 0), at, [w, h]);
+                let from = Layer {
+                    object: Object::Texture(array.name),
+                    target: layered,
+                    layer: own_layer,
+                };
+                let to = Layer {
+                    object,
+                    target: kind,
+                    layer: 0,
+                };
+                copy_layer(gl, [from, to], at, level);
             }
         };
         match object {
@@ -312,14 +320,22 @@ impl ImageSupport {
             .map(|view| gl.texture_view(plane, array, internal, count, tiles.slot(view)))
             .collect();
         let copy = || {
+            let from = Layer {
+                object: own,
+                target: kind,
+                layer: 0,
+            };
             for (at, level) in (0..).zip(&levels) {
-                let [w, h, _] = level.size;
                 if at > 0 && kind != c::RENDERBUFFER && gl.tex_level(kind, at).is_none() {
                     break;
                 }
                 for layer in 0..tiles.views {
-                    let to = (Object::Texture(array), layered, layer);
-                    gl.copy_layer((own, kind, 0), to, at, [w, h]);
+                    let to = Layer {
+                        object: Object::Texture(array),
+                        target: layered,
+                        layer,
+                    };
+                    copy_layer(gl, [from, to], at, level);
                 }
             }
         };

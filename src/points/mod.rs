@@ -5,6 +5,7 @@ pub mod charts;
 pub mod compare;
 pub mod cost;
 mod deferred;
+pub mod neighbours;
 
 pub use deferred::{GroupTarget, Grouped};
 

@@ -17,9 +17,15 @@ impl<T: PartialEq> Counts<T> {
     /// Counts one more.
     #[inline]
     pub fn add(&mut self, what: T) {
+        self.add_many(what, 1);
+    }
+
+    /// Counts so many more.
+    #[inline]
+    pub fn add_many(&mut self, what: T, more: u64) {
         match self.0.iter_mut().find(|(known, _)| *known == what) {
-            Some((_, count)) => *count += 1,
-            None => self.0.push((what, 1)),
+            Some((_, count)) => *count += more,
+            None => self.0.push((what, more)),
         }
     }
 

@@ -137,6 +137,21 @@ impl Report {
         self.frames.shown
     }
 
+    /// Takes over what another context has drawn for the frames of this one: its draws, the reasons of those that were replayed, its notes and
+    /// its errors.
+    pub fn absorb(&mut self, other: &mut Report) {
+        for (what, count) in other.draws.take() {
+            self.draws.add_many(what, count);
+        }
+        for (reason, count) in std::mem::take(&mut other.fallbacks) {
+            *self.fallbacks.entry(reason).or_default() += count;
+        }
+        for note in std::mem::take(&mut other.notes) {
+            self.note(note);
+        }
+        self.errors += std::mem::take(&mut other.errors);
+    }
+
     /// Counts a frame that was shown; returns the milliseconds since the one before.
     pub fn frame(&mut self) -> Option<f32> {
         self.frames.show()

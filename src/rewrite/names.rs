@@ -63,7 +63,7 @@ impl Uniform {
 }
 
 /// Names that are not uniforms.
-const OTHERS: [&str; 28] = [
+const OTHERS: [&str; 33] = [
     "main",
     "EmitVertex",
     "view",
@@ -89,6 +89,11 @@ const OTHERS: [&str; 28] = [
     "rule",
     "rows_down",
     "coord_sign",
+    "cloud",
+    "points",
+    "surface",
+    "point_size",
+    "in_disk",
     "v0",
     "v1",
     "v2",

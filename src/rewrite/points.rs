@@ -11,7 +11,10 @@ use super::facts::Facts;
 use super::names::{Names, Uniform};
 use super::scan::{Kind, Scan};
 use super::version::Version;
-use crate::fixed::{PointPlace, point_globals, point_quads, point_shift, point_test};
+use crate::fixed::{
+    PointPlace, SURFACE_EXTENSION, point_globals, point_quads, point_shift, point_test,
+    surface_disk, surface_size,
+};
 use std::fmt::Write;
 
 /// The shaders of points for all views.
@@ -45,6 +48,8 @@ pub enum PointsTo {
     Samples,
     /// To the layers of the views, so many views at most in a draw.
     Layers(u32),
+    /// The same, as disks of a surface (see [`crate::fixed::surface_size`]).
+    Surfaces(u32),
 }
 
 /// Makes the shaders of points of a program with a vertex and a fragment shader, one object each. `compatibility`: of the context's profile.
@@ -59,14 +64,15 @@ pub fn points(
 ) -> Result<PointShaders, Refusal> {
     match to {
         PointsTo::Samples => to_samples(vertex, fragment, compatibility),
-        PointsTo::Layers(views) => to_layers(vertex, fragment, views, compatibility),
+        PointsTo::Layers(views) => to_layers(vertex, fragment, (views, false), compatibility),
+        PointsTo::Surfaces(views) => to_layers(vertex, fragment, (views, true), compatibility),
     }
 }
 
 fn to_layers(
     vertex: &[u8],
     fragment: &[u8],
-    views: u32,
+    (views, surfaces): (u32, bool),
     compatibility: bool,
 ) -> Result<PointShaders, Refusal> {
     let pair = Pair::of(vertex, fragment)?;
@@ -80,6 +86,8 @@ fn to_layers(
         ("gl_ClipDistance", pair.facts.clip_distance),
         ("memory that it writes to", !pair.facts.writes.is_empty()),
         ("helpers", !pair.facts.main),
+        // It makes a shape of its own.
+        ("gl_PointCoord", surfaces && used(to, b"gl_PointCoord")),
     ];
     if let Some((name, _)) = taken.into_iter().find(|&(_, used)| used) {
         return Err(Refusal::Uses(name));
@@ -96,7 +104,10 @@ fn to_layers(
         }
     }
     let newest = pair.first.number.max(pair.version.number);
-    let output = format!("layout(points, max_vertices = {views}) out;");
+    let mut output = format!("layout(points, max_vertices = {views}) out;");
+    if surfaces {
+        output = format!("{SURFACE_EXTENSION}\n{output}");
+    }
     let mut text = head(names, to, &varyings, (newest, compatibility), &output)?;
     let (shift, tile) = (names.uniform(Uniform::Shift), names.uniform(Uniform::Tile));
     let (count, x, pass) = (
@@ -109,11 +120,27 @@ fn to_layers(
         "uniform vec4 {shift}[{views}], {tile}[{views}];\nuniform int {count};"
     );
     text.push_str(&point_shift(&names.other("")));
+    if surfaces {
+        text.push_str(&surface_size(&names.other("")));
+    }
     let _ = writeln!(
         text,
         "void main() {{\n    for (int i = 0; i < {count}; ++i) {{\n        {pass}();"
     );
-    if used(from, b"gl_PointSize") {
+    let written = used(from, b"gl_PointSize");
+    if surfaces {
+        // Where the vertex shader writes no size, it is zero there.
+        let sizes = names.other("surface");
+        let size = match written {
+            true => format!("{sizes}.z > 0.0 ? {sizes}.z : gl_in[0].gl_PointSize"),
+            false => format!("{sizes}.z"),
+        };
+        let _ = writeln!(
+            text,
+            "        gl_PointSize = {}(gl_in[0].gl_Position, {size});",
+            names.other("point_size")
+        );
+    } else if written {
         text.push_str("        gl_PointSize = gl_in[0].gl_PointSize;\n");
     }
     if used(to, b"gl_PrimitiveID") {
@@ -126,6 +153,15 @@ fn to_layers(
         "        p.x = {x}(p, vec4(0.0), i);\n        gl_Position = p;"
     );
     text.push_str("        EmitVertex();\n        EndPrimitive();\n    }\n}\n");
+    if surfaces {
+        entry::rename(&mut edits, to, names)?;
+        edits.append(surface_disk(&names.other("")));
+        let (own, disk) = (names.other("main"), names.other("in_disk"));
+        // A texture that is sampled after a discard has no gradients.
+        edits.append(format!(
+            "void main() {{\n    {own}();\n    if (!{disk}()) discard;\n}}"
+        ));
+    }
     let fragment = edits.finish()?.into_owned();
     Ok(PointShaders {
         geometry: text,
@@ -450,7 +486,7 @@ fn head(
     }
     let _ = writeln!(
         text,
-        "#version {}{profile}\nlayout(points) in;\n{output}",
+        "#version {}{profile}\n{output}\nlayout(points) in;",
         newest.max(150)
     );
     for (number, varying) in varyings.iter().enumerate() {

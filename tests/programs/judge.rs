@@ -54,6 +54,7 @@ pub(crate) fn judge(program: &Program, screen: &Screen, folder: &Path) -> Row {
     bench.all_frames(&mut row);
     // The picture columns come between those of the runs and of GL errors.
     row.cells.splice(1..1, bench.pictures());
+    row.cells.push(bench.gain());
     row.cells.push(bench.live());
     for trace in ["short.trace", "fewer.trace"] {
         let _ = fs::remove_file(folder.join(trace));
@@ -100,7 +101,9 @@ impl Bench<'_> {
     /// Strategies, in the order of the columns.
     pub(crate) fn strategies(&self) -> impl Iterator<Item = &'static str> {
         let instanced = self.program.own_shaders().then_some("instanced");
-        ["replay", "auto", "geometry"].into_iter().chain(instanced)
+        let splats = self.program.points.then_some("splats");
+        let always = ["replay", "auto", "geometry"].into_iter();
+        always.chain(instanced).chain(splats)
     }
 
     /// Repeats all frames in 8 views; adds the cell of the runs, then the one of GL errors.
@@ -167,6 +170,37 @@ impl Bench<'_> {
         }
         row.cells.push(cell(wrong, "yes"));
         row.cells.push(cell(raised, "none"));
+    }
+
+    /// Compares the times of frames under `splats` with those under `replay`, on a panel.
+    fn gain(&self) -> Cell {
+        if !self.program.points {
+            return Cell::unasked();
+        }
+        let median = |strategy: &str| {
+            let name = format!("panel-{strategy}");
+            let layer = vec![
+                ("VIEWS", "8".to_owned()),
+                ("DISPLAY", "huebner8".to_owned()),
+                ("VIEW_SCALE", "1".to_owned()),
+                ("STRATEGY", strategy.to_owned()),
+                ("REPORT", self.path(&format!("{name}/report.json"))),
+            ];
+            let how = Repeat {
+                layer: Some(layer),
+                interval: 0,
+            };
+            self.repeat(&self.trace, &how, &name);
+            let median = self.report(&name)?["frame_ms"]["median"].as_f64();
+            median.filter(|&median| median > 0.0)
+        };
+        match (median("replay"), median("splats")) {
+            (Some(replay), Some(splats)) => Cell::good(format!(
+                "{:.2} ({splats:.0} for {replay:.0} ms)",
+                replay / splats
+            )),
+            _ => Cell::bad("no times of frames"),
+        }
     }
 
     fn live(&self) -> Cell {

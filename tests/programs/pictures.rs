@@ -16,6 +16,8 @@ use std::path::PathBuf;
 const PICTURES: u64 = 10;
 /// Number of frames whose outer views are compared: the last of [`COMPARED`].
 const OUTER: u64 = 5;
+/// The place of the cell of `instanced` among those of the strategies.
+const INSTANCED: usize = 3;
 /// The folder of the views that outer views are compared with.
 const LAYERS: &str = "7-layers";
 
@@ -46,6 +48,9 @@ impl Bench<'_> {
             cells.push(cell);
         }
         if !self.program.own_shaders() {
+            cells.insert(INSTANCED, Cell::unasked());
+        }
+        if !self.program.points {
             cells.push(Cell::unasked());
         }
         // The other strategies draw into layers, where every view is at the origin, and float rounding depends on the place.

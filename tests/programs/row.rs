@@ -59,15 +59,17 @@ pub(crate) struct Row {
 }
 
 /// The checks, in the order of the table's head.
-pub(crate) const CHECKS: [&str; 9] = [
+pub(crate) const CHECKS: [&str; 11] = [
     "8 views",
     "replay",
     "auto",
     "geometry",
     "instanced",
+    "splats",
     "outer views",
     "parallax",
     "GL errors",
+    "splats over replay",
     "live",
 ];
 
@@ -133,17 +135,19 @@ Each program is recorded once by apitrace and repeated by glretrace or eglretrac
 
 - frames: at most 500 (`frames` of the file of commands may say otherwise); fewer where the program gave no more while it was
   recorded, with apitrace and software rendering, or where a quick look was asked for (`MANYVIEW_PROGRAMS_FRAMES`).
-- 8 views: all frames in 8 views under `replay`, `auto`, `geometry`, and `instanced` where the program brings shaders of its own; no
-  crash, and all make the same number of draws.
-- replay, auto, geometry, instanced: 10 frames of the first 120, the middle view of 7 against the frame without the layer. Under
+- 8 views: all frames in 8 views under `replay`, `auto`, `geometry`, `instanced` where the program brings shaders of its own, and
+  `splats` where it shows points; no crash, and all make the same number of draws.
+- replay, auto, geometry, instanced, splats: 10 frames of the first 120, the middle view of 7 against the frame without the layer. Under
   `replay` every byte is equal, under the others the gate holds
   ([Exact views and the gate](decisions/0001-exact-views-and-the-gate.md)). `none by instances`: nothing was drawn so, and `instanced` says no more than `replay` does.
-- outer views: views 0 and 6 of 7 under `geometry`, and `instanced`, against those under `replay` with `--atlas layers`, 5 frames, by
+- outer views: views 0 and 6 of 7 under `geometry`, `instanced` and `splats`, against those under `replay` with `--atlas layers`, 5 frames, by
   the gate.
 - parallax: where these frames show a scene with depth, how many pixels of views 0 and 6 differ from the middle one's by more than 8
   steps of 255; in each view of each frame at least 0.05 %.
 - GL errors: those that glretrace finds after each call under the layer and not without it.
-- live: the program itself, 8 views under `geometry` or, with shaders of its own, `instanced`, some seconds; frames shown.
+- splats over replay: how many times as fast the frames are, by the medians of both, on a panel of 8 views that has the size of the
+  window (`huebner8`).
+- live: the program itself, 8 views under `geometry`, with shaders of its own `instanced`, with points `splats`, some seconds; frames shown.
 - draws: with the strategy of the column before, 8 views, all frames, by what made them; the most frequent reasons of those that were
   replayed.
 
@@ -199,6 +203,7 @@ pub(crate) fn document(rows: &[(&Program, &Row)]) -> String {
 #[test]
 fn rows_are_kept_by_the_document() {
     let table = crate::table::read();
+    const PARALLAX: usize = 7;
     let program = table.iter().find(|program| program.parallax).expect("one");
     let mut cells: Vec<_> = CHECKS.map(|check| Cell::good(format!("{check} 1"))).into();
     cells[1] = Cell::bad("2 of 9");
@@ -213,12 +218,12 @@ fn rows_are_kept_by_the_document() {
     assert_eq!(kept(&text), row);
     // A column that the page does not have.
     let mut before = kept(&text.replace("| parallax ", "| another "));
-    assert_eq!(before.cells[6], Cell::unasked());
+    assert_eq!(before.cells[PARALLAX], Cell::unasked());
     before.adapt(program);
-    assert_eq!(before.cells[6], Cell::good("not run"));
+    assert_eq!(before.cells[PARALLAX], Cell::good("not run"));
     let flat = table.iter().find(|program| !program.parallax).expect("one");
-    before.cells[6] = Cell::bad("the same");
+    before.cells[PARALLAX] = Cell::bad("the same");
     before.adapt(flat);
-    assert_eq!(before.cells[6], Cell::unasked());
+    assert_eq!(before.cells[PARALLAX], Cell::unasked());
     assert!(rows("# Compatibility").is_empty());
 }

@@ -1,5 +1,6 @@
 //! The programs of programs.toml.
 
+use crate::cloud;
 use crate::play::Input;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -12,7 +13,7 @@ pub(crate) struct Program {
     pub(crate) name: String,
     /// Debian package.
     pub(crate) package: String,
-    /// Program and arguments.
+    /// Program and arguments. `{cloud}` is the path of a point cloud, without its ending (see [`crate::cloud`]).
     pub(crate) command: Vec<String>,
     #[serde(default)]
     pub(crate) api: Api,
@@ -33,6 +34,9 @@ pub(crate) struct Program {
     /// Whether the compared frames show a scene with depth, so that the views have to differ.
     #[serde(default)]
     pub(crate) parallax: bool,
+    /// Whether what it draws is points, most of all, which `splats` draws.
+    #[serde(default)]
+    pub(crate) points: bool,
     /// Why it fails, if it does.
     pub(crate) known: Option<String>,
     /// What it draws is another scene in each recording, so that it fails in some and passes in others.
@@ -50,6 +54,7 @@ impl Program {
     pub(crate) fn asks(&self, check: &str) -> bool {
         match check {
             "instanced" => self.own_shaders(),
+            "splats" | "splats over replay" => self.points,
             "parallax" => self.parallax,
             _ => true,
         }
@@ -58,6 +63,7 @@ impl Program {
     /// The strategy that may draw most of it without replay.
     pub(crate) fn fast(&self) -> &'static str {
         match self.own_shaders() {
+            _ if self.points => "splats",
             true => "instanced",
             false => "geometry",
         }
@@ -112,6 +118,14 @@ pub(crate) fn read() -> Vec<Program> {
     struct Table {
         program: Vec<Program>,
     }
-    let table: Table = toml::from_str(include_str!("programs.toml")).expect("programs.toml");
+    let mut table: Table = toml::from_str(include_str!("programs.toml")).expect("programs.toml");
+    let cloud = cloud::stem().display().to_string();
+    for argument in table
+        .program
+        .iter_mut()
+        .flat_map(|program| &mut program.command)
+    {
+        *argument = argument.replace("{cloud}", &cloud);
+    }
     table.program
 }

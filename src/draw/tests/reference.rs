@@ -50,6 +50,7 @@ fn repeated(
     let surfaces = Surfaces {
         mode: Some(mode),
         vertices,
+        counted: true,
         cuts: true,
         material: false,
     };

@@ -115,6 +115,7 @@ pub(super) struct Draw<'a> {
 pub(super) const UNKNOWN: Drawing = Drawing {
     mode: None,
     vertices: 0,
+    counted: false,
     cuts: false,
     material: false,
 };
@@ -194,6 +195,8 @@ impl Layer {
             true => primitives.drawing(gl, &self.session.support),
             false => Drawing {
                 mode: Some(primitives.mode()),
+                vertices: u64::from(primitives.count()),
+                counted: true,
                 ..UNKNOWN
             },
         };

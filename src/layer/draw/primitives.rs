@@ -52,6 +52,7 @@ impl Primitives {
         Drawing {
             mode: Some(mode),
             vertices: u64::from(self.count()),
+            counted: true,
             cuts: [c::TRIANGLES, c::QUADS].contains(&mode) || !support.restarts(gl) && lists(),
             material: false,
         }

@@ -111,3 +111,14 @@ fn points_in_layers() {
     let layer = "#version 430\nvoid main() { int a = gl_Layer; }\n";
     assert!(made_for(PointsTo::Layers(16), vertex, layer, false).contains("refused"));
 }
+
+#[test]
+fn points_as_surfaces() {
+    let vertex = "#version 150\nin vec3 place;\nflat out vec4 shade;\n\
+                  void main() { shade = vec4(1.0); gl_Position = vec4(place, 1.0); }\n";
+    let fragment = "#version 150\nflat in vec4 shade;\nout vec4 colour;\n\
+                    void main() { colour = shade; }\n";
+    insta::assert_snapshot!(made_for(PointsTo::Surfaces(16), vertex, fragment, false));
+    let round = fragment.replace("= shade", "= shade * gl_PointCoord.x");
+    assert!(made_for(PointsTo::Surfaces(16), vertex, &round, false).contains("refused"));
+}
