@@ -55,7 +55,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build release demos demo bench overhead panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
+.PHONY: help build library-32 release demos demo bench overhead panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-both test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -73,6 +73,12 @@ build: rust ## build the command, the library, the probe and the viewer of point
 	$(CARGO) build --release -p manyview
 	$(CARGO) build --release -p manyview-shim
 	$(CARGO) build --release $(VIEWER)
+	@if sh scripts/has-32.sh $(RUST_32); then $(MAKE) library-32; fi
+
+# Both are linked under the names by which the loader finds that of a program's class.
+library-32: rust
+	$(CARGO) build --release --target $(RUST_32) -p manyview-shim
+	@sh scripts/by-class.sh $(BIN) ../../../$(RUST_32)/release/libmanyview.so
 
 release: rust ## build what runs on systems with glibc 2.28 and later (needs cargo-zigbuild and zig); target/release-2.28
 	@sh scripts/release.sh $(GLIBC) $(RELEASE)
@@ -121,8 +127,8 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak)_/)'; \
-	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak|both)_/)'; \
+	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_; fi
 	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
 
@@ -130,33 +136,35 @@ packages-32: packages ## install the i386 packages that are missing
 	@sh scripts/packages.sh $(PACKAGES_32)
 	rustup target add $(RUST_32)
 
-build-32: packages-32 ## build the library for 32-bit programs
-	$(CARGO) build --release --target $(RUST_32) -p manyview-shim
+build-32: packages-32 build ## build the library for 32-bit programs as well (installs i386 packages)
 
 demos-32: packages-32 ## build the demo programs of 32 bits
 	$(MAKE) -C examples OUT=$(DEMOS_32) CC="gcc -m32"
 
-test-32: build build-32 demos-32 ## run the tests that preload the layer in programs of 32 bits (installs i386 packages)
+test-32: build-32 demos-32 ## run the tests that preload the layer in programs of 32 bits (installs i386 packages)
 	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast $(TESTS_32:%=--test %) -- $(NOT_32:%=--skip %)
+
+test-both: build-32 demos demos-32 ## run the tests of programs of both classes under one command (installs i386 packages)
+	$(CARGO) test --release --no-fail-fast --test both -- --ignored
 
 test-full: packages build demos ## run all tests but those of programs, also all of piglit's, valgrind and fuzz (three hours)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak)_/)'; \
-	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak|both)_/)'; \
+	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_; fi
 	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
 	$(MAKE) check-shadow
 	@if rustc +nightly --version >/dev/null 2>&1; then $(MAKE) sanitize; else echo "no sanitizer watches the library: run rustup toolchain install nightly to have that" >&2; fi
 	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
-	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
+	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32 test-both; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
 random: packages build ## make ten thousand sequences of random calls with and without the layer (an hour)
 	$(CARGO) test --release --no-fail-fast --test random full_ten -- --ignored --nocapture
 
-random-32: packages build build-32 ## the same in programs of 32 bits (installs i386 packages)
+random-32: packages build-32 ## the same in programs of 32 bits (installs i386 packages)
 	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast --test random full_ten -- --ignored --nocapture
 
 check-shadow: packages build demos ## run tests with a library that compares the state it keeps with the driver's
@@ -268,6 +276,13 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	install -s -m 644 $(BIN)/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/libmanyview.so
 	install -s -m 755 $(BIN)/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/manyview-probe
 	install -s -m 755 $(BIN)/manyview-points $(DESTDIR)$(PREFIX)/lib/manyview/manyview-points
+	rm -rf $(DESTDIR)$(PREFIX)/lib/manyview/by-class
+	@if test -f $(BIN)/by-class/32/libmanyview.so; then \
+		install -d $(DESTDIR)$(PREFIX)/lib/manyview/32 && \
+		install -s -m 644 $(BIN)/by-class/32/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/32/libmanyview.so && \
+		install -s -m 755 $(TARGET)/$(RUST_32)/release/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/32/manyview-probe && \
+		sh scripts/by-class.sh $(DESTDIR)$(PREFIX)/lib/manyview ../../32/libmanyview.so; \
+	else echo "The library for 32-bit programs is not built: run make build-32 first to install it as well" >&2; fi
 	@for scene in $(SCENES); do test -x $(DEMOS)/$$scene || \
 		{ echo "The scenes of manyview bench are not built: run make demos first to install them as well" >&2; exit 0; }; done; \
 		install -d $(DESTDIR)$(PREFIX)/lib/manyview/scenes && \

@@ -221,8 +221,8 @@ void demo_setup(void)
             glGenTextures(1, &image);
             glBindTexture(GL_TEXTURE_2D, image);
             glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, demo_width, demo_height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+            /* It stays bound, but is not enabled. */
             glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-            glBindTexture(GL_TEXTURE_2D, 0);
             glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image, 0);
         }
         glBindFramebuffer(GL_FRAMEBUFFER, 0);

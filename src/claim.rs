@@ -5,12 +5,13 @@
 //! room for the next one: its file gets its process ID then. [Decision 32](../docs/decisions/0032-one-writer-of-a-path.md) has the reasons.
 #![forbid(unsafe_code)]
 
+use crate::checksum::fnv1a;
 use crate::config::Config;
 use crate::control::place;
 use std::ffi::OsStr;
 use std::fmt::{self, Display};
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::ErrorKind;
+use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{MetadataExt, symlink};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -161,10 +162,10 @@ impl Folder {
     }
 
     fn claim(&self, named: &Path) -> PathBuf {
-        let mut hasher = DefaultHasher::new();
         let whole = std::path::absolute(named).unwrap_or_else(|_| named.to_owned());
-        whole.hash(&mut hasher);
-        let name = format!("{:016x}.{EXTENSION}", hasher.finish());
+        // The hash of a path differs between programs of 32 and of 64 bits.
+        let bytes = whole.as_os_str().as_bytes().iter().copied();
+        let name = format!("{:016x}.{EXTENSION}", fnv1a(bytes));
         self.path.join(name)
     }
 

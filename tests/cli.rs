@@ -159,14 +159,23 @@ fn programs_that_the_layer_cannot_enter_are_refused() {
         126,
         "setgid",
     );
-    refused(
-        &[
-            "run",
-            "--",
-            &program("narrow", &|bytes| bytes[4] = 1, 0o755),
-        ],
-        126,
-        "32-bit",
+    // The header of a 32-bit program and its one segment, which names a loader.
+    let narrow = |bytes: &mut Vec<u8>| {
+        bytes[4] = 1;
+        bytes[18..20].copy_from_slice(&3_u16.to_le_bytes());
+        bytes[28..32].copy_from_slice(&52_u32.to_le_bytes());
+        bytes[42..46].copy_from_slice(&[32, 0, 1, 0]);
+        bytes[52..56].copy_from_slice(&3_u32.to_le_bytes());
+    };
+    let narrow = program("narrow", &narrow, 0o755);
+    // Where the library of 32 bits has been built, it is left out so.
+    let mut command = manyview();
+    command.args(["run", "--", &narrow]);
+    let (code, _, stderr) = run(command.env("MANYVIEW_LIBRARY", support::library()));
+    assert_eq!(code, 126, "{stderr}");
+    assert!(
+        stderr.contains("32-bit") && stderr.contains("make build-32"),
+        "{stderr}"
     );
     refused(
         &[

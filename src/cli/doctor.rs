@@ -47,7 +47,11 @@ fn table(findings: &Findings) -> String {
 fn lines(findings: &Findings) -> Vec<(&str, String)> {
     let mut lines = Vec::new();
     if let Some(app) = &findings.app {
-        lines.push(("program", app.display().to_string()));
+        let class = match findings.class {
+            Some(class) => format!(", {} bits", class.bits()),
+            None => ", a script; the programs that it starts have the layer".to_owned(),
+        };
+        lines.push(("program", app.display().to_string() + &class));
     }
     lines.push((
         "layer",
@@ -56,6 +60,16 @@ fn lines(findings: &Findings) -> Vec<(&str, String)> {
             Err(reason) => format!("missing: {reason}"),
         },
     ));
+    match (&findings.narrow, &findings.library) {
+        (Some(path), Ok(main)) if path != main => {
+            lines.push(("", format!("{} for 32-bit programs", path.display())));
+        }
+        (None, Ok(_)) => lines.push((
+            "",
+            "none for 32-bit programs; `make build-32` makes it".to_owned(),
+        )),
+        _ => {}
+    }
     if findings.disabled {
         let off = "MANYVIEW_DISABLE is set: the layer stays out of every program".to_owned();
         lines.push(("", off));
@@ -92,7 +106,7 @@ fn lines(findings: &Findings) -> Vec<(&str, String)> {
         lines.extend(context(probe, findings.library.is_ok()));
     }
     if findings.probes.is_empty() {
-        let why = "not tried; the helper manyview-probe is not installed".to_owned();
+        let why = "not tried; the helper manyview-probe is not there for this class".to_owned();
         lines.push(("contexts", why));
     }
     lines

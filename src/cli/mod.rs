@@ -36,7 +36,7 @@ Exit status: that of APP for `run` (128 + the signal that killed it); else 0, or
   2    an option or file that cannot be used, or a request that the program has refused
   3    something missing here: the layer's library, an X server, OpenGL, a program for `ctl`
   4    the pictures of `capture`, or the frames of `bench`, were not reached, or no frame was proved
-  126  APP cannot be executed, or the layer cannot enter it (setuid, static, 32-bit)
+  126  APP cannot be executed, or the layer cannot enter it (setuid, static)
   127  APP is not found";
 
 #[derive(Parser)]

@@ -124,11 +124,9 @@ impl Config {
     pub fn from_env(lookup: impl Fn(&str) -> Option<String>) -> Result<Self, ConfigError> {
         let mut settings = Settings::from_env(&lookup)?;
         let preloads = lookup("LD_PRELOAD").unwrap_or_default();
-        let library = preloads.split([':', ' ']).map(Path::new);
-        let library = library
-            .into_iter()
-            .find(|path| path.ends_with(LIBRARY_FILE));
-        settings.find_profiles(library);
+        let items = preloads.split([':', ' ']).map(Path::new);
+        let named = items.into_iter().find(|path| path.ends_with(LIBRARY_FILE));
+        settings.find_profiles(mapped_library().as_deref().or(named));
         let mut config = Self::from_settings(&settings)?;
         config.choose_profile(&settings, profile::this_program());
         Ok(config)
@@ -143,6 +141,16 @@ impl Config {
             self.profile = profile;
         }
     }
+}
+
+/// The file of the layer's library in this process, links followed: LD_PRELOAD may name a link, or hold `$LIB`.
+fn mapped_library() -> Option<PathBuf> {
+    let maps = std::fs::read_to_string("/proc/self/maps").ok()?;
+    let mut files = maps
+        .lines()
+        .filter_map(|line| Some(Path::new(&line[line.find('/')?..])));
+    let library = files.find(|path| path.ends_with(LIBRARY_FILE));
+    library.map(Path::to_owned)
 }
 
 /// True if [`DISABLE`] turns the layer off; then no other variable is read.

@@ -185,13 +185,19 @@ pub fn is_file(value: &str) -> bool {
     value.contains('/') || value.ends_with(".toml")
 }
 
-/// Where the profiles are that come with a library: in `profiles` beside it, or of the repository that it was built in.
+/// Where the profiles are that come with a library: in `profiles` beside it or, where it is the one of 32 bits, beside its folder; or of the repository that it was
+/// built in.
 #[must_use]
 pub fn beside(library: &Path) -> Option<PathBuf> {
     let folder = library.parent()?;
-    [folder.join("profiles"), folder.join("../../profiles")]
-        .into_iter()
-        .find(|profiles| profiles.is_dir())
+    let folders = [
+        "profiles",
+        "../profiles",
+        "../../profiles",
+        "../../../profiles",
+    ];
+    let folders = folders.into_iter().map(|profiles| folder.join(profiles));
+    folders.into_iter().find(|profiles| profiles.is_dir())
 }
 
 /// The folder of the user's own profiles, which go before those that come with a library; it need not be there.

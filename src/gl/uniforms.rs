@@ -2,7 +2,7 @@
 
 use super::consts as c;
 use super::real::Ptr;
-use super::{Gl, ProgramName, shadow};
+use super::{Active, Gl, ProgramName, shadow};
 
 /// What a uniform's values are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +54,13 @@ pub(super) fn shape(kind: u32) -> Option<(Base, u32, u32)> {
         // Samplers and images.
         _ => (Int, 1, 1),
     })
+}
+
+impl Active {
+    /// Whether its type is GL_FLOAT_VEC4.
+    pub fn is_vec4(&self) -> bool {
+        shape(self.kind) == Some((Base::Float, 1, 4))
+    }
 }
 
 impl Gl {
@@ -194,7 +201,13 @@ impl Gl {
         };
     }
 
-    /// The value of a uniform of type GL_FLOAT_MAT4, column-major.
+    /// The value of a uniform of type GL_FLOAT_VEC4.
+    pub fn uniform_vector(&self, program: ProgramName, location: i32) -> [f32; 4] {
+        let [x, y, z, w, ..] = self.uniform_matrix(program, location);
+        [x, y, z, w]
+    }
+
+    /// The value of a uniform of type GL_FLOAT_MAT4, column-major; what has fewer numbers has zeros behind them.
     pub fn uniform_matrix(&self, program: ProgramName, location: i32) -> [f32; 16] {
         let words = shadow::uniform(program.0, location, || {
             let mut v = [0u32; 16];

@@ -4,8 +4,9 @@
 //! prints one line of JSON, a [`Probe`]. A driver that crashes ends only the helper.
 #![forbid(unsafe_code)]
 
-use super::elf::Elf;
+use super::elf::{Class, Elf};
 use super::error::LaunchError;
+use super::library::Libraries;
 use super::linked::{GlLibrary, linked_gl};
 use super::program::preload_value;
 use super::xvfb::Xvfb;
@@ -30,8 +31,12 @@ const FAMILIES: &[&str] = &["OSMesa", "glX", "egl", "gl", "dl"];
 pub struct Findings {
     /// The program, if one was named.
     pub app: Option<PathBuf>,
-    /// The layer's library, or why there is none.
+    /// Its class; none for a script.
+    pub class: Option<Class>,
+    /// The layer's library for that class, else the one of 64 bits, or why there is none.
     pub library: Result<PathBuf, String>,
+    /// The layer's library for 32-bit programs, if it is there.
+    pub narrow: Option<PathBuf>,
     /// Number of hooked names by prefix.
     pub hooks: BTreeMap<String, usize>,
     /// The OpenGL libraries that the program would load.
@@ -49,23 +54,37 @@ pub struct Findings {
 impl Findings {
     /// Gathers all findings. A program that cannot be started under the layer is an error.
     pub fn gather(app: Option<&OsStr>) -> Result<Self, LaunchError> {
-        let app = app.map(preflight::check_app).transpose()?;
-        let library = library::find();
+        let (app, class) = app.map(preflight::check_app).transpose()?.unzip();
+        let class = class.flatten();
+        let libraries = library::find();
+        if let (Some(app), Ok(libraries)) = (&app, &libraries) {
+            preflight::check_class(app, class, libraries)?;
+        }
+        let library = libraries.as_ref().map(|found| {
+            let of_class = class.and_then(|class| found.of(class));
+            of_class.unwrap_or(found.main()).to_owned()
+        });
         let hooks = library.as_deref().map(hooks).unwrap_or_default();
         let display = std::env::var("DISPLAY")
             .ok()
             .filter(|display| !display.is_empty());
-        let helper = library::helper(library::PROBE).ok();
+        let helper = library::probe(class);
         let screen = (display.is_none() && helper.is_some())
             .then(Xvfb::start)
             .and_then(Result::ok);
         let probes = helper.map(|helper| {
-            let probe = |api: &&str| probe(&helper, api, library.as_deref().ok(), screen.as_ref());
+            let probe = |api: &&str| probe(&helper, api, libraries.as_ref().ok(), screen.as_ref());
             APIS.iter().map(probe).collect()
         });
+        let narrow = libraries
+            .as_ref()
+            .ok()
+            .and_then(|found| found.of(Class::Narrow));
         Ok(Self {
-            libraries: linked_gl(app.as_deref()),
+            libraries: linked_gl(app.as_deref(), class.unwrap_or(Class::Wide)),
+            narrow: narrow.map(Path::to_owned),
             library: library.map_err(|error| error.to_string()),
+            class,
             hooks,
             display,
             own_screen: screen.is_some(),
@@ -114,7 +133,7 @@ fn hooks(library: &Path) -> BTreeMap<String, usize> {
 }
 
 /// Tries one API with the layer at its defaults, whatever the caller's variables are.
-fn probe(helper: &Path, api: &str, library: Option<&Path>, screen: Option<&Xvfb>) -> Probe {
+fn probe(helper: &Path, api: &str, libraries: Option<&Libraries>, screen: Option<&Xvfb>) -> Probe {
     let mut command = Command::new(helper);
     command.arg(api).env_remove(config::DISABLE);
     for option in OPTIONS {
@@ -122,8 +141,8 @@ fn probe(helper: &Path, api: &str, library: Option<&Path>, screen: Option<&Xvfb>
             command.env_remove(name);
         }
     }
-    if let Some(library) = library {
-        command.env("LD_PRELOAD", preload_value(library));
+    if let Some(libraries) = libraries {
+        command.env("LD_PRELOAD", preload_value(libraries));
     }
     if let Some(screen) = screen {
         command.env("DISPLAY", screen.display());

@@ -1,6 +1,6 @@
 //! The parts of the ELF format that the launcher needs: class, machine, interpreter, needed libraries, symbols.
 //!
-//! Based on: System V ABI, gABI chapters 4 and 5. Little-endian 64-bit files are read in full, others by their class.
+//! Based on: System V ABI, gABI chapters 4 and 5. Little-endian files are read in full, others by their class.
 #![forbid(unsafe_code)]
 
 use std::fs::File;
@@ -18,6 +18,96 @@ const SHT_DYNSYM: u32 = 11;
 const SHN_UNDEF: u16 = 0;
 /// The most bytes read of a table. A larger table belongs to a broken file.
 const MAX_TABLE: u64 = 16 * 1024 * 1024;
+
+/// The width of a program's pointers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+pub enum Class {
+    /// 32 bits.
+    #[serde(rename = "32")]
+    Narrow,
+    /// 64 bits.
+    #[serde(rename = "64")]
+    Wide,
+}
+
+impl Class {
+    /// The number of bits.
+    #[must_use]
+    pub fn bits(self) -> u8 {
+        match self {
+            Class::Narrow => 32,
+            Class::Wide => 64,
+        }
+    }
+}
+
+/// Where the parts of a table's entry are.
+struct Entry {
+    size: usize,
+    offset: usize,
+    length: usize,
+    /// Of a segment; of a section the number of another one.
+    address: usize,
+}
+
+/// Where the parts of a file of one class are, in bytes.
+struct Layout {
+    /// Bytes of an address.
+    bytes: usize,
+    /// Where the header has the place of the table, and its size and count.
+    segments: (usize, usize),
+    sections: (usize, usize),
+    segment: Entry,
+    section: Entry,
+    /// Size of a symbol, and the place of its section.
+    symbol: (usize, usize),
+}
+
+const WIDE: Layout = Layout {
+    bytes: 8,
+    segments: (32, 54),
+    sections: (40, 58),
+    segment: Entry {
+        size: 56,
+        offset: 8,
+        length: 32,
+        address: 16,
+    },
+    section: Entry {
+        size: 64,
+        offset: 24,
+        length: 32,
+        address: 40,
+    },
+    symbol: (24, 6),
+};
+const NARROW: Layout = Layout {
+    bytes: 4,
+    segments: (28, 42),
+    sections: (32, 46),
+    segment: Entry {
+        size: 32,
+        offset: 4,
+        length: 16,
+        address: 8,
+    },
+    section: Entry {
+        size: 40,
+        offset: 16,
+        length: 20,
+        address: 24,
+    },
+    symbol: (16, 14),
+};
+
+impl Layout {
+    fn word(&self, bytes: &[u8], at: usize) -> u64 {
+        match self.bytes {
+            8 => u64_at(bytes, at),
+            _ => u32_at(bytes, at).into(),
+        }
+    }
+}
 
 /// Facts about a program or library, from its file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -52,29 +142,42 @@ impl Elf {
             machine,
             ..Self::default()
         };
-        if bits == 64 && head.get(5) == Some(&1) && head.len() == 64 {
-            elf.read_segments(&mut file, &head)?;
-            elf.read_symbols(&mut file, &head)?;
+        let layout = if bits == 64 { &WIDE } else { &NARROW };
+        if head.get(5) == Some(&1) && head.len() == 64 {
+            elf.read_segments(&mut file, &head, layout)?;
+            elf.read_symbols(&mut file, &head, layout)?;
         }
         Ok(Some(elf))
     }
 
-    /// True if 64-bit programs of this machine can load the file.
+    /// The programs of this machine that can load the file, by their class; none for those of other machines.
     #[must_use]
-    pub fn is_native(&self) -> bool {
-        let ours = match std::env::consts::ARCH {
-            "x86_64" => 62,
-            "aarch64" => 183,
-            "riscv64" => 243,
-            _ => self.machine,
+    pub fn class(&self) -> Option<Class> {
+        let [ours, narrow] = match std::env::consts::ARCH {
+            "x86_64" => [62, 3],
+            "aarch64" => [183, 40],
+            "riscv64" => [243, 243],
+            _ => [self.machine; 2],
         };
-        self.bits == 64 && self.machine == ours
+        match self.bits {
+            64 if self.machine == ours => Some(Class::Wide),
+            32 if self.machine == narrow => Some(Class::Narrow),
+            _ => None,
+        }
     }
 
-    fn read_segments(&mut self, file: &mut File, head: &[u8]) -> std::io::Result<()> {
-        let (offset, size, count) = (u64_at(head, 32), u16_at(head, 54), u16_at(head, 56));
-        let table = read_at(file, offset, u64::from(size) * u64::from(count))?;
-        let segments: Vec<_> = table.chunks_exact(usize::from(size).max(56)).collect();
+    fn read_segments(
+        &mut self,
+        file: &mut File,
+        head: &[u8],
+        layout: &Layout,
+    ) -> std::io::Result<()> {
+        let segment = &layout.segment;
+        let word = |bytes: &[u8], at: usize| layout.word(bytes, at);
+        let [size, count] = [0, 2].map(|more| u64::from(u16_at(head, layout.segments.1 + more)));
+        let table = read_at(file, word(head, layout.segments.0), size * count)?;
+        let size = usize::try_from(size).unwrap_or(0).max(segment.size);
+        let segments: Vec<_> = table.chunks_exact(size).collect();
         self.has_interpreter = segments
             .iter()
             .any(|segment| u32_at(segment, 0) == PT_INTERP);
@@ -84,10 +187,12 @@ impl Elf {
         else {
             return Ok(());
         };
-        let dynamic = read_at(file, u64_at(dynamic, 8), u64_at(dynamic, 32))?;
+        let place = |bytes: &[u8]| (word(bytes, segment.offset), word(bytes, segment.length));
+        let (offset, length) = place(dynamic);
+        let dynamic = read_at(file, offset, length)?;
         let entries: Vec<_> = dynamic
-            .chunks_exact(16)
-            .map(|e| (u64_at(e, 0), u64_at(e, 8)))
+            .chunks_exact(2 * layout.bytes)
+            .map(|e| (word(e, 0), word(e, layout.bytes)))
             .collect();
         let Some((_, address)) = entries.iter().find(|(tag, _)| *tag == DT_STRTAB) else {
             return Ok(());
@@ -97,11 +202,11 @@ impl Elf {
             .filter(|segment| u32_at(segment, 0) == PT_LOAD);
         // The string table is given by its address in memory; the segment that holds the address gives the place in the file.
         let Some(strings) = loads.into_iter().find_map(|segment| {
-            let (start, length) = (u64_at(segment, 16), u64_at(segment, 32));
+            let (offset, length) = place(segment);
             let inside = address
-                .checked_sub(start)
+                .checked_sub(word(segment, layout.segment.address))
                 .filter(|inside| *inside < length)?;
-            Some((u64_at(segment, 8) + inside, length - inside))
+            Some((offset.checked_add(inside)?, length - inside))
         }) else {
             return Ok(());
         };
@@ -123,30 +228,43 @@ impl Elf {
         Ok(())
     }
 
-    fn read_symbols(&mut self, file: &mut File, head: &[u8]) -> std::io::Result<()> {
-        let (offset, size, count) = (u64_at(head, 40), u16_at(head, 58), u16_at(head, 60));
-        if offset == 0 || size < 64 {
+    fn read_symbols(
+        &mut self,
+        file: &mut File,
+        head: &[u8],
+        layout: &Layout,
+    ) -> std::io::Result<()> {
+        let section = &layout.section;
+        let offset = layout.word(head, layout.sections.0);
+        let [size, count] = [0, 2].map(|more| u64::from(u16_at(head, layout.sections.1 + more)));
+        let wide = usize::try_from(size).unwrap_or(0);
+        if offset == 0 || wide < section.size {
             return Ok(());
         }
-        let table = read_at(file, offset, u64::from(size) * u64::from(count))?;
-        let sections: Vec<_> = table.chunks_exact(usize::from(size)).collect();
+        let table = read_at(file, offset, size * count)?;
+        let sections: Vec<_> = table.chunks_exact(wide).collect();
         let Some(symbols) = sections
             .iter()
             .find(|section| u32_at(section, 4) == SHT_DYNSYM)
         else {
             return Ok(());
         };
-        let Some(strings) = usize::try_from(u32_at(symbols, 40))
+        let Some(strings) = usize::try_from(u32_at(symbols, section.address))
             .ok()
             .and_then(|link| sections.get(link))
         else {
             return Ok(());
         };
-        let strings = read_at(file, u64_at(strings, 24), u64_at(strings, 32))?;
-        let symbols = read_at(file, u64_at(symbols, 24), u64_at(symbols, 32))?;
+        let place = |bytes: &[u8]| {
+            let word = |at| layout.word(bytes, at);
+            (word(section.offset), word(section.length))
+        };
+        let [strings, symbols] = [place(strings), place(symbols)];
+        let strings = read_at(file, strings.0, strings.1)?;
+        let symbols = read_at(file, symbols.0, symbols.1)?;
         let defined = symbols
-            .chunks_exact(24)
-            .filter(|symbol| u16_at(symbol, 6) != SHN_UNDEF);
+            .chunks_exact(layout.symbol.0)
+            .filter(|symbol| u16_at(symbol, layout.symbol.1) != SHN_UNDEF);
         self.exports = defined
             .filter_map(|symbol| string_at(&strings, u32_at(symbol, 0).into()))
             .collect();
@@ -195,7 +313,8 @@ mod tests {
         let elf = Elf::open(&std::env::current_exe().unwrap())
             .unwrap()
             .unwrap();
-        assert!(elf.is_native() && elf.has_interpreter, "{elf:?}");
+        assert_eq!(elf.class(), Some(Class::Wide));
+        assert!(elf.has_interpreter, "{elf:?}");
         assert!(
             elf.needed.iter().any(|name| name.starts_with("libc.so")),
             "{:?}",

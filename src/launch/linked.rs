@@ -1,7 +1,7 @@
 //! The OpenGL libraries that a program would load, read from its files without starting it.
 #![forbid(unsafe_code)]
 
-use super::elf::Elf;
+use super::elf::{Class, Elf};
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -37,10 +37,10 @@ pub struct GlLibrary {
     pub linked_by: Option<String>,
 }
 
-/// The OpenGL libraries that `app` links, directly or through other libraries. Without `app`, those that programs usually load by name.
+/// The OpenGL libraries that `app` links, directly or through other libraries. Without `app`, those that programs of this class usually load by name.
 #[must_use]
-pub fn linked_gl(app: Option<&Path>) -> Vec<GlLibrary> {
-    let cache = Cache::read();
+pub fn linked_gl(app: Option<&Path>, class: Class) -> Vec<GlLibrary> {
+    let cache = Cache::read(class);
     let Some(app) = app else {
         let by_name = |name: &&str| GlLibrary {
             name: (*name).to_owned(),
@@ -99,12 +99,13 @@ fn expand(folder: &str, origin: &Path) -> PathBuf {
 
 /// Where the loader searches: the folders of `LD_LIBRARY_PATH`, and its cache.
 struct Cache {
+    class: Class,
     folders: Vec<PathBuf>,
     files: HashMap<String, PathBuf>,
 }
 
 impl Cache {
-    fn read() -> Self {
+    fn read(class: Class) -> Self {
         let folders = std::env::var_os("LD_LIBRARY_PATH").unwrap_or_default();
         let printed = ["ldconfig", "/sbin/ldconfig"].iter().find_map(|program| {
             Command::new(program)
@@ -120,8 +121,9 @@ impl Cache {
             .filter(|folder| folder != Path::new(""))
             .collect();
         Self {
+            class,
             folders,
-            files: parse(&text),
+            files: parse(&text, class),
         }
     }
 
@@ -130,17 +132,18 @@ impl Cache {
         let folders = self.folders.iter().chain(search);
         let in_folder = folders
             .map(|folder| folder.join(name))
-            .find(|path| native(path));
+            .find(|path| has_class(path, self.class));
         in_folder.or_else(|| self.files.get(name).cloned())
     }
 }
 
-fn native(path: &Path) -> bool {
-    matches!(Elf::open(path), Ok(Some(elf)) if elf.is_native())
+fn has_class(path: &Path, class: Class) -> bool {
+    matches!(Elf::open(path), Ok(Some(elf)) if elf.class() == Some(class))
 }
 
-/// Parses lines such as `libGL.so.1 (libc6,x86-64) => /lib/x86_64-linux-gnu/libGL.so.1`. The first line for this machine counts.
-fn parse(text: &str) -> HashMap<String, PathBuf> {
+/// Parses lines such as `libGL.so.1 (libc6,x86-64) => /lib/x86_64-linux-gnu/libGL.so.1`. The first line for this machine and class counts; the cache names no machine
+/// for 32 bits.
+fn parse(text: &str, class: Class) -> HashMap<String, PathBuf> {
     let machine = match std::env::consts::ARCH {
         "x86_64" => "x86-64",
         "aarch64" => "AArch64",
@@ -154,7 +157,7 @@ fn parse(text: &str) -> HashMap<String, PathBuf> {
         let Some((name, kind)) = left.split_once(" (") else {
             continue;
         };
-        if kind.contains(machine) {
+        if kind.contains(machine) == (class == Class::Wide) {
             files
                 .entry(name.to_owned())
                 .or_insert_with(|| PathBuf::from(path));
@@ -169,14 +172,15 @@ mod tests {
 
     #[test]
     #[cfg(target_arch = "x86_64")]
-    fn the_cache_lists_our_machine_only() {
-        let files = parse(
-            "2 libs found in cache\n\tlibGL.so.1 (libc6) => /lib32/libGL.so.1\n\tlibGL.so.1 (libc6,x86-64) => /lib/libGL.so.1\n",
-        );
-        assert_eq!(
-            files,
-            HashMap::from([("libGL.so.1".to_owned(), PathBuf::from("/lib/libGL.so.1"))])
-        );
+    fn the_cache_lists_libraries_of_one_class() {
+        let text = "2 libs found in cache\n\tlibGL.so.1 (libc6) => /lib32/libGL.so.1\n\tlibGL.so.1 (libc6,x86-64) => /lib/libGL.so.1\n";
+        for (class, path) in [
+            (Class::Wide, "/lib/libGL.so.1"),
+            (Class::Narrow, "/lib32/libGL.so.1"),
+        ] {
+            let expected = HashMap::from([("libGL.so.1".to_owned(), PathBuf::from(path))]);
+            assert_eq!(parse(text, class), expected);
+        }
     }
 
     #[test]

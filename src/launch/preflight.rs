@@ -1,24 +1,45 @@
 //! Checks before the program starts, so that a mistake is one line on stderr and not a picture that never comes.
 #![forbid(unsafe_code)]
 
-use super::elf::Elf;
+use super::elf::{Class, Elf};
 use super::error::LaunchError;
+use super::library::Libraries;
 use crate::config::Config;
 use rustix::fs::{Access, access, getxattr};
 use std::ffi::OsStr;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// Finds the program as a shell would, and refuses one that the layer cannot enter.
-pub fn check_app(name: &OsStr) -> Result<PathBuf, LaunchError> {
+/// Finds the program as a shell would, and refuses one that the layer cannot enter. Its class; none for a script, whose programs inherit the layer.
+pub fn check_app(name: &OsStr) -> Result<(PathBuf, Option<Class>), LaunchError> {
     let path = find(name)?;
-    // A script is not checked: the programs that it starts inherit the layer.
-    if let Ok(Some(elf)) = Elf::open(&path)
-        && let Some(reason) = closed(&path, &elf)
-    {
-        return Err(LaunchError::AppClosed { path, reason });
+    let Ok(Some(elf)) = Elf::open(&path) else {
+        return Ok((path, None));
+    };
+    match closed(&path, &elf) {
+        Some(reason) => Err(LaunchError::AppClosed { path, reason }),
+        None => Ok((path, elf.class())),
     }
-    Ok(path)
+}
+
+/// Refuses a program of a class that the layer has no library for.
+pub(super) fn check_class(
+    path: &Path,
+    class: Option<Class>,
+    libraries: &Libraries,
+) -> Result<(), LaunchError> {
+    let reason = match class {
+        Some(class) if libraries.of(class).is_some() => return Ok(()),
+        None => return Ok(()),
+        Some(Class::Narrow) => {
+            "it is a 32-bit program and the layer's library for those is not there (`make build-32` makes it)"
+        }
+        Some(Class::Wide) => "it is a 64-bit program and the layer's library has 32 bits",
+    };
+    Err(LaunchError::AppClosed {
+        path: path.to_owned(),
+        reason,
+    })
 }
 
 /// Why the loader would not preload into this program. None if it would.
@@ -31,9 +52,7 @@ fn closed(path: &Path, elf: &Elf) -> Option<&'static str> {
         Some("it is setgid and the loader ignores LD_PRELOAD")
     } else if capabilities {
         Some("it has file capabilities and the loader ignores LD_PRELOAD")
-    } else if elf.bits == 32 {
-        Some("it is a 32-bit program and the layer is a 64-bit library")
-    } else if !elf.is_native() {
+    } else if elf.class().is_none() {
         Some("it is a program for another machine")
     } else if !elf.has_interpreter {
         Some("it is statically linked and loads no libraries")

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
+use super::library::Libraries;
 use super::{library, preflight, preload, signals};
 use crate::config::{Config, OPTIONS, OptionId, Settings};
 use rustix::process::{Pid, Signal, kill_process};
@@ -18,7 +19,7 @@ pub struct Launch {
     app: PathBuf,
     name: OsString,
     arguments: Vec<OsString>,
-    library: PathBuf,
+    libraries: Libraries,
     variables: Vec<(String, String)>,
     /// Has a folder for each start, in which its processes claim the paths that they write to. None where nothing is written.
     claims: Option<TempDir>,
@@ -57,15 +58,18 @@ impl Launch {
     /// Checks options, files, program and library, in this order. `command` is the program and its arguments.
     pub fn prepare(command: &[OsString], settings: &Settings) -> Result<Self, LaunchError> {
         let mut settings = settings.clone();
-        settings.find_profiles(library::find().ok().as_deref());
+        let libraries = library::find();
+        let beside = libraries.as_ref().ok().map(Libraries::main);
+        settings.find_profiles(beside);
         let mut config = Config::from_settings(&settings)?;
         preflight::check_files(&config)?;
         let Some((name, arguments)) = command.split_first() else {
             return Err(LaunchError::AppNotFound("no program".to_owned()));
         };
-        let app = preflight::check_app(name)?;
+        let (app, class) = preflight::check_app(name)?;
         config.choose_profile(&settings, program_name(&app));
-        let library = library::find()?;
+        let libraries = libraries?;
+        preflight::check_class(&app, class, &libraries)?;
         let folder = std::env::current_dir().map_err(|source| LaunchError::System {
             doing: "finding the current folder",
             source,
@@ -84,7 +88,7 @@ impl Launch {
             app,
             name: name.clone(),
             arguments: arguments.to_vec(),
-            library,
+            libraries,
             variables,
             claims,
             config,
@@ -129,7 +133,7 @@ impl Launch {
         if let Some(Ok(claims)) = claims {
             command.env(OptionId::Launch.spec().variable, claims.keep());
         }
-        command.env("LD_PRELOAD", preload_value(&self.library));
+        command.env("LD_PRELOAD", preload_value(&self.libraries));
         command
     }
 
@@ -166,9 +170,12 @@ fn program_name(app: &Path) -> Option<String> {
     Some(path.file_name()?.to_string_lossy().into_owned())
 }
 
-/// The value of `LD_PRELOAD` with this library and the current environment.
-pub(super) fn preload_value(library: &Path) -> OsString {
-    preload::with_library(library, std::env::var_os("LD_PRELOAD").as_deref())
+/// The value of `LD_PRELOAD` with these libraries and the current environment.
+pub(super) fn preload_value(libraries: &Libraries) -> OsString {
+    preload::with_library(
+        libraries.preload(),
+        std::env::var_os("LD_PRELOAD").as_deref(),
+    )
 }
 
 fn forward(pid: Pid, signal: i32) {

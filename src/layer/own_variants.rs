@@ -4,6 +4,7 @@ use super::blocks::BlockReader;
 use super::unprojections::Unprojections;
 use crate::draw::{Drawn, NoVariant, Variant};
 use crate::gl::{Gl, Held, ProgramName};
+use crate::plan::camera::Lying;
 use crate::plan::decide::Linked as Linking;
 use crate::plan::{Pose, camera, orthographic};
 use crate::state::{Matrices, Samplers, SideEffects, block_change, link_change, uniform_change};
@@ -44,11 +45,20 @@ pub(super) struct Entered {
     pub(super) layers: bool,
 }
 
+/// Where a program has its camera.
+#[derive(Clone, Copy, Debug)]
+enum CameraPlace {
+    /// In a matrix, numbered as in [`Matrices::values`].
+    Matrix(usize),
+    /// In four vectors of an array: the number of the array, that of the first vector, and how they lie.
+    Vectors((usize, usize), Lying),
+}
+
 /// The camera of a program.
 #[derive(Clone, Copy, Debug)]
 struct Camera {
-    /// Index of its matrix among those of the program; `matrix` is the value, column-major.
-    at: usize,
+    /// Its matrix among those of the program; `matrix` is the value, column-major.
+    at: CameraPlace,
     matrix: [f32; 16],
     /// See [`camera::equivalent`].
     projection: [f32; 16],
@@ -463,7 +473,13 @@ impl OwnVariants {
         // The camera mostly is in the same matrix as before, and has only moved.
         let mut search = camera.is_none();
         if let Some(found) = camera.as_mut()
-            && let Some(matrix) = matrices.value(gl, program, found.at, in_block)
+            && let Some(matrix) = match found.at {
+                CameraPlace::Matrix(at) => matrices.value(gl, program, at, in_block),
+                CameraPlace::Vectors(at, lying) => {
+                    let four = matrices.four_vectors(gl, program, at);
+                    four.map(|four| lying.matrix(four))
+                }
+            }
         {
             match camera::equivalent(&matrix) {
                 _ if matrix == found.matrix => *lost = false,
@@ -478,10 +494,14 @@ impl OwnVariants {
             let found = camera::among(&values, aspect).and_then(|(at, projection)| {
                 let matrix = *values.get(at)?;
                 Some(Camera {
-                    at,
+                    at: CameraPlace::Matrix(at),
                     matrix,
                     projection,
                 })
+            });
+            let found = found.or_else(|| {
+                let arrays = matrices.vectors(gl, program).enumerate();
+                camera_among_vectors(arrays, aspect)
             });
             *lost = found.is_none();
             *oblique = orthographic::among(&values).filter(|_| *lost);
@@ -495,4 +515,20 @@ impl OwnVariants {
         let pending_deletion = self.pending_deletion.iter().copied();
         pending_deletion.chain(self.known.values().flat_map(ProgramRecord::variants))
     }
+}
+
+/// The camera among arrays of vectors, which have numbers, for the aspect of the window.
+fn camera_among_vectors(
+    mut arrays: impl Iterator<Item = (usize, Vec<[f32; 4]>)>,
+    aspect: f64,
+) -> Option<Camera> {
+    arrays.find_map(|(array, vectors)| {
+        let (first, lying, projection) = camera::among_vectors(&vectors, aspect)?;
+        let four = vectors.get(first..)?.first_chunk()?;
+        Some(Camera {
+            at: CameraPlace::Vectors((array, first), lying),
+            matrix: lying.matrix(*four),
+            projection,
+        })
+    })
 }

@@ -6,7 +6,7 @@
 //! Whatever samples, copies or blits from one that differs between the views makes its own target differ.
 
 use super::{Layer, keep_bindings};
-use crate::gl::{FramebufferName, Gl, ProgramName};
+use crate::gl::{FramebufferName, Gl, ProgramName, consts as c};
 use crate::offscreen::Bound;
 use crate::plan::camera;
 use crate::plan::class::Target;
@@ -111,7 +111,17 @@ impl Layer {
         self.state.touched = self.state.touched.without(Touch::UNITS);
         let bound = match program {
             _ if self.targets.offscreen.is_empty() => Vec::new(),
-            ProgramName::ZERO => self.targets.offscreen.bound(gl),
+            ProgramName::ZERO => {
+                let all = self.targets.offscreen.bound(gl);
+                // A fragment program samples what it names, fixed function what is enabled.
+                let fixed = self.state.has.compatibility
+                    && self.state.in_use.pipeline == 0
+                    && !gl.is_enabled(c::FRAGMENT_PROGRAM_ARB);
+                match fixed {
+                    true => self.targets.offscreen.enabled_among(gl, all),
+                    false => all,
+                }
+            }
             program => {
                 let units = self.units_of(gl, program);
                 self.targets.offscreen.bound_among(gl, units.into_iter())

@@ -59,6 +59,18 @@ pub(super) const TARGETS: [u32; 9] = [
     c::TEXTURE_CUBE_MAP_ARRAY,
 ];
 
+/// Whether fixed function samples textures of a target, where that is enabled.
+pub(super) fn is_of_fixed_function(target: u32) -> bool {
+    [
+        c::TEXTURE_1D,
+        c::TEXTURE_2D,
+        c::TEXTURE_3D,
+        c::TEXTURE_CUBE_MAP,
+        c::TEXTURE_RECTANGLE,
+    ]
+    .contains(&target)
+}
+
 /// The name of the binding of one of [`TARGETS`].
 pub(super) fn binding(target: u32) -> Option<u32> {
     let target = match target {

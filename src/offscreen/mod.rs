@@ -45,6 +45,9 @@ pub struct Offscreen {
 /// Pixels from tile to tile where a layer has only one: wider than any framebuffer.
 pub const STRIDE: u32 = 1 << 20;
 
+/// Texture units of fixed function at most.
+const FIXED_UNITS: u32 = 8;
+
 /// A split texture that is bound: its unit (GL_TEXTURE0 + n), target and name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bound {
@@ -347,6 +350,23 @@ impl Offscreen {
         if now != active {
             gl.active_texture(active);
         }
+        bound
+    }
+
+    /// Those whose target is enabled at their unit, so that fixed function samples them.
+    pub fn enabled_among(&self, gl: &Gl, mut bound: Vec<Bound>) -> Vec<Bound> {
+        if bound.is_empty() {
+            return bound;
+        }
+        let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+        bound.retain(|b| {
+            if b.unit >= c::TEXTURE0 + FIXED_UNITS || !image::is_of_fixed_function(b.target) {
+                return false;
+            }
+            gl.active_texture(b.unit);
+            gl.is_enabled(b.target)
+        });
+        gl.active_texture(active);
         bound
     }
 

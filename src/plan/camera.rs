@@ -75,6 +75,52 @@ pub fn among(matrices: &[[f32; 16]], aspect: f64) -> Option<(usize, [f32; 16])> 
         .map(|(_, found)| found)
 }
 
+/// How a matrix lies in four vectors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lying {
+    /// Each is a row: a position is multiplied by four dot products, as Direct3D's `m4x4` does.
+    Rows,
+    /// Each is a column.
+    Columns,
+}
+
+impl Lying {
+    /// Both, in the order in which they are tried.
+    pub const ALL: [Lying; 2] = [Lying::Rows, Lying::Columns];
+
+    /// The matrix, column-major.
+    pub fn matrix(self, vectors: [[f32; 4]; 4]) -> [f32; 16] {
+        let columns = glam::Mat4::from_cols_array_2d(&vectors);
+        match self {
+            Lying::Rows => columns.transpose().to_cols_array(),
+            Lying::Columns => columns.to_cols_array(),
+        }
+    }
+}
+
+/// The camera among vectors that follow each other, such as the constants of Direct3D: where its four vectors begin, how they lie, and the projection that
+/// [`equivalent`] makes of it. What four vectors of other things make up is no camera for the `aspect` of the window (width over height), or its depths do not go with
+/// its w.
+pub fn among_vectors(vectors: &[[f32; 4]], aspect: f64) -> Option<(usize, Lying, [f32; 16])> {
+    let windows = vectors.windows(4).enumerate();
+    let mut all = windows.flat_map(|(at, four)| Lying::ALL.map(|lying| (at, lying, four)));
+    all.find_map(|(at, lying, four)| {
+        let m = lying.matrix(four.try_into().ok()?);
+        let camera = equivalent(&m).filter(|camera| fits(camera, aspect))?;
+        sees_along_w(&m).then_some((at, lying, camera))
+    })
+}
+
+/// Whether z and w of a matrix grow along the same direction, and x and y at right angles to it and to each other, as those of every camera do whose model has one
+/// scale for all axes.
+fn sees_along_w(m: &[f32; 16]) -> bool {
+    let rows = matrix(m).transpose();
+    let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis].map(|r| r.truncate());
+    let along = |a: glam::DVec3, b: glam::DVec3| a.dot(b).abs() / (a.length() * b.length());
+    let [x, y] = [x, y].map(|row| row.reject_from(w));
+    along(z, w) > 0.9999 && along(x, y) < 0.01
+}
+
 /// Whether a camera from [`equivalent`] has the aspect of a picture, width over height, within one percent.
 pub fn fits(camera: &[f32; 16], aspect: f64) -> bool {
     let own = f64::from(camera[5]) / f64::from(camera[0]);
@@ -188,6 +234,32 @@ mod tests {
             close(p[0], a) && close(n, near) && close(f, far),
             "{p:?} {n} {f}"
         );
+    }
+
+    #[test]
+    fn a_camera_is_found_in_vectors_at_any_offset() {
+        // As Direct3D has it: z from 0 to w, w positive before the eye.
+        let p = glam::camera::lh::proj::directx::perspective(0.9, 1.5, 0.5, 200.0);
+        let view = Mat4::from_rotation_x(0.4) * Mat4::from_translation(Vec3::new(1.0, -2.0, 9.0));
+        let camera = p * view * Mat4::from_scale(Vec3::splat(3.0));
+        let rows = camera.transpose().to_cols_array_2d();
+        // Bones, a light and others before and behind it.
+        let bones = Mat4::from_rotation_y(0.7).transpose().to_cols_array_2d();
+        let mut vectors = vec![[0.0, 0.5, 1.0, 2.0], [0.3, -0.4, 0.8, 0.0]];
+        vectors.extend(bones);
+        let at = vectors.len();
+        vectors.extend(rows);
+        vectors.extend([[1.0; 4], [0.2, 0.9, 0.1, 30.0], [1.0, 0.0, 0.0, 0.0]]);
+        let found = among_vectors(&vectors, 1.5).expect("a camera");
+        assert_eq!((found.0, found.1), (at, Lying::Rows));
+        let a = 1.0 / (0.45_f32.tan() * 1.5);
+        assert!((found.2[0] - a).abs() < 1e-4, "{:?} {a}", found.2);
+        assert_eq!(among_vectors(&vectors, 1.0), None, "another aspect");
+        vectors.splice(at..at + 4, camera.to_cols_array_2d());
+        let found = among_vectors(&vectors, 1.5).expect("a camera");
+        assert_eq!((found.0, found.1), (at, Lying::Columns));
+        vectors.truncate(at + 3);
+        assert_eq!(among_vectors(&vectors, 1.5), None);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The sources from which the programs of a share group were linked.
 
 use crate::checksum::fnv1a;
-use crate::gl::{BlockPlace, Gl, ProgramName, consts as c};
+use crate::gl::{Active, BlockPlace, Gl, ProgramName, consts as c};
 use crate::rewrite::Stage;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -148,6 +148,8 @@ pub struct Matrices {
     in_blocks: Vec<BlockPlace>,
     /// Those of them that some shader reads, as far as its source tells: many programs share one block.
     read: Vec<BlockPlace>,
+    /// Locations of the elements of arrays of vectors, which may hold matrices as well: the constants of Direct3D.
+    vectors: Vec<Vec<i32>>,
 }
 
 impl Matrices {
@@ -155,6 +157,9 @@ impl Matrices {
     pub fn of(gl: &Gl, program: ProgramName, sources: &[ShaderSource]) -> Matrices {
         let mut found = Matrices::default();
         for (index, active) in (0..).zip(gl.active_uniforms(program)) {
+            if active.is_vec4() && active.size >= 4 {
+                found.vectors.extend(elements(gl, program, &active));
+            }
             if active.kind != c::FLOAT_MAT4 {
                 continue;
             }
@@ -209,6 +214,26 @@ impl Matrices {
         }
     }
 
+    /// The current values of the arrays of vectors.
+    pub fn vectors(&self, gl: &Gl, program: ProgramName) -> impl Iterator<Item = Vec<[f32; 4]>> {
+        let vectors = move |locations: &Vec<i32>| {
+            let all = locations.iter().map(|&at| gl.uniform_vector(program, at));
+            all.collect()
+        };
+        self.vectors.iter().map(vectors)
+    }
+
+    /// The current values of four vectors in a row: the number of the array, and of the first one in it.
+    pub fn four_vectors(
+        &self,
+        gl: &Gl,
+        program: ProgramName,
+        (array, first): (usize, usize),
+    ) -> Option<[[f32; 4]; 4]> {
+        let four: &[i32; 4] = self.vectors.get(array)?.get(first..)?.first_chunk()?;
+        Some(four.map(|at| gl.uniform_vector(program, at)))
+    }
+
     /// The current values, column-major: those of plain uniforms, and behind them those of `in_block`, 0 where it cannot tell one.
     pub fn values(
         &self,
@@ -222,6 +247,19 @@ impl Matrices {
         all.extend(places.map(|&place| in_block(place).unwrap_or_default()));
         all
     }
+}
+
+/// The locations of the elements of an array that is a plain uniform. The driver keeps them from now on.
+fn elements(gl: &Gl, program: ProgramName, active: &Active) -> Option<Vec<i32>> {
+    let left = (1..=active.size.max(1) as u32).rev();
+    let located = active.elements().zip(left).map(|(name, left)| {
+        let location = gl.uniform_location(program, &name);
+        if location >= 0 {
+            gl.keep_uniform(program, location, active.kind, left);
+        }
+        (location >= 0).then_some(location)
+    });
+    located.collect()
 }
 
 /// The textures that a program's own shaders sample, and the images that they load and store.
