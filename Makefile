@@ -30,7 +30,9 @@ LONG_PACKAGES := gltron xscreensaver-gl piglit
 # What 32-bit programs, and building them, need. The architecture i386 is added to dpkg.
 PACKAGES_32 := gcc-multilib g++-multilib libgl1:i386 libegl1:i386 libgl1-mesa-dri:i386 libosmesa6:i386 libosmesa6-dev:i386 \
 	libgl-dev:i386 libegl-dev:i386 libx11-dev:i386 libpng-dev:i386 libglu1-mesa-dev:i386
-# Tests that preload the layer into programs of this project; not those that start them by `manyview`, which refuses 32-bit programs.
+# Wine of both classes, and what compiles programs for it.
+PACKAGES_WINE := wine wine64 wine32:i386 gcc-mingw-w64-x86-64 gcc-mingw-w64-i686
+# Tests that preload the layer into programs of this project.
 TESTS_32 := answers cases conditions drawables front harm hosts memory oracle outputs passes passthrough quad random shaded
 NOT_32 := a_captured_picture_replaces_no_other_file capture_says_that_there_is_no_stereo_window
 # Tests that `check-shadow` runs: those that preload the layer into programs of this project and compare what these get.
@@ -55,7 +57,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build library-32 release demos demo bench overhead panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-both test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
+.PHONY: help build library-32 release demos demo bench overhead panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-both test-wine test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -127,8 +129,8 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak|both)_/)'; \
-	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak|both|wine)_/)'; \
+	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_ --skip wine_; fi
 	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
 
@@ -147,19 +149,24 @@ test-32: build-32 demos-32 ## run the tests that preload the layer in programs o
 test-both: build-32 demos demos-32 ## run the tests of programs of both classes under one command (installs i386 packages)
 	$(CARGO) test --release --no-fail-fast --test both -- --ignored
 
+test-wine: build-32 ## run programs for Windows under Wine (installs it, and i386 packages)
+	@sh scripts/packages.sh $(PACKAGES_WINE)
+	$(MAKE) -C examples/windows OUT=$(TARGET)/windows
+	$(CARGO) test --release --no-fail-fast --test windows -- --ignored
+
 test-full: packages build demos ## run all tests but those of programs, also all of piglit's, valgrind and fuzz (three hours)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak|both)_/)'; \
-	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak|both|wine)_/)'; \
+	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_ --skip wine_; fi
 	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
 	$(MAKE) check-shadow
 	@if rustc +nightly --version >/dev/null 2>&1; then $(MAKE) sanitize; else echo "no sanitizer watches the library: run rustup toolchain install nightly to have that" >&2; fi
 	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
-	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32 test-both; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
+	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32 test-both test-wine; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
 random: packages build ## make ten thousand sequences of random calls with and without the layer (an hour)
 	$(CARGO) test --release --no-fail-fast --test random full_ten -- --ignored --nocapture

@@ -1,0 +1,95 @@
+//! Programs for Windows under Wine, of both classes: each view is what the program itself draws with that view's projection. `make test-wine`, which installs Wine and a
+//! cross compiler.
+#![forbid(unsafe_code)]
+
+mod support;
+
+use image::{RgbImage, imageops};
+use manyview::metric::{Comparison, Gate};
+use std::path::Path;
+use std::process::Command;
+use support::{Screen, manyview, own_screen, rgb, scratch, succeed, target_folder};
+use tempfile::tempdir;
+
+const VIEWS: u32 = 3;
+const CAMERAS: [&str; 4] = ["--separation", "0.2", "--convergence", "4"];
+/// Each program with its options.
+const SCENES: [(&str, &[&str]); 8] = [
+    ("wgl", &[]),
+    ("d3d8", &[]),
+    ("d3d8", &["--shader", "rows"]),
+    ("d3d8", &["--shader", "columns", "--offset", "7"]),
+    ("d3d9", &[]),
+    ("d3d9", &["--shader", "rows", "--offset", "3"]),
+    ("d3d9", &["--shader", "columns"]),
+    ("d3d9", &["--shader", "indexed", "--offset", "50"]),
+];
+
+/// Wine with its files in a folder of their own, so that nothing is changed of the user's.
+fn in_wine<'a>(command: &'a mut Command, screen: &Screen) -> &'a mut Command {
+    let prefix = std::path::absolute(scratch("wine")).expect("a path");
+    let variables = [
+        ("WINEDEBUG", "-all"),
+        // Wine asks whether it is to download these.
+        ("WINEDLLOVERRIDES", "mscoree=;mshtml="),
+    ];
+    screen
+        .give(command)
+        .env("WINEPREFIX", prefix)
+        .envs(variables)
+}
+
+/// Frame 5 of a program, by `manyview capture`.
+fn captured(screen: &Screen, out: &Path, layer: &[&str], program: &[&str]) -> RgbImage {
+    let mut command = manyview();
+    command.args(["capture", "--frame", "5", "--out"]).arg(out);
+    command.args(layer).arg("--").arg("wine").args(program);
+    command.args(["--frames", "6"]);
+    succeed(in_wine(&mut command, screen));
+    rgb(out)
+}
+
+#[test]
+#[ignore = "Wine: make test-wine"]
+fn wine_programs_have_the_views_that_they_draw_themselves() {
+    let screen = own_screen();
+    let folder = tempdir().expect("a folder");
+    let out = folder.path().join("picture.png");
+    for class in ["64", "32"] {
+        for (name, options) in SCENES {
+            let path = target_folder().with_file_name("windows").join(class);
+            let path = path.join(name).with_extension("exe");
+            assert!(path.is_file(), "{}: run `make test-wine`", path.display());
+            let path = path.to_string_lossy();
+            let program = [&[&*path], options].concat();
+            let told = folder
+                .path()
+                .join("report.json")
+                .to_string_lossy()
+                .into_owned();
+            let views = VIEWS.to_string();
+            let layer = ["--views", &views, "--what", "atlas", "--strategy", "replay"];
+            let layer = [&layer[..], &CAMERAS, &["--report", &*told]].concat();
+            let all = captured(&screen, &out, &layer, &program);
+            let width = all.width() / VIEWS;
+            let text = std::fs::read_to_string(&told).expect("a report");
+            let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+            assert_eq!(report["gl_errors"], 0, "{class} {program:?}");
+            let mut shown = Vec::new();
+            for view in 0..VIEWS {
+                let place = format!("{view}/{VIEWS}");
+                let itself = [&program, &["--view", &place][..], &CAMERAS].concat();
+                let own = captured(&screen, &out, &["--views", "1"], &itself);
+                let tile =
+                    imageops::crop_imm(&all, view * width, 0, width, all.height()).to_image();
+                let compared = Comparison::new(&own, &tile, None).expect("one size");
+                assert!(
+                    Gate::DESIGN.check(&compared).is_ok(),
+                    "view {view} of {class} {program:?}: {compared:?}"
+                );
+                shown.push(tile);
+            }
+            assert!(shown[0] != shown[1], "{class} {program:?} is flat");
+        }
+    }
+}
