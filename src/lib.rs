@@ -23,9 +23,8 @@ pub mod config;
 
 pub mod control;
 
-pub mod claim;
-
 pub mod checksum;
+pub mod claim;
 
 pub mod fixed;
 

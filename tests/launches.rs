@@ -128,3 +128,45 @@ fn pictures_of_one_capture_are_of_one_program() {
         assert_eq!(size, (64, 48), "frame {frame}");
     }
 }
+
+/// Frames of the reports of a launch of `gears`, two frames, and of a program of another name, three.
+fn frames_of(options: &[&str], name: &str) -> Vec<u64> {
+    library();
+    let folder = tempdir().expect("a folder");
+    let other = folder.path().join(name);
+    std::fs::copy(demo("gears"), &other).expect("a copy");
+    let mut command = manyview();
+    command.args(["run", "--views", "3", "--report"]);
+    command.arg(folder.path().join("report.json")).args(options);
+    command.args(["--", "sh", "-c", r#""$0" --frames 2; "$1" --frames 3"#]);
+    command.arg(demo("gears")).arg(&other);
+    succeed(screen().give(&mut command));
+    let mut frames: Vec<u64> = reports(folder.path(), "").into_values().collect();
+    frames.sort_unstable();
+    frames
+}
+
+#[test]
+fn only_the_chosen_programs_of_a_launch_have_the_layer() {
+    assert_eq!(frames_of(&[], "quake"), [2, 3]);
+    assert_eq!(frames_of(&["--only", "quake"], "quake"), [3]);
+    assert_eq!(frames_of(&["--except", "setup,quake"], "quake"), [2]);
+    assert_eq!(frames_of(&[], "zenity"), [2], "a dialogue is left bare");
+    assert_eq!(frames_of(&["--only", "gears,zenity"], "zenity"), [2, 3]);
+    assert_eq!(frames_of(&["--only", "nothing"], "quake"), [0; 0]);
+}
+
+#[test]
+fn a_dialogue_that_the_user_starts_has_the_layer() {
+    library();
+    let folder = tempdir().expect("a folder");
+    let [program, report] = ["zenity", "report.json"].map(|name| folder.path().join(name));
+    std::fs::copy(demo("gears"), &program).expect("a copy");
+    let mut command = manyview();
+    command
+        .args(["run", "--views", "3", "--report"])
+        .arg(&report);
+    command.arg("--").arg(&program).args(["--frames", "2"]);
+    succeed(screen().give(&mut command));
+    assert_eq!(reports(folder.path(), "")["report.json"], 2);
+}

@@ -7,7 +7,7 @@
 use crate::live::{self, free};
 use crate::socket::{self, Checked};
 use crate::switch::{config, say};
-use manyview_core::config::profile;
+use manyview_core::config::program;
 use manyview_core::control::{Answer, keys};
 use manyview_core::layer::{Layer, Pictured, Wanted};
 use std::error::Error;
@@ -304,7 +304,7 @@ impl Keyboard {
 /// The path of the picture of a frame, in the program's working directory.
 fn picture(frame: u64) -> PathBuf {
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    let program = profile::this_program().unwrap_or_default();
+    let program = program::this_program().unwrap_or_default();
     let name = keys::picture_name(&program, now.unwrap_or_default().as_secs(), frame);
     std::env::current_dir().unwrap_or_default().join(name)
 }

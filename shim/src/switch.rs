@@ -2,7 +2,7 @@
 
 use crate::{Address, provider, stderr};
 use core::sync::atomic::{AtomicBool, AtomicPtr, Ordering::Relaxed};
-use manyview_core::config::{Config, Output};
+use manyview_core::config::{Config, Output, program};
 use manyview_core::gl::{NAMES, slot};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
@@ -42,6 +42,12 @@ pub(crate) fn config() -> Option<&'static Config> {
                 return None;
             }
             match Config::from_env(|name| std::env::var(name).ok()) {
+                Ok(config)
+                    if program::this_program()
+                        .is_some_and(|name| config.chosen.leaves_bare(&name)) =>
+                {
+                    None
+                }
                 Ok(config) => {
                     let told = config.renamings.iter();
                     told.for_each(|renaming| say(&renaming.to_string()));

@@ -52,6 +52,14 @@ pub enum ConfigError {
         /// The other one.
         remedy: Field,
     },
+    /// Not names of programs.
+    #[error("{field} is '{value}'; give the file names of programs, with commas between")]
+    ProgramNames {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
     /// Points are not what the program draws, and yet they are to be proved.
     #[error(
         "{field} draws other points than the program does, and {proof} compares with what the program draws; leave one of them out"

@@ -21,6 +21,7 @@ pub mod profile;
 #[cfg(test)]
 mod profile_tests;
 pub mod profile_text;
+pub mod program;
 mod replace;
 mod settings;
 mod status;
@@ -79,6 +80,8 @@ pub struct Config {
     pub true_views: TrueViews,
     /// Which draws without perspective are sheared by their depths.
     pub orthographic: OrthographicDraws,
+    /// Which programs of a launch have the layer.
+    pub chosen: program::Chosen,
     /// Points under `splats` are disks of a surface.
     pub surfaces: bool,
     /// Holes of synthesised views are magenta.
@@ -128,7 +131,7 @@ impl Config {
         let named = items.into_iter().find(|path| path.ends_with(LIBRARY_FILE));
         settings.find_profiles(mapped_library().as_deref().or(named));
         let mut config = Self::from_settings(&settings)?;
-        config.choose_profile(&settings, profile::this_program());
+        config.choose_profile(&settings, program::this_program());
         Ok(config)
     }
 

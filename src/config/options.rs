@@ -45,6 +45,10 @@ pub enum OptionId {
     Clip,
     /// How disocclusions of synthesised views are shown.
     Holes,
+    /// The programs that have the layer.
+    Only,
+    /// Programs that have it not.
+    Except,
     /// How `splats` draws points.
     Splats,
     /// Which draws without perspective are sheared by their depths.
@@ -391,6 +395,12 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::Profile, "profile", "MANYVIEW_PROFILE", "NAME|FILE|none",
         "Rules that say what draws are")
         .path(PathKind::ProfileOrFile).default("the profile that names the program").manual("See [Profiles](profiles.md)."),
+    OptionSpec::new(OptionId::Only, "only", "MANYVIEW_ONLY", "NAME,…",
+        "The programs that have the layer, of all that a launcher or a script starts")
+        .default("all but known launchers, browsers and dialogues").manual("Names of files, such as `game.exe`; with Wine those of the Windows programs. See [Launchers](getting-started.md#launchers)."),
+    OptionSpec::new(OptionId::Except, "except", "MANYVIEW_EXCEPT", "NAME,…",
+        "Programs that run without the layer")
+        .default("none besides known launchers, browsers and dialogues"),
     OptionSpec::new(OptionId::Explain, "explain", "MANYVIEW_EXPLAIN", "FOLDER|FILE",
         "Write what each draw of one frame is, and why, as PNG and text")
         .path(PathKind::File).manual("The files are `explain.png` and `explain.txt` in a folder that exists, else they have the file's name."),
@@ -561,6 +571,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 41, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 43, "a new option needs a row");
     }
 }

@@ -12,7 +12,7 @@ use super::strategy::STRATEGIES;
 use super::{
     Anaglyph, AtlasLayout, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter, FrameCap,
     MAX_VIEWS, Mixture, Optimisation, OrthographicDraws, OsdParts, Output, PanelWindow, Profile,
-    Strategy, TrueViews, ViewScale, panel, profile,
+    Strategy, TrueViews, ViewScale, panel, profile, program,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::path::PathBuf;
@@ -37,6 +37,7 @@ impl Config {
             atlas: choice(settings, OptionId::Atlas, ATLASES)?.unwrap_or(AtlasLayout::SideBySide),
             clip: choice(settings, OptionId::Clip, CLIPS)?,
             marks_holes: choice(settings, OptionId::Holes, HOLES)?.unwrap_or(false),
+            chosen: program::Chosen::of(settings)?,
             surfaces: surfaces(settings, strategy)?,
             orthographic: choice(settings, OptionId::Orthographic, ORTHOGRAPHIC)?
                 .unwrap_or_default(),

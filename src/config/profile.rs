@@ -206,18 +206,6 @@ pub fn users() -> Option<PathBuf> {
     Some(user_folder()?.join("profiles"))
 }
 
-/// The file name of the program of this process.
-#[must_use]
-pub fn this_program() -> Option<String> {
-    let path = std::env::current_exe().ok()?;
-    Some(program_name(&path.file_name()?.to_string_lossy()).to_owned())
-}
-
-/// The name without the words that Linux appends to that of a program that has been replaced since it was started, as updates do.
-pub(super) fn program_name(link: &str) -> &str {
-    link.strip_suffix(" (deleted)").unwrap_or(link)
-}
-
 /// The profiles in some folders, one folder after the other.
 fn shelves(folders: &[PathBuf]) -> Vec<PathBuf> {
     folders.iter().flat_map(|folder| shelf(folder)).collect()

@@ -227,9 +227,3 @@ proptest! {
         prop_assert_eq!(profile.rules[0].draw, Some((first, last)));
     }
 }
-
-#[test]
-fn a_program_that_was_replaced_keeps_its_name() {
-    assert_eq!(program_name("quake3 (deleted)"), "quake3");
-    assert_eq!(program_name("quake3"), "quake3");
-}

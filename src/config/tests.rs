@@ -154,6 +154,8 @@ fn every_message_is_one_clear_sentence() {
             ("MANYVIEW_STRATEGY", "splats"),
             ("MANYVIEW_PROVE", "10"),
         ],
+        &[("MANYVIEW_ONLY", "/usr/games/quake")],
+        &[("MANYVIEW_EXCEPT", "setup,,quake")],
         &[("MANYVIEW_CONFIG", "no-such-file.toml")],
     ];
     let mut all = String::new();

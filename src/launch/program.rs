@@ -4,7 +4,7 @@
 use super::error::LaunchError;
 use super::library::Libraries;
 use super::{library, preflight, preload, signals};
-use crate::config::{Config, OPTIONS, OptionId, Settings};
+use crate::config::{Config, OPTIONS, OptionId, Origin, Settings, program};
 use rustix::process::{Pid, Signal, kill_process};
 use std::ffi::OsString;
 use std::io::ErrorKind;
@@ -68,6 +68,11 @@ impl Launch {
         };
         let (app, class) = preflight::check_app(name)?;
         config.choose_profile(&settings, program_name(&app));
+        // What the user starts is what the user wants to see, even where it is left bare as a part of another launch.
+        let started = program_name(&app).filter(|name| program::is_helper(name));
+        if let Some(name) = started.filter(|_| settings.get(OptionId::Only).is_none()) {
+            settings.set(OptionId::Only, name, Origin::Default);
+        }
         let libraries = libraries?;
         preflight::check_class(&app, class, &libraries)?;
         let folder = std::env::current_dir().map_err(|source| LaunchError::System {

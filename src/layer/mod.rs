@@ -72,7 +72,7 @@ pub use reading::DrawableId;
 pub use tracked::Primitive;
 
 use crate::atlas::{Atlas, Names};
-use crate::config::{Config, Optimisation, profile};
+use crate::config::{Config, Optimisation, program};
 use crate::draw::{Driver, Programs};
 use crate::gl::shadow::{are_textures_taken, is_own_texture};
 use crate::gl::{BufferName, FramebufferName, Gl, TextureName, consts as c};
@@ -195,7 +195,7 @@ impl Layer {
             config.clip.unwrap_or_default(),
             config.disabled.has(Optimisation::Uniforms),
         );
-        let program = profile::this_program();
+        let program = program::this_program();
         let (synthesis, note) = synthesis::Synthesis::new(gl, config, support.glsl);
         note.into_iter().for_each(|note| report.note(note));
         let session = Session::new(gl, config, support, group, program.as_deref());

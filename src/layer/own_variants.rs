@@ -3,7 +3,7 @@
 use super::blocks::BlockReader;
 use super::unprojections::Unprojections;
 use crate::draw::{Drawn, NoVariant, Variant};
-use crate::gl::{Gl, Held, ProgramName};
+use crate::gl::{BlockPlace, Gl, Held, ProgramName};
 use crate::plan::camera::Lying;
 use crate::plan::decide::Linked as Linking;
 use crate::plan::{Pose, camera, orthographic};
@@ -52,6 +52,25 @@ enum CameraPlace {
     Matrix(usize),
     /// In four vectors of an array: the number of the array, that of the first vector, and how they lie.
     Vectors((usize, usize), Lying),
+}
+
+impl CameraPlace {
+    /// The matrix there, column-major.
+    fn value(
+        self,
+        matrices: &Matrices,
+        gl: &Gl,
+        program: ProgramName,
+        in_block: &mut dyn FnMut(BlockPlace) -> Option<[f32; 16]>,
+    ) -> Option<[f32; 16]> {
+        match self {
+            CameraPlace::Matrix(at) => matrices.value(gl, program, at, in_block),
+            CameraPlace::Vectors(at, lying) => {
+                let four = matrices.four_vectors(gl, program, at)?;
+                Some(lying.matrix(four))
+            }
+        }
+    }
 }
 
 /// The camera of a program.
@@ -473,13 +492,7 @@ impl OwnVariants {
         // The camera mostly is in the same matrix as before, and has only moved.
         let mut search = camera.is_none();
         if let Some(found) = camera.as_mut()
-            && let Some(matrix) = match found.at {
-                CameraPlace::Matrix(at) => matrices.value(gl, program, at, in_block),
-                CameraPlace::Vectors(at, lying) => {
-                    let four = matrices.four_vectors(gl, program, at);
-                    four.map(|four| lying.matrix(four))
-                }
-            }
+            && let Some(matrix) = found.at.value(matrices, gl, program, in_block)
         {
             match camera::equivalent(&matrix) {
                 _ if matrix == found.matrix => *lost = false,

@@ -1,7 +1,9 @@
 //! The profile of the running program: read again from its file, and written with the values in force.
 
 use super::Layer;
-use crate::config::{Camera, Kept, Live, OptionId, Profile, profile, profile_text, replace};
+use crate::config::{
+    Camera, Kept, Live, OptionId, Profile, profile, profile_text, program, replace,
+};
 use crate::control::{Answer, ControlError};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,7 +17,7 @@ impl Layer {
     /// Puts another profile in force from the next draw on. It has to be called between frames. What the user has given by options stays.
     pub fn adopt_profile(&mut self, profile: Arc<Profile>) {
         let before = std::mem::replace(&mut self.session.profile, Arc::clone(&profile));
-        let program = profile::this_program();
+        let program = program::this_program();
         self.cameras
             .classifier
             .change_rules(&profile, program.as_deref());
@@ -39,7 +41,7 @@ impl Layer {
         let file = &self.session.profile.file;
         let read = match file.as_os_str().is_empty() {
             false => Profile::read(file).map_err(ControlError::Profile)?,
-            true => profile::this_program()
+            true => program::this_program()
                 .and_then(|program| Profile::automatic(&self.session.config.profiles, &program))
                 .ok_or(ControlError::NoProfile)?,
         };
@@ -54,7 +56,7 @@ impl Layer {
 
     /// Writes the values in force, with the rules of the profile as they are, into `path` or the user's own profile of the program.
     pub(super) fn save_profile(&mut self, path: Option<PathBuf>) -> Result<Answer, ControlError> {
-        let program = profile::this_program().unwrap_or_default();
+        let program = program::this_program().unwrap_or_default();
         let before = &self.session.profile.file;
         let users = profile::users();
         let own = users

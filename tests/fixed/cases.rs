@@ -113,6 +113,7 @@ fn write_target(w: &mut Writer, number: usize) -> (&'static str, u8) {
         primitive,
         diagonal: Diagonal::OneThree,
         views,
+        surface: false,
     };
     w.say("views", views);
     w.say("columns", views);
