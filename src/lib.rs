@@ -24,6 +24,7 @@ pub mod config;
 pub mod control;
 
 pub mod checksum;
+
 pub mod claim;
 
 pub mod fixed;

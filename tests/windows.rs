@@ -93,3 +93,39 @@ fn wine_programs_have_the_views_that_they_draw_themselves() {
         }
     }
 }
+
+/// The cameras that follow the depths, without any option.
+#[test]
+#[ignore = "Wine: make test-wine"]
+fn wine_shaders_have_the_depth_of_fixed_function() {
+    let screen = own_screen();
+    let folder = tempdir().expect("a folder");
+    let path = folder.path().join("report.json");
+    let extent = |class: &str, options: &[&str]| {
+        let program = target_folder().with_file_name("windows").join(class);
+        let mut command = manyview();
+        command.args(["run", "--views", "8", "--report"]).arg(&path);
+        command.args(["--", "wine"]).arg(program.join("d3d9.exe"));
+        command.args(["--frames", "60"]).args(options);
+        // Wine itself sometimes ends with a signal after the last frame.
+        let _ = in_wine(&mut command, &screen).output().expect("it starts");
+        let text = std::fs::read_to_string(&path).expect("a report");
+        let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let budget = report["disparity"]["budget_px"].as_f64().expect("a budget");
+        let end = |name: &str| report["disparity"]["px"][name].as_f64().expect("a number");
+        let ends = [end("min"), end("max")];
+        assert!(
+            ends[0] < 0.0 && ends[1] > 0.0 && ends[1] <= budget,
+            "{ends:?}"
+        );
+        ends
+    };
+    for class in ["64", "32"] {
+        let fixed = extent(class, &[]);
+        for options in [&["--shader", "rows"][..], &["--shader", "columns"]] {
+            let shader = extent(class, options);
+            let off = [0, 1].map(|at| (shader[at] - fixed[at]).abs());
+            assert!(off[0].max(off[1]) < 0.05, "{fixed:?} and {shader:?}");
+        }
+    }
+}

@@ -7,7 +7,7 @@ use super::{Outcome, panel, scratch, tell};
 use clap::Args;
 use manyview::bench::proof;
 use manyview::config::{OptionId, Origin, Settings, Status};
-use manyview::launch::Launch;
+use manyview::launch::{Launch, by_vulkan};
 use manyview::report::Summary;
 use manyview::window::PanelServer;
 use std::ffi::OsString;
@@ -50,6 +50,9 @@ pub(super) fn start(layer: &LayerArguments, command: &[OsString]) -> Outcome {
     let panel = panel::open(&launch.config)?;
     if let Some(chosen) = chosen {
         tell(&chosen);
+    }
+    if let Some(vulkan) = by_vulkan(command, |name| std::env::var_os(name)) {
+        tell(&vulkan);
     }
     let explanation = launch.config.explain.as_ref();
     let before = explanation.map(|explain| stamps(&explain.files()));

@@ -18,6 +18,7 @@ mod proving;
 mod screen;
 mod signals;
 mod stepped;
+mod wine;
 mod xvfb;
 
 pub use capture::{CaptureJob, Captured};
@@ -30,4 +31,5 @@ pub use program::{Ended, Launch};
 pub use proving::ProveJob;
 pub use screen::Screen;
 pub use stepped::{Stepped, Stop};
+pub use wine::by_vulkan;
 pub use xvfb::Xvfb;
