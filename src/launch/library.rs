@@ -1,7 +1,7 @@
 //! Finds the layer's library, for programs of 64 and of 32 bits.
 //!
 //! Where both are there, one `LD_PRELOAD` serves them: the loader replaces `$LIB` in it (ld.so(8)), by `lib/x86_64-linux-gnu`, `lib64`, `lib32` and the like. The folder
-//! [`BY_CLASS`] beside the library has links of all these names (`scripts/by-class.sh`), and `64` and `32` beside them.
+//! `by-class` beside the library has links of all these names (`scripts/by-class.sh`), and `64` and `32` beside them.
 #![forbid(unsafe_code)]
 
 use super::elf::{Class, Elf};
