@@ -8,10 +8,6 @@ struct vertex {
     float bone;
     DWORD colour;
 };
-struct flat_vertex {
-    float x, y, z, rhw;
-    DWORD colour;
-};
 
 static IDirect3DDevice8 *device;
 /* The vertex shader. */
@@ -49,9 +45,6 @@ static void box(const matrix place, const matrix camera, int number)
 
 static void frame(int number)
 {
-    static const struct flat_vertex sign[6] = {
-        {10, 10, 0, 1, 0xffffffff}, {60, 10, 0, 1, 0xffffffff}, {10, 30, 0, 1, 0xffffffff},
-        {60, 10, 0, 1, 0xffffffff}, {60, 30, 0, 1, 0xff808080}, {10, 30, 0, 1, 0xffffffff}};
     matrix p, place;
     IDirect3DDevice8_Clear(device, 0, NULL, D3DCLEAR_TARGET | D3DCLEAR_ZBUFFER, 0xff101828, 1.0f, 0);
     check(IDirect3DDevice8_BeginScene(device), "BeginScene");

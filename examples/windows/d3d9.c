@@ -12,10 +12,6 @@ struct fixed_vertex {
     float x, y, z;
     DWORD colour;
 };
-struct flat_vertex {
-    float x, y, z, rhw;
-    DWORD colour;
-};
 
 static IDirect3DDevice9 *device;
 
@@ -51,9 +47,6 @@ static void box(const matrix place, const matrix camera, int number)
 static void frame(int number)
 {
     matrix p, place;
-    static const struct flat_vertex sign[6] = {
-        {10, 10, 0, 1, 0xffffffff}, {60, 10, 0, 1, 0xffffffff}, {10, 30, 0, 1, 0xffffffff},
-        {60, 10, 0, 1, 0xffffffff}, {60, 30, 0, 1, 0xff808080}, {10, 30, 0, 1, 0xffffffff}};
     IDirect3DDevice9_Clear(device, 0, NULL, D3DCLEAR_TARGET | D3DCLEAR_ZBUFFER, 0xff101828, 1.0f, 0);
     check(IDirect3DDevice9_BeginScene(device), "BeginScene");
     projection(p);

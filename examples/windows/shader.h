@@ -1,6 +1,14 @@
 /* A vertex shader of Direct3D 8 and 9, put together by hand: a compiler of shaders is not there on every system. */
 #include "scene.h"
 
+/* The sign, in screen coordinates. */
+static const struct flat_vertex {
+    float x, y, z, rhw;
+    DWORD colour;
+} sign[6] = {
+    {10, 10, 0, 1, 0xffffffff}, {60, 10, 0, 1, 0xffffffff}, {10, 30, 0, 1, 0xffffffff},
+    {60, 10, 0, 1, 0xffffffff}, {60, 30, 0, 1, 0xff808080}, {10, 30, 0, 1, 0xffffffff}};
+
 static DWORD code[128];
 static int length;
 

@@ -11,8 +11,6 @@ use crate::gl::{BindingPoint, BoundRange, BufferName, Gl, ProgramName, consts as
 use crate::plan::camera;
 use crate::points::neighbours::{COVER, Neighbour, Tree};
 use glam::Vec3;
-use std::num::NonZero;
-use std::thread;
 
 /// Fewer points are no surface.
 const FEWEST: u32 = 64;
@@ -91,6 +89,11 @@ impl Layer {
             return None;
         }
         let program = self.state.in_use.program;
+        let taken = |program| gl.storage_bindings(program).contains(&SURFACE_BINDING);
+        if draw.plan.variant && taken(program) {
+            // A storage block of the program's is bound where the sizes would be.
+            return None;
+        }
         let projection = match draw.plan.variant {
             true => self.variants.own.projections(program)?[1],
             false => camera::equivalent(&self.state.matrices.projection)?,
@@ -246,24 +249,13 @@ fn median(found: &[Option<Neighbour>]) -> f32 {
     }
 }
 
-/// What gives each point its size.
+/// What gives each point its size. On this thread: a program may allow no others.
 fn neighbours(places: &[Vec3]) -> Vec<Option<Neighbour>> {
     let tree = Tree::new(places);
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let part = places.len().div_ceil(threads).max(1);
-    let mut found = vec![None; places.len()];
-    thread::scope(|scope| {
-        for (at, (places, found)) in places.chunks(part).zip(found.chunks_mut(part)).enumerate() {
-            let tree = &tree;
-            scope.spawn(move || {
-                let first = (at * part) as u32;
-                for ((number, &place), found) in (first..).zip(places).zip(found) {
-                    *found = tree.sizing(number, place);
-                }
-            });
-        }
-    });
-    found
+    let numbered = (0..).zip(places);
+    numbered
+        .map(|(number, &place)| tree.sizing(number, place))
+        .collect()
 }
 
 #[cfg(test)]

@@ -111,8 +111,8 @@ pub fn among_vectors(vectors: &[[f32; 4]], aspect: f64) -> Option<(usize, Lying,
     })
 }
 
-/// Whether z and w of a matrix grow along the same direction, and x and y at right angles to it and to each other, as those of every camera do whose model has one
-/// scale for all axes.
+/// Whether z and w of a matrix grow along the same direction and, across it, x and y at right angles to each other, as those of every camera do whose model has one scale
+/// for all axes.
 fn sees_along_w(m: &[f32; 16]) -> bool {
     let rows = matrix(m).transpose();
     let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis].map(|r| r.truncate());
