@@ -8,11 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int version = 120, toon, combined, sky, box, orthographic;
+static int version = 120, toon, combined, apart, sky, box, orthographic;
 const struct demo_option demo_options[] = {
     {"--glsl", "120 or 330 (default 120)", &version, 1},
     {"--toon", "steps of light and dark outlines", &toon, 0},
     {"--combined", "one matrix for projection, camera and model (120)", &combined, 0},
+    {"--apart", "no matrix: the camera in numbers and vectors (120)", &apart, 0},
     {"--sky", "a sky by the rays of fragments", &sky, 0},
     {"--box", "a sky on a box around the eye", &box, 0},
     {"--orthographic", "the scene without perspective", &orthographic, 0},
@@ -42,6 +43,20 @@ static const char *const vertex_combined =
     "    eye = (modelview * vec4(position * size, 1.0)).xyz;\n"
     "    n = mat3(modelview[0].xyz, modelview[1].xyz, modelview[2].xyz) * normal;\n"
     "    gl_Position = everything * vec4(position * size, 1.0);\n"
+    "}\n";
+static const char *const vertex_apart =
+    "#version 120\n"
+    "attribute vec3 position, normal;\n"
+    "uniform vec4 lens, skew, right, up, back;\n"
+    "uniform float size;\n"
+    "varying vec3 eye, n;\n"
+    "void main()\n"
+    "{\n"
+    "    vec4 p = vec4(position * size, 1.0);\n"
+    "    vec3 e = vec3(dot(right, p), dot(up, p), dot(back, p));\n"
+    "    eye = e;\n"
+    "    n = vec3(dot(right.xyz, normal), dot(up.xyz, normal), dot(back.xyz, normal));\n"
+    "    gl_Position = vec4(lens.x * e.x + skew.x * e.z + skew.y, lens.y * e.y, lens.z * e.z + lens.w, skew.z * e.z + skew.w);\n"
     "}\n";
 static const char *const fragment_120 =
     "#version 120\n"
@@ -234,7 +249,7 @@ void demo_setup(void)
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)sizeof *i * count, i, GL_STATIC_DRAW);
     free(v);
     free(i);
-    program = demo_program(version == 330 ? vertex_330 : combined ? vertex_combined : vertex_120,
+    program = demo_program(version == 330 ? vertex_330 : apart ? vertex_apart : combined ? vertex_combined : vertex_120,
                            version == 330 ? fragment_330 : fragment_120);
     if (sky)
         heaven = demo_program(version == 330 ? sky_vertex_330 : sky_vertex_120, version == 330 ? sky_fragment_330 : sky_fragment_120);
@@ -272,6 +287,14 @@ static void load(const demo_matrix projection, const demo_matrix view, const dem
         return;
     }
     demo_times(mv, view, model);
+    if (apart) {
+        static const char *const rows[3] = {"right", "up", "back"};
+        for (int row = 0; row < 3; row++)
+            glUniform4f(at(rows[row]), mv[row], mv[4 + row], mv[8 + row], mv[12 + row]);
+        glUniform4f(at("lens"), projection[0], projection[5], projection[10], projection[14]);
+        glUniform4f(at("skew"), projection[8], projection[12], projection[11], projection[15]);
+        return;
+    }
     demo_times(all, projection, mv);
     glUniformMatrix4fv(at("modelview"), 1, 0, mv);
     glUniformMatrix4fv(at(combined ? "everything" : "projection"), 1, 0, combined ? all : projection);

@@ -76,6 +76,7 @@ fn distances_are_those_that_are_drawn() {
         "inverted",
         "shader",
         "block",
+        "apart",
         "reversed-shader",
         "overlay",
         "pass-16",
@@ -89,7 +90,9 @@ fn distances_are_those_that_are_drawn() {
     ];
     for how in cases {
         let frames = frames(&walls(how, &AUTO));
-        assert_eq!(frames.len() as u64, FRAMES, "{how}");
+        // Without a matrix, the first frame tells what the depths mean.
+        let untold = u64::from(how == "apart");
+        assert_eq!(frames.len() as u64, FRAMES - untold, "{how}");
         for frame in &frames[1..] {
             let near = (4.0 + frame.frame as f64 * 0.5).min(10.0);
             let wanted = [near, 40.0].map(|distance| frame.disparity(distance, WIDTH));
@@ -100,6 +103,9 @@ fn distances_are_those_that_are_drawn() {
                 frame.px.iter().all(|px| px.abs() <= BUDGET) && frame.px[2] > 0.2 * BUDGET,
                 "{how}: {frame:?}"
             );
+        }
+        if how == "apart" {
+            continue;
         }
         // Nothing is known of the first frame: its cameras are those that keep everything before them within the budget.
         let first = &frames[0];

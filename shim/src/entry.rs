@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1884] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1886] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1892,10 +1892,12 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1884] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1884] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1886] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -3780,11 +3782,13 @@ pub(crate) static HOOK: [Option<crate::Address>; 1884] = [
     None,
     None,
     None,
+    None,
+    None,
 ];
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1884] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1886] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -5621,6 +5625,8 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1884] = [
     Some(zeros_OSMesaCreateContextAttribs),
     Some(zeros_OSMesaDestroyContext),
     Some(zeros_OSMesaGetProcAddress),
+    None,
+    None,
     None,
     None,
     None,

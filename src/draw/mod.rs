@@ -23,4 +23,4 @@ pub use points::{POINTS_AT_ONCE, PointProgram, PointRules};
 pub use programs::Programs;
 pub use reference::{Drawing, Rays, draw_to_reference};
 pub use replay::{ReplayHazard, cut, enter_own, others, replay, set_tile_viewport};
-pub use variant::{Drawn, NoVariant, Variant, VariantKind, drawn, point_variant};
+pub use variant::{Drawn, NoVariant, Variant, VariantKind, drawn, point_variant, writing_variant};

@@ -137,7 +137,7 @@ pub fn drawn(
         gl.attribute_location(program, name)
     });
     let name = gl
-        .link_at(&shaders, &attributes, &outputs)
+        .link_at(&shaders, &attributes, &outputs, None)
         .map_err(NoVariant::Driver)?;
     let variant = Variant::of(gl, program, name, &shift, &rewritten);
     Ok(Drawn::ByVariant(Arc::new(variant)))
@@ -176,9 +176,46 @@ pub fn point_variant(
         gl.attribute_location(program, name)
     });
     let name = gl
-        .link_at(&shaders, &attributes, &outputs(gl, program))
+        .link_at(&shaders, &attributes, &outputs(gl, program), None)
         .map_err(NoVariant::Driver)?;
     Ok(Variant::of(gl, program, name, &new.names, &rewritten))
+}
+
+/// Links a program that draws as the program's own does, and writes an output of its vertex shader by transform feedback.
+///
+/// # Errors
+/// Why there is none.
+pub fn writing_variant(
+    gl: &Gl,
+    program: ProgramName,
+    sources: &[ShaderSource],
+    output: &CStr,
+) -> Result<Variant, NoVariant> {
+    if last_stage(sources)? != Stage::Vertex {
+        return Err(NoVariant::Stages);
+    }
+    let mut rewritten = Rewritten::default();
+    for shader in sources {
+        if !facts(&shader.source, gl.is_es())?.writes.is_empty() {
+            return Err(NoVariant::Effects);
+        }
+        let text = shader.source.as_slice().into();
+        rewritten.sources.push((shader.kind, text));
+    }
+    let shaders = rewritten.compile(gl)?;
+    let attributes = locations(gl.active_attributes(program), |name| {
+        gl.attribute_location(program, name)
+    });
+    let name = gl
+        .link_at(&shaders, &attributes, &outputs(gl, program), Some(output))
+        .map_err(NoVariant::Driver)?;
+    Ok(Variant::of(
+        gl,
+        program,
+        name,
+        &Names::default(),
+        &rewritten,
+    ))
 }
 
 /// The last stage that writes positions of vertices.

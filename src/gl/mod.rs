@@ -33,6 +33,7 @@ pub mod shadow;
 mod table;
 mod textures;
 mod uniforms;
+mod written;
 
 pub use api::Gl;
 pub use bindings::{buffer_binding, texture_binding};

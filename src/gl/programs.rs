@@ -206,8 +206,12 @@ impl Gl {
         shaders: &[ShaderName],
         attributes: &[(CString, u32)],
         outputs: &[(CString, u32)],
+        written: Option<&CStr>,
     ) -> Result<ProgramName, String> {
         self.link_with(shaders, |program| {
+            if let Some(output) = written {
+                self.write_output(program, output);
+            }
             for (name, at) in attributes {
                 // SAFETY: a string that ends in NUL.
                 unsafe {

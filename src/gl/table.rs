@@ -5,7 +5,7 @@ use super::shadow::Shadow;
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1884;
+pub const COUNT: usize = 1886;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1846,53 +1846,55 @@ pub mod slot {
     pub const OSMesaDestroyContext: usize = 1834;
     pub const OSMesaGetProcAddress: usize = 1835;
     pub const glGetTextureParameteriv: usize = 1836;
-    pub const glGetString: usize = 1837;
-    pub const glGetStringi: usize = 1838;
-    pub const glGetFloati_v: usize = 1839;
-    pub const glGenQueries: usize = 1840;
-    pub const glGetRenderbufferParameteriv: usize = 1841;
-    pub const glCreateShader: usize = 1842;
-    pub const glShaderSource: usize = 1843;
-    pub const glCompileShader: usize = 1844;
-    pub const glGetShaderiv: usize = 1845;
-    pub const glGetShaderInfoLog: usize = 1846;
-    pub const glCreateProgram: usize = 1847;
-    pub const glAttachShader: usize = 1848;
-    pub const glGetProgramInfoLog: usize = 1849;
-    pub const glDeleteShader: usize = 1850;
-    pub const glGetUniformLocation: usize = 1851;
-    pub const glIsProgram: usize = 1852;
-    pub const glGetShaderSource: usize = 1853;
-    pub const glGetAttachedShaders: usize = 1854;
-    pub const glGetActiveUniform: usize = 1855;
-    pub const glGetActiveAttrib: usize = 1856;
-    pub const glGetAttribLocation: usize = 1857;
-    pub const glGetFragDataLocation: usize = 1858;
-    pub const glBindFragDataLocation: usize = 1859;
-    pub const glGetUniformdv: usize = 1860;
-    pub const glGetUniformuiv: usize = 1861;
-    pub const glGetActiveUniformBlockiv: usize = 1862;
-    pub const glGetActiveUniformsiv: usize = 1863;
-    pub const glGetActiveUniformBlockName: usize = 1864;
-    pub const glGetProgramInterfaceiv: usize = 1865;
-    pub const glGetProgramResourceName: usize = 1866;
-    pub const glGetProgramResourceiv: usize = 1867;
-    pub const glGetInteger64i_v: usize = 1868;
-    pub const glGetProgramStageiv: usize = 1869;
-    pub const glGetUniformi64vARB: usize = 1870;
-    pub const glGetUniformui64vARB: usize = 1871;
-    pub const glFenceSync: usize = 1872;
-    pub const glClientWaitSync: usize = 1873;
-    pub const glDeleteSync: usize = 1874;
-    pub const glGetBufferSubData: usize = 1875;
-    pub const glGetBufferParameteriv: usize = 1876;
-    pub const glGetUniformBlockIndex: usize = 1877;
-    pub const glGenBuffers: usize = 1878;
-    pub const glBindAttribLocation: usize = 1879;
-    pub const glProgramParameteri: usize = 1880;
-    pub const glPatchParameteri: usize = 1881;
-    pub const glGenVertexArrays: usize = 1882;
-    pub const glGenSamplers: usize = 1883;
+    pub const glGenTransformFeedbacks: usize = 1837;
+    pub const glTransformFeedbackVaryings: usize = 1838;
+    pub const glGetString: usize = 1839;
+    pub const glGetStringi: usize = 1840;
+    pub const glGetFloati_v: usize = 1841;
+    pub const glGenQueries: usize = 1842;
+    pub const glGetRenderbufferParameteriv: usize = 1843;
+    pub const glCreateShader: usize = 1844;
+    pub const glShaderSource: usize = 1845;
+    pub const glCompileShader: usize = 1846;
+    pub const glGetShaderiv: usize = 1847;
+    pub const glGetShaderInfoLog: usize = 1848;
+    pub const glCreateProgram: usize = 1849;
+    pub const glAttachShader: usize = 1850;
+    pub const glGetProgramInfoLog: usize = 1851;
+    pub const glDeleteShader: usize = 1852;
+    pub const glGetUniformLocation: usize = 1853;
+    pub const glIsProgram: usize = 1854;
+    pub const glGetShaderSource: usize = 1855;
+    pub const glGetAttachedShaders: usize = 1856;
+    pub const glGetActiveUniform: usize = 1857;
+    pub const glGetActiveAttrib: usize = 1858;
+    pub const glGetAttribLocation: usize = 1859;
+    pub const glGetFragDataLocation: usize = 1860;
+    pub const glBindFragDataLocation: usize = 1861;
+    pub const glGetUniformdv: usize = 1862;
+    pub const glGetUniformuiv: usize = 1863;
+    pub const glGetActiveUniformBlockiv: usize = 1864;
+    pub const glGetActiveUniformsiv: usize = 1865;
+    pub const glGetActiveUniformBlockName: usize = 1866;
+    pub const glGetProgramInterfaceiv: usize = 1867;
+    pub const glGetProgramResourceName: usize = 1868;
+    pub const glGetProgramResourceiv: usize = 1869;
+    pub const glGetInteger64i_v: usize = 1870;
+    pub const glGetProgramStageiv: usize = 1871;
+    pub const glGetUniformi64vARB: usize = 1872;
+    pub const glGetUniformui64vARB: usize = 1873;
+    pub const glFenceSync: usize = 1874;
+    pub const glClientWaitSync: usize = 1875;
+    pub const glDeleteSync: usize = 1876;
+    pub const glGetBufferSubData: usize = 1877;
+    pub const glGetBufferParameteriv: usize = 1878;
+    pub const glGetUniformBlockIndex: usize = 1879;
+    pub const glGenBuffers: usize = 1880;
+    pub const glBindAttribLocation: usize = 1881;
+    pub const glProgramParameteri: usize = 1882;
+    pub const glPatchParameteri: usize = 1883;
+    pub const glGenVertexArrays: usize = 1884;
+    pub const glGenSamplers: usize = 1885;
 }
 
 /// Name of each command.
@@ -3734,6 +3736,8 @@ pub static NAMES: [&CStr; COUNT] = [
     c"OSMesaDestroyContext",
     c"OSMesaGetProcAddress",
     c"glGetTextureParameteriv",
+    c"glGenTransformFeedbacks",
+    c"glTransformFeedbackVaryings",
     c"glGetString",
     c"glGetStringi",
     c"glGetFloati_v",
@@ -5621,6 +5625,8 @@ real_functions! {
     OSMesaDestroyContext(ctx: Ptr);
     OSMesaGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
     glGetTextureParameteriv(texture: u32, pname: u32, params: Ptr);
+    glGenTransformFeedbacks(n: i32, ids: Ptr);
+    glTransformFeedbackVaryings(program: u32, count: i32, varyings: Ptr, bufferMode: u32);
     glGetString(name: u32) -> Ptr = core::ptr::null_mut();
     glGetStringi(name: u32, index: u32) -> Ptr = core::ptr::null_mut();
     glGetFloati_v(target: u32, index: u32, data: Ptr);

@@ -34,7 +34,7 @@ pub enum FeedbackCommand {
 }
 
 /// The kind of primitives of a mode of glBegin, as transform feedback has it.
-fn kind(mode: u32) -> u32 {
+pub(super) fn kind(mode: u32) -> u32 {
     match mode {
         c::POINTS => c::POINTS,
         c::LINES | c::LINE_LOOP | c::LINE_STRIP => c::LINES,

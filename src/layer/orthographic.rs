@@ -29,7 +29,10 @@ impl Layer {
             return true;
         }
         match shaders {
-            Shaders::Variant(variant) => self.variants.own.oblique(variant.program).is_some(),
+            Shaders::Variant(variant) => {
+                let search = self.variants.own.search(variant.program);
+                search.is_some_and(|search| search.oblique().is_some())
+            }
             _ => self
                 .fixed_matrix(gl)
                 .is_some_and(|all| orthographic::is_oblique(&all)),

@@ -1,12 +1,12 @@
 //! Variants of the program's own shaders, and the uniforms of its programs that the layer follows.
 
 use super::blocks::BlockReader;
+use super::camera_search::CameraSearch;
 use super::unprojections::Unprojections;
 use crate::draw::{Drawn, NoVariant, Variant};
-use crate::gl::{BlockPlace, Gl, Held, ProgramName};
-use crate::plan::camera::Lying;
+use crate::gl::{Gl, Held, ProgramName};
 use crate::plan::decide::Linked as Linking;
-use crate::plan::{Pose, camera, orthographic};
+use crate::plan::{Pose, camera};
 use crate::state::{Matrices, Samplers, SideEffects, block_change, link_change, uniform_change};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -35,6 +35,8 @@ pub(super) enum VariantUse {
     Points,
     /// Points for all views at once, to their layers.
     PointLayers,
+    /// None: positions are written to a buffer.
+    Written,
 }
 
 /// A variant in use.
@@ -43,59 +45,6 @@ pub(super) struct Entered {
     pub(super) variant: Arc<Variant>,
     /// It chooses layers.
     pub(super) layers: bool,
-}
-
-/// Where a program has its camera.
-#[derive(Clone, Copy, Debug)]
-enum CameraPlace {
-    /// In a matrix, numbered as in [`Matrices::values`].
-    Matrix(usize),
-    /// In four vectors of an array: the number of the array, that of the first vector, and how they lie.
-    Vectors((usize, usize), Lying),
-}
-
-impl CameraPlace {
-    /// The matrix there, column-major.
-    fn value(
-        self,
-        matrices: &Matrices,
-        gl: &Gl,
-        program: ProgramName,
-        in_block: &mut dyn FnMut(BlockPlace) -> Option<[f32; 16]>,
-    ) -> Option<[f32; 16]> {
-        match self {
-            CameraPlace::Matrix(at) => matrices.value(gl, program, at, in_block),
-            CameraPlace::Vectors(at, lying) => {
-                let four = matrices.four_vectors(gl, program, at)?;
-                Some(lying.matrix(four))
-            }
-        }
-    }
-}
-
-/// The camera of a program.
-#[derive(Clone, Copy, Debug)]
-struct Camera {
-    /// Its matrix among those of the program; `matrix` is the value, column-major.
-    at: CameraPlace,
-    matrix: [f32; 16],
-    /// See [`camera::equivalent`].
-    projection: [f32; 16],
-}
-
-/// State of the search for a program's camera.
-#[derive(Debug)]
-struct CameraSearch {
-    /// The last camera that was found among its matrices.
-    found: Option<Camera>,
-    /// It was told that none was found.
-    told: bool,
-    /// None of its matrices has a perspective now.
-    lost: bool,
-    /// Where none has, the matrix by which an orthographic scene is measured (see [`orthographic::among`]).
-    oblique: Option<[f32; 16]>,
-    /// [`uniform_change`] and [`block_change`] at the last search; without matrices in blocks the latter is 0.
-    seen: [u64; 2],
 }
 
 /// A variant, or why there is none; none before it is wanted.
@@ -111,8 +60,8 @@ pub(super) struct ProgramRecord {
     how: Result<Drawn, NoVariant>,
     /// The variants that choose layers, for one view and for all: none until one is wanted, `Some(None)` where there cannot be one.
     layered: [Option<Option<Arc<Variant>>>; 2],
-    /// The variants of [`VariantUse::Rays`], [`VariantUse::Points`] and [`VariantUse::PointLayers`], or why there is none, once one has been wanted.
-    optional: [Made; 3],
+    /// The variants of [`VariantUse::Rays`], [`VariantUse::Points`], [`VariantUse::PointLayers`] and [`VariantUse::Written`], or why there is none, once one has been wanted.
+    optional: [Made; 4],
     matrices: Matrices,
     samplers: Samplers,
     effects: SideEffects,
@@ -123,7 +72,7 @@ pub(super) struct ProgramRecord {
     unprojections: ([u64; 2], f64, Arc<Unprojections>),
     camera: CameraSearch,
     /// By [`VariantUse`]: [`uniform_change`] when uniforms were last copied to the variant, and what that returned.
-    followed: [(u64, u64); 6],
+    followed: [(u64, u64); 7],
 }
 
 impl ProgramRecord {
@@ -145,16 +94,10 @@ impl ProgramRecord {
             effects,
             units: (0, Vec::new()),
             unprojections: ([0; 2], 0.0, Arc::default()),
-            camera: CameraSearch {
-                found: None,
-                told: false,
-                lost: true,
-                oblique: None,
-                seen: [0; 2],
-            },
-            followed: [(0, 0); 6],
+            camera: CameraSearch::default(),
+            followed: [(0, 0); 7],
             layered: [None, None],
-            optional: [None, None, None],
+            optional: [None, None, None, None],
         }
     }
 
@@ -183,9 +126,9 @@ impl OwnVariants {
         with: VariantUse,
     ) -> Option<Entered> {
         let known = self.known.get_mut(&program)?;
-        let [alone, layer, instances, rays, points, point_layers] = &mut known.followed;
+        let [alone, layer, instances, rays, points, point_layers, writes] = &mut known.followed;
         let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
-        let [distorting, points_variant, layered_points] = known
+        let [distorting, points_variant, layered_points, writing] = known
             .optional
             .each_ref()
             .map(|made| made.as_ref()?.as_ref().ok());
@@ -193,6 +136,7 @@ impl OwnVariants {
             (VariantUse::Rays, ..) => (distorting?, rays, false),
             (VariantUse::Points, ..) => (points_variant?, points, false),
             (VariantUse::PointLayers, ..) => (layered_points?, point_layers, true),
+            (VariantUse::Written, ..) => (writing?, writes, false),
             (VariantUse::Instances, _, Some(variant), _) => (variant, instances, true),
             (VariantUse::Layers, Some(variant), _, _) => (variant, layer, true),
             (VariantUse::Layers | VariantUse::Views, _, _, Ok(Drawn::ByVariant(variant))) => {
@@ -297,10 +241,11 @@ impl OwnVariants {
         program: ProgramName,
         with: VariantUse,
     ) -> Option<Result<Arc<Variant>, String>> {
-        let [rays, points, layers] = &self.known.get(&program)?.optional;
+        let [rays, points, layers, written] = &self.known.get(&program)?.optional;
         match with {
             VariantUse::Points => points.clone(),
             VariantUse::PointLayers => layers.clone(),
+            VariantUse::Written => written.clone(),
             _ => rays.clone(),
         }
     }
@@ -313,31 +258,24 @@ impl OwnVariants {
         made: Result<Arc<Variant>, String>,
     ) {
         if let Some(known) = self.known.get_mut(&program) {
-            let [rays, points, layers] = &mut known.optional;
+            let [rays, points, layers, written] = &mut known.optional;
             match with {
                 VariantUse::Points => *points = Some(made),
                 VariantUse::PointLayers => *layers = Some(made),
+                VariantUse::Written => *written = Some(made),
                 _ => *rays = Some(made),
             }
         }
     }
 
-    /// Whether none of a program's matrices has a perspective now, so that its last camera is used.
-    pub(super) fn is_lost(&self, program: ProgramName) -> bool {
-        let known = self.known.get(&program);
-        known.is_none_or(|known| known.camera.lost)
+    /// The search for a program's camera; none for a program without a record.
+    pub(super) fn search(&self, program: ProgramName) -> Option<&CameraSearch> {
+        self.known.get(&program).map(|known| &known.camera)
     }
 
-    /// The matrix of the orthographic scene that a program draws; none where its matrices have a perspective, or show nothing obliquely.
-    pub(super) fn oblique(&self, program: ProgramName) -> Option<[f32; 16]> {
-        let camera = &self.known.get(&program)?.camera;
-        camera.oblique.filter(|_| camera.lost)
-    }
-
-    /// Whether it is the first time that this is asked of a program with a record.
-    pub(super) fn is_first_telling(&mut self, program: ProgramName) -> bool {
-        let known = self.known.get_mut(&program);
-        known.is_some_and(|known| !std::mem::replace(&mut known.camera.told, true))
+    /// The same, to be changed.
+    pub(super) fn search_mut(&mut self, program: ProgramName) -> Option<&mut CameraSearch> {
+        self.known.get_mut(&program).map(|known| &mut known.camera)
     }
 
     /// Whether a program's vertices lie at the far end of the depths.
@@ -361,8 +299,8 @@ impl OwnVariants {
         };
         let in_block = &mut |place| blocks.matrix(program, place);
         let values = known.matrices.values(gl, program, in_block);
-        let camera = known.camera.found.filter(|_| !known.camera.lost);
-        camera.is_some_and(|camera| camera::turns_about_eye(&camera.matrix, &values))
+        let matrix = known.camera.present();
+        matrix.is_some_and(|matrix| camera::turns_about_eye(&matrix, &values))
     }
 
     /// Where a program puts what it draws (see [`camera::pose`]).
@@ -373,16 +311,15 @@ impl OwnVariants {
         blocks: &mut BlockReader,
     ) -> Option<Pose> {
         let known = self.known.get(&program)?;
-        let camera = known.camera.found.filter(|_| !known.camera.lost)?;
+        let matrix = known.camera.present()?;
         let in_block = &mut |place| blocks.matrix(program, place);
         let values = known.matrices.values(gl, program, in_block);
-        camera::pose(&camera.matrix, &values)
+        camera::pose(&matrix, &values)
     }
 
     /// The matrix of a program's camera, as the program has it and as a pure projection (see [`camera::equivalent`]); both are column-major.
     pub(super) fn projections(&self, program: ProgramName) -> Option<[[f32; 16]; 2]> {
-        let camera = self.known.get(&program)?.camera.found?;
-        Some([camera.matrix, camera.projection])
+        self.known.get(&program)?.camera.projections()
     }
 
     /// The matrices by which a program computes positions from places on the screen. `aspect` is width over height of the picture.
@@ -421,7 +358,7 @@ impl OwnVariants {
         };
         if locations(&new) != locations(found) {
             // Variants have values of the layer's own in matrices that are no longer of these.
-            known.followed = [(0, 0); 6];
+            known.followed = [(0, 0); 7];
         }
         (*seen, *before) = (change, aspect);
         if new != **found {
@@ -466,61 +403,14 @@ impl OwnVariants {
         let Some(ProgramRecord {
             how: Ok(Drawn::ByVariant(_)),
             matrices,
-            camera:
-                CameraSearch {
-                    found: camera,
-                    lost,
-                    oblique,
-                    seen,
-                    ..
-                },
+            camera,
             ..
         }) = self.known.get_mut(&program)
         else {
             return None;
         };
-        let places = matrices.in_blocks();
-        let change = match places {
-            [] => [uniform_change(), 0],
-            _ => [uniform_change(), block_change()],
-        };
-        let changed = std::mem::replace(seen, change) != change;
-        if !changed && (places.is_empty() || !blocks.are_live(program, places)) {
-            return Some(camera.map(|camera| camera.projection));
-        }
-        let in_block = &mut |place| blocks.matrix(program, place);
-        // The camera mostly is in the same matrix as before, and has only moved.
-        let mut search = camera.is_none();
-        if let Some(found) = camera.as_mut()
-            && let Some(matrix) = found.at.value(matrices, gl, program, in_block)
-        {
-            match camera::equivalent(&matrix) {
-                _ if matrix == found.matrix => *lost = false,
-                Some(projection) => {
-                    (found.matrix, found.projection, *lost) = (matrix, projection, false);
-                }
-                None => search = true,
-            }
-        }
-        if search {
-            let values = matrices.values(gl, program, in_block);
-            let found = camera::among(&values, aspect).and_then(|(at, projection)| {
-                let matrix = *values.get(at)?;
-                Some(Camera {
-                    at: CameraPlace::Matrix(at),
-                    matrix,
-                    projection,
-                })
-            });
-            let found = found.or_else(|| {
-                let arrays = matrices.vectors(gl, program).enumerate();
-                camera_among_vectors(arrays, aspect)
-            });
-            *lost = found.is_none();
-            *oblique = orthographic::among(&values).filter(|_| *lost);
-            *camera = found.or(*camera);
-        }
-        Some(camera.map(|camera| camera.projection))
+        camera.look(gl, program, matrices, aspect, blocks);
+        Some(camera.projections().map(|[_, projection]| projection))
     }
 
     /// The names of all variants, and of the programs that wait to be deleted.
@@ -528,20 +418,4 @@ impl OwnVariants {
         let pending_deletion = self.pending_deletion.iter().copied();
         pending_deletion.chain(self.known.values().flat_map(ProgramRecord::variants))
     }
-}
-
-/// The camera among arrays of vectors, which have numbers, for the aspect of the window.
-fn camera_among_vectors(
-    mut arrays: impl Iterator<Item = (usize, Vec<[f32; 4]>)>,
-    aspect: f64,
-) -> Option<Camera> {
-    arrays.find_map(|(array, vectors)| {
-        let (first, lying, projection) = camera::among_vectors(&vectors, aspect)?;
-        let four = vectors.get(first..)?.first_chunk()?;
-        Some(Camera {
-            at: CameraPlace::Vectors((array, first), lying),
-            matrix: lying.matrix(*four),
-            projection,
-        })
-    })
 }

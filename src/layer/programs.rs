@@ -2,10 +2,13 @@
 
 use super::Layer;
 use super::blocks::BlockReader;
+use super::camera_search::CameraSearch;
 use super::own_variants::{OwnVariants, ProgramRecord, VariantUse};
 use super::unprojections::Unprojections;
 use crate::config::Strategy;
-use crate::draw::{Drawn, NoVariant, POINTS_AT_ONCE, Variant, VariantKind, drawn, point_variant};
+use crate::draw::{
+    Drawn, NoVariant, POINTS_AT_ONCE, Variant, VariantKind, drawn, point_variant, writing_variant,
+};
 use crate::gl::{Gl, ImageUnit, ProgramName, consts as c};
 use crate::plan::Pose;
 use crate::plan::decide::{Linked as Linking, Shaders, VariantFacts};
@@ -91,10 +94,13 @@ impl Layer {
         let Some([to_layer, to_layers]) = self.variants.own.layered(program) else {
             return Shaders::Unlinked(program);
         };
+        let unmeasured = self.is_unmeasured(program);
+        let search = self.variants.own.search(program);
         Shaders::Variant(VariantFacts {
             program,
             camera,
-            lost: self.variants.own.is_lost(program),
+            lost: search.is_none_or(CameraSearch::is_lost),
+            unmeasured,
             far_end: self.variants.own.is_at_far_end(program),
             to_layer,
             to_layers,
@@ -125,10 +131,22 @@ impl Layer {
 
     /// Tells once of a program that no camera was found in its matrices.
     pub(super) fn tell_of_no_camera(&mut self, program: ProgramName) {
-        if !self.variants.own.is_first_telling(program) {
+        if self.measures_w() && !self.is_measured_in_vain(program) {
             return;
         }
-        let which = match self.linked_from(program) {
+        let search = self.variants.own.search_mut(program);
+        if !search.is_some_and(CameraSearch::is_first_telling) {
+            return;
+        }
+        let which = self.told_name(program);
+        self.diagnostics.report.note(format!(
+            "no camera was found in the matrices of the shaders {which}: what they draw is the same in all views"
+        ));
+    }
+
+    /// How a program is named to the user: by the hash and the first line of its vertex shader, where these are known.
+    pub(super) fn told_name(&self, program: ProgramName) -> String {
+        match self.linked_from(program) {
             Some(linked) => {
                 let vertex = linked.sources.iter().find(|s| s.stage == Stage::Vertex);
                 let line = vertex
@@ -137,10 +155,7 @@ impl Layer {
                 format!("{:016x} (`{line}`)", linked.hash)
             }
             None => program.0.to_string(),
-        };
-        self.diagnostics.report.note(format!(
-            "no camera was found in the matrices of the shaders {which}: what they draw is the same in all views"
-        ));
+        }
     }
 
     /// Whether all that a program with a variant draws now is turned about the eye and not moved, by its matrices.
@@ -262,7 +277,7 @@ impl Layer {
         self.variants.own.put(gl, program, new);
     }
 
-    /// Makes the variant for [`VariantUse::Rays`], [`VariantUse::Points`] or [`VariantUse::PointLayers`], once for each link. The error says why there is none.
+    /// Makes the variant for a use that not all programs have one for, once for each link. The error says why there is none.
     pub(super) fn link_other(
         &mut self,
         gl: &Gl,
@@ -283,6 +298,9 @@ impl Layer {
                 };
                 let compatibility = self.state.has.compatibility;
                 point_variant(gl, program, &linked.sources, to, compatibility).map(Arc::new)
+            }
+            VariantUse::Written => {
+                writing_variant(gl, program, &linked.sources, c"gl_Position").map(Arc::new)
             }
             _ => match drawn(gl, program, &linked.sources, VariantKind::DistortedRays)? {
                 Drawn::ByVariant(variant) => Ok(variant),

@@ -124,6 +124,8 @@ pub enum Why {
     Shaders,
     /// Its own shaders place it, by matrices without a perspective: flat unless w varies.
     FlatShaders,
+    /// Its own shaders place it, by no matrix with a perspective, but w varies: shifted by it.
+    ClipForm,
 }
 
 impl core::fmt::Display for Why {
@@ -150,6 +152,9 @@ impl core::fmt::Display for Why {
             ),
             Why::Perspective => f.write_str("perspective projection"),
             Why::Shaders => f.write_str("shaders of its own: in perspective where w varies"),
+            Why::ClipForm => {
+                f.write_str("shaders of its own without a matrix for the camera: by w, as measured")
+            }
             Why::FlatShaders => {
                 f.write_str("shaders of its own without a perspective: flat unless w varies")
             }

@@ -3,6 +3,7 @@
 
 pub mod camera;
 pub mod class;
+pub mod clip_form;
 pub mod comfort;
 pub mod cut;
 pub mod decide;

@@ -105,6 +105,15 @@ pub struct Names {
     prefix: String,
 }
 
+impl Default for Names {
+    /// Those of a shader that has none of them.
+    fn default() -> Self {
+        Self {
+            prefix: "mv_".to_owned(),
+        }
+    }
+}
+
 impl Names {
     pub(super) fn of(scan: &Scan) -> Self {
         let taken: HashSet<_> = (0..scan.tokens.len())
@@ -115,7 +124,7 @@ impl Names {
             let uniforms = Uniform::ALL.into_iter().map(Uniform::word);
             uniforms.chain(OTHERS)
         };
-        let mut prefix = "mv_".to_owned();
+        let Self { mut prefix } = Self::default();
         // Each prefix that is not free conflicts with another name of the source, so there are no more steps than names.
         for next in 1..=taken.len() {
             let free = ours().all(|word| !taken.contains(format!("{prefix}{word}").as_bytes()));

@@ -73,6 +73,9 @@ impl Layer {
         if !matches!(execution, Execution::Points(how) if !how.is_to_layers()) {
             self.flush_points(gl);
         }
+        if draw.plan.measures {
+            self.measure_w(gl, draw);
+        }
         let written = self.queries.feeds();
         // Otherwise no view is drawn, and what GL_FEEDBACK or GL_SELECT tells is told once.
         let feeds = written && self.state.primitives.render_mode == c::RENDER;

@@ -81,7 +81,7 @@ impl Layer {
         let program = self.state.in_use.program;
         let slanted = traits.projection != Projection::Perspective && !program.is_zero();
         let oblique = slanted
-            .then(|| self.variants.own.oblique(program))
+            .then(|| self.variants.own.search(program)?.oblique())
             .flatten();
         let matrix = oblique.unwrap_or(matrix);
         Projections {

@@ -10,8 +10,16 @@ use crate::plan::{Facts, Method, Plan};
 impl Layer {
     /// Reports a draw that is decided and about to be made.
     pub(super) fn observe_decision(&mut self, gl: &Gl, facts: &Facts, plan: &Plan) {
+        let program = self.state.in_use.program;
         let told = match facts.classed.why {
             Why::Rule(_) => facts.classed,
+            _ if plan.variant && self.is_by_clip_form(program) && plan.class == Class::Scene => {
+                Classed {
+                    class: plan.class,
+                    why: Why::ClipForm,
+                    ..facts.classed
+                }
+            }
             // Its own view stays as it is where w is 1, and a sky is one by its shader or its matrices.
             _ if plan.variant && facts.classed.class == Class::Flat => Classed {
                 why: Why::FlatShaders,

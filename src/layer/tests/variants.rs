@@ -1,5 +1,6 @@
 //! Variants of the program's own shaders: when they are linked, put in use, and deleted.
 
+use super::super::camera_search::CameraSearch;
 use super::super::own_variants::{OwnVariants, VariantUse};
 use super::bench::{Bench, PERSPECTIVE};
 use crate::gl::{Gl, ProgramName, consts as c};
@@ -64,7 +65,10 @@ fn a_program_that_is_not_known_has_no_variant() {
     assert_eq!(bench.layer.camera_of(&gl, program), None);
     let own = &mut bench.layer.variants.own;
     assert!(own.layered(program).is_none() && own.projections(program).is_none());
-    assert!(own.made(program, VariantUse::Rays).is_none() && own.is_lost(program));
+    assert!(
+        own.made(program, VariantUse::Rays).is_none()
+            && own.search(program).is_none_or(CameraSearch::is_lost)
+    );
     assert!(!own.is_current(program, || 0));
     assert_eq!(own.units(&gl, program), []);
     own.forget(&gl, program);
@@ -153,7 +157,10 @@ fn the_last_camera_stays_when_no_matrix_has_a_perspective() {
     bench.layer.link_variant(&gl, program);
     let own = |bench: &Bench| {
         let own = &bench.layer.variants.own;
-        (own.is_lost(program), own.projections(program))
+        (
+            own.search(program).is_none_or(CameraSearch::is_lost),
+            own.projections(program),
+        )
     };
     assert!(own(&bench).0, "not found yet");
     let found = bench.layer.camera_of(&gl, program).expect("a variant");

@@ -140,8 +140,10 @@ pub struct VariantFacts {
     pub program: ProgramName,
     /// The projection of the last camera that was found among its matrices.
     pub camera: Option<[f32; 16]>,
-    /// At present none of its matrices has a perspective.
+    /// At present none of its matrices has a perspective, nor has the w of its vertices.
     pub lost: bool,
+    /// It has no camera among its matrices, and it is time to measure the w of its vertices.
+    pub unmeasured: bool,
     /// Its vertices lie at the far end of the depths, z = w in clip space.
     pub far_end: bool,
     /// The variant that draws one view to its layer.

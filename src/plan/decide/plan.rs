@@ -39,6 +39,8 @@ pub struct Plan {
     pub reason: Option<Reason>,
     /// How it is repeated in the reference image of an occlusion camera, if it is.
     pub reference: Option<ReferenceDraw>,
+    /// The w of its vertices is measured with it, for a program without a camera among its matrices (see [`crate::plan::clip_form`]).
+    pub measures: bool,
 }
 
 impl Plan {
@@ -52,6 +54,7 @@ impl Plan {
             flat: Flat::Still,
             reason: None,
             reference: None,
+            measures: false,
         }
     }
 }

@@ -32,6 +32,11 @@ pub(super) fn plan(
             ..plan
         };
     }
+    // Another program's camera is good for this one too.
+    let measures = variant.unmeasured
+        && (known.camera.is_none() || variant.camera.is_some())
+        && is_measurable(facts);
+    let plan = Plan { measures, ..plan };
     let Some(camera) = camera else {
         // Menus and other flat draws need none. A sky by the rays of its fragments takes that of the scene, after the first frame.
         if facts.state.depth != DepthState::Off && !facts.unprojects() {
@@ -71,6 +76,18 @@ pub(super) fn plan(
         flat,
         ..plan
     }
+}
+
+/// Whether the w of a draw's vertices tells how the program sees the scene: it tests depths and is shown, and nothing counts or writes its vertices.
+fn is_measurable(facts: &Facts) -> bool {
+    facts.state.depth != DepthState::Off
+        && facts.traits.target.is_shown()
+        && matches!(
+            facts.traits.kind,
+            Kind::Begin(_) | Kind::Arrays(_) | Kind::Elements(_)
+        )
+        && !facts.unprojects()
+        && !facts.counted
 }
 
 /// Whether a draw with a w of 1 belongs to the scene: the program has a perspective at present, and the draw tests and writes depth. A draw

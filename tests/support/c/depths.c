@@ -1,11 +1,11 @@
 /* Three walls at distances of 4 + frame/2, 10 and 40 units from the camera, in frames 1 to 10 of a surface without a window system.
  *
- * depths plain|reversed|inverted|overlay|weapon|cleared|covering|nodepth|nodepth-later|shader|block|reversed-shader|pass-16|pass-24|pass-24-8|pass-32f|
+ * depths plain|reversed|inverted|overlay|weapon|cleared|covering|nodepth|nodepth-later|shader|block|apart|reversed-shader|pass-16|pass-24|pass-24-8|pass-32f|
  *        pass-unsized|pass-samples|part|pass-part|isometric|isometric-reversed|isometric-front|cut|cut-moving|cut-shader|cut-view
  *
  * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: a flat picture that
  * writes depths over everything at the end; weapon: a surface at 1.5 in a depth range of its own; cleared: the same after a clear of the
- * depths; covering: that at 12, behind the nearest wall; nodepth: no depth test; nodepth-later: none from frame 2 on; shader, block: shaders, with the projection in a uniform or a uniform block; pass: to a framebuffer of
+ * depths; covering: that at 12, behind the nearest wall; nodepth: no depth test; nodepth-later: none from frame 2 on; shader, block: shaders, with the projection in a uniform or a uniform block; apart: in the numbers of a vector, so that there is no matrix; pass: to a framebuffer of
  * twice the window's size, with depths in a renderbuffer (16, samples) or a texture (the others), whose picture is then drawn over the
  * window; part: the lowest quarter has the nearest depths and is not drawn to, by the viewport
  * or the scissor test of a pass, as under a status bar; isometric: without perspective, 68 units wide and from 1 to 100 deep, with other
@@ -56,6 +56,21 @@ static void isometric_scene(const char *how, int frame)
     wall(0, 10, 6);
     glColor3d(0, 0, 1);
     wall(20, 40, 6);
+}
+
+/* The same without a matrix. */
+static void apart(void)
+{
+    GLuint program = glCreateProgram();
+    GLfloat p[16];
+    attached(program, GL_VERTEX_SHADER,
+             "#version 120\nuniform vec4 lens; void main() { vec3 e = gl_Vertex.xyz; gl_Position = vec4(lens.x * e.x, lens.y * e.y, lens.z * e.z + lens.w, -e.z); gl_FrontColor = gl_Color; }");
+    attached(program, GL_FRAGMENT_SHADER, "void main() { gl_FragColor = gl_Color; }");
+    glLinkProgram(program);
+    glUseProgram(program);
+    glGetFloatv(GL_PROJECTION_MATRIX, p);
+    glUniform4f(glGetUniformLocation(program, "lens"), p[0], p[5], p[10], p[14]);
+    glLoadIdentity();
 }
 
 /* A program that uses the current projection. */
@@ -249,6 +264,8 @@ int main(int count, char **arguments)
         }
         if (shader && frame == 1)
             shaders(block);
+        if (!strcmp(how, "apart") && frame == 1)
+            apart();
         if (inverted)
             glDepthRange(1, 0);
         glClearDepth(reversed || inverted || turned ? 0 : 1);

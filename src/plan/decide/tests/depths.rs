@@ -251,6 +251,7 @@ fn state_is_read_only_where_something_depends_on_it() {
         program: ProgramName(1),
         camera: None,
         lost: true,
+        unmeasured: false,
         to_layer: Linked::Untried,
         to_layers: Linked::Untried,
         divides: false,

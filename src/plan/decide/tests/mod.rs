@@ -99,6 +99,7 @@ pub(super) fn with_variant(change: impl FnOnce(&mut VariantFacts)) -> Facts {
         program: ProgramName(3),
         camera: Some(perspective()),
         lost: false,
+        unmeasured: false,
         to_layer: Linked::Untried,
         to_layers: Linked::Untried,
         divides: false,

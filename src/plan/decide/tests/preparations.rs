@@ -12,6 +12,7 @@ fn variant(program: u32) -> VariantFacts {
         program: ProgramName(program),
         camera: Some(perspective()),
         lost: false,
+        unmeasured: false,
         to_layer: Linked::Untried,
         to_layers: Linked::Untried,
         divides: false,
