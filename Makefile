@@ -57,8 +57,14 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
+# What makes the packages of `make deb`.
+DEB_PACKAGES := dpkg-dev binutils
+# The name of packaging/manyview.metainfo.xml, which is that in the file.
+APPSTREAM_ID := io.github.manyview.manyview
+VERSION := $(shell sed -n '/^\[workspace.package\]/,/^\[/s/^version = "\(.*\)"/\1/p' Cargo.toml)
+
 .PHONY: help build library-32 release demos demo bench overhead panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-both test-wine test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
-	install install-debug uninstall clean
+	install install-debug uninstall deb dist clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z0-9-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
@@ -301,6 +307,12 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	install -d $(DESTDIR)$(PREFIX)/share/man/man1
 	$(BIN)/manyview man --out $(DESTDIR)$(PREFIX)/share/man/man1
 	chmod 644 $(DESTDIR)$(PREFIX)/share/man/man1/manyview*.1
+	@completions=$$(mktemp -d) && trap 'rm -rf "$$completions"' EXIT && \
+		$(BIN)/manyview completions --out "$$completions" && \
+		install -D -m 644 "$$completions/manyview.bash" $(DESTDIR)$(PREFIX)/share/bash-completion/completions/manyview && \
+		install -D -m 644 "$$completions/_manyview" $(DESTDIR)$(PREFIX)/share/zsh/site-functions/_manyview && \
+		install -D -m 644 "$$completions/manyview.fish" $(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d/manyview.fish
+	install -D -m 644 packaging/manyview.metainfo.xml $(DESTDIR)$(PREFIX)/share/metainfo/$(APPSTREAM_ID).metainfo.xml
 	install -m 644 README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE THIRD-PARTY-NOTICES.txt $(DESTDIR)$(PREFIX)/share/doc/manyview/
 	find docs -type f \( -name '*.md' -o -name '*.png' \) -exec install -D -m 644 {} $(DESTDIR)$(PREFIX)/share/doc/manyview/{} \;
 
@@ -316,7 +328,20 @@ install-debug: install ## install the debug information of what install has stri
 uninstall: ## remove what install has put to PREFIX
 	rm -f $(DESTDIR)$(PREFIX)/bin/manyview $(DESTDIR)$(PREFIX)/bin/.debug/manyview.debug
 	rm -f $(DESTDIR)$(PREFIX)/share/man/man1/manyview.1 $(DESTDIR)$(PREFIX)/share/man/man1/manyview-*.1
+	rm -f $(DESTDIR)$(PREFIX)/share/bash-completion/completions/manyview $(DESTDIR)$(PREFIX)/share/zsh/site-functions/_manyview \
+		$(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d/manyview.fish $(DESTDIR)$(PREFIX)/share/metainfo/$(APPSTREAM_ID).metainfo.xml
 	rm -rf $(DESTDIR)$(PREFIX)/lib/manyview $(DESTDIR)$(PREFIX)/share/manyview $(DESTDIR)$(PREFIX)/share/doc/manyview
+
+# Of the build for older systems: make release, then make deb BIN=target/release-2.28. DEBFULLNAME and DEBEMAIL name the maintainer.
+deb: build demos ## make Debian packages of what install puts to /usr; target/deb (the one of i386 after make build-32)
+	@sh scripts/packages.sh $(DEB_PACKAGES)
+	@sh packaging/debian/build.sh $(TARGET)/deb
+
+# The source that packaging/arch/PKGBUILD and packaging/flatpak name, from what is committed.
+dist: ## write the source as target/manyview-VERSION.tar.gz
+	@mkdir -p $(TARGET)
+	git archive --prefix=manyview-$(VERSION)/ --output=$(TARGET)/manyview-$(VERSION).tar.gz HEAD
+	@echo "$(TARGET)/manyview-$(VERSION).tar.gz"
 
 clean: ## remove what was built
 	$(CARGO) clean

@@ -6,6 +6,7 @@
 mod bench;
 mod calibrate;
 mod capture;
+mod completions;
 mod ctl;
 mod displays;
 mod doctor;
@@ -82,6 +83,9 @@ enum Action {
     /// Write the manual pages.
     #[command(hide = true)]
     Man(man::Arguments),
+    /// Write what shells complete.
+    #[command(hide = true)]
+    Completions(completions::Arguments),
 }
 
 /// The result of a subcommand: an exit status, or the reason for its failure.
@@ -103,6 +107,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Doctor(arguments) => doctor::run(&arguments),
         Action::Displays(arguments) => displays::run(&arguments),
         Action::Man(arguments) => man::run(&arguments),
+        Action::Completions(arguments) => completions::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         tell(&error);
