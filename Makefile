@@ -24,12 +24,14 @@ README_SCENE := --frame 40 --eye-spacing 0.3 --focal-depth 8
 # Debian packages that building, the demos and the tests need; then optional packages of some tests.
 PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0 libwayland-client0 libosmesa6 libosmesa6-dev libgl-dev libegl-dev \
 	libx11-dev libpng-dev mesa-utils apitrace khronos-api
-OPTIONAL_PACKAGES := faketime glslang-tools tesseract-ocr weston sway grim
+OPTIONAL_PACKAGES := faketime glslang-tools tesseract-ocr weston sway grim wtype mesa-utils-bin
 # Programs that test-long and test-full record and repeat.
 LONG_PACKAGES := gltron xscreensaver-gl piglit
 # What 32-bit programs, and building them, need. The architecture i386 is added to dpkg.
 PACKAGES_32 := gcc-multilib g++-multilib libgl1:i386 libegl1:i386 libgl1-mesa-dri:i386 libosmesa6:i386 libosmesa6-dev:i386 \
 	libgl-dev:i386 libegl-dev:i386 libx11-dev:i386 libpng-dev:i386 libglu1-mesa-dev:i386
+# Containers, desks of Wayland, and programs for them of both classes.
+PACKAGES_LAUNCH := bubblewrap debootstrap weston xwayland mesa-utils-bin mesa-utils-bin:i386
 # Wine of both classes, and what compiles programs for it.
 PACKAGES_WINE := wine wine64 wine32:i386 gcc-mingw-w64-x86-64 gcc-mingw-w64-i686
 # Tests that preload the layer into programs of this project.
@@ -63,7 +65,7 @@ DEB_PACKAGES := dpkg-dev binutils
 APPSTREAM_ID := io.github.manyview.manyview
 VERSION := $(shell sed -n '/^\[workspace.package\]/,/^\[/s/^version = "\(.*\)"/\1/p' Cargo.toml)
 
-.PHONY: help build library-32 release demos demo bench overhead panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-both test-wine test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
+.PHONY: help build library-32 release demos demo bench overhead overhead-ways panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-both test-launch test-wine test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
 	install install-debug uninstall deb dist clean
 
 help: ## list the targets
@@ -155,6 +157,11 @@ test-32: build-32 demos-32 ## run the tests that preload the layer in programs o
 test-both: build-32 demos demos-32 ## run the tests of programs of both classes under one command (installs i386 packages)
 	$(CARGO) test --release --no-fail-fast --test both -- --ignored
 
+test-launch: packages-32 build-32 ## start programs in containers and under Wayland (installs packages of both classes, and makes another /usr of 600 MB)
+	@sh scripts/packages.sh $(PACKAGES_LAUNCH)
+	@sh scripts/other-usr.sh $(TARGET)/launch/trixie
+	$(CARGO) test --release --no-fail-fast --test launch_ways -- --ignored --test-threads 1 --nocapture
+
 test-wine: build-32 ## run programs for Windows under Wine (installs it, and i386 packages)
 	@sh scripts/packages.sh $(PACKAGES_WINE)
 	$(MAKE) -C examples/windows OUT=$(TARGET)/windows
@@ -172,7 +179,7 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	$(MAKE) check-shadow
 	@if rustc +nightly --version >/dev/null 2>&1; then $(MAKE) sanitize; else echo "no sanitizer watches the library: run rustup toolchain install nightly to have that" >&2; fi
 	@if $(CARGO) fuzz --version >/dev/null 2>&1; then $(MAKE) fuzz; else echo "nothing is fuzzed: run cargo install cargo-fuzz to have that" >&2; fi
-	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32 test-both test-wine; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
+	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32 test-both test-wine test-launch; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
 random: packages build ## make ten thousand sequences of random calls with and without the layer (an hour)
 	$(CARGO) test --release --no-fail-fast --test random full_ten -- --ignored --nocapture
@@ -248,6 +255,12 @@ points-large: build ## show a point cloud of a hundred million points (three min
 
 overhead: packages build demos ## measure the layer where it does nothing: switched off, and with one view (ten minutes)
 	@sh scripts/overhead.sh $(BIN) $(TARGET)/overhead $(DEMOS)
+
+overhead-ways: packages-32 build-32 demos ## the same under Wine and in a container (ten minutes; installs packages)
+	@sh scripts/packages.sh $(PACKAGES_WINE) $(PACKAGES_LAUNCH)
+	@sh scripts/other-usr.sh $(TARGET)/launch/trixie
+	$(MAKE) -C examples/windows OUT=$(TARGET)/windows
+	$(CARGO) test --release --test overhead_ways -- --ignored --nocapture
 
 man: build ## write the manual pages to target/man
 	$(BIN)/manyview man --out $(TARGET)/man

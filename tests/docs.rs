@@ -290,6 +290,7 @@ fn the_commands_of_the_documents_are_accepted() {
             .current_dir(folder.path())
             .env("XDG_RUNTIME_DIR", folder.path())
             .env("XDG_CONFIG_HOME", folder.path().join("configuration"))
+            .env("HOME", folder.path())
             // Opens no window on the screen of the person who runs the tests.
             .env_remove("DISPLAY")
             .args(options.split_whitespace());
@@ -299,7 +300,7 @@ fn the_commands_of_the_documents_are_accepted() {
         let output = command.output().expect("the command starts");
         let wanted = match app {
             true => APP_NOT_FOUND,
-            false if line.starts_with("ctl ") => NOBODY,
+            false if line.starts_with("ctl ") || line.starts_with("profile ") => NOBODY,
             false if line.starts_with("calibrate show ") => NO_SCREEN,
             false if line.starts_with("wall show ") => NO_SCREEN,
             false if line.starts_with("calibrate fit ") => NO_FILE,

@@ -127,6 +127,41 @@ fn a_picture_is_named_by_program_time_and_frame() {
 }
 
 #[test]
+fn keys_are_bound_anew_and_a_preset_lasts_as_long_as_its_key() {
+    const F9: u32 = 0xffc6;
+    const F10: u32 = 0xffc7;
+    let screen = own_screen();
+    let options = [
+        ("BIND", "F9=toggle,F10=hold:preset:2,Ctrl+Alt+m=none"),
+        ("PRESETS", "0.05:4,0.06:16"),
+        ("RAMP", "0"),
+    ];
+    let (mut running, user, window) = start(&screen, &options);
+    user.focus(window);
+    let separation = || value(&running, "separation");
+    user.press(&[F9]);
+    assert_eq!(value(&running, "layer"), "off");
+    user.press(&[CONTROL, F9]);
+    assert_eq!(value(&running, "layer"), "off", "another key");
+    user.press(&[F9]);
+    user.press(&[CONTROL, ALT, letter('m')]);
+    assert_eq!(value(&running, "layer"), "on", "nothing is bound to it");
+    user.hold(F10, true);
+    assert_eq!(separation(), "0.06");
+    assert_eq!(value(&running, "convergence"), "16.0");
+    user.hold(F10, false);
+    assert_eq!(separation(), "0.03", "as before");
+    // The next one, and round.
+    for wanted in ["0.05", "0.06", "0.05"] {
+        user.press(&[CONTROL, ALT, letter('p')]);
+        assert_eq!(separation(), wanted);
+    }
+    running.done(&["preset", "2"]);
+    assert_eq!(separation(), "0.06");
+    assert_eq!(running.end(), (Some(0), String::new()));
+}
+
+#[test]
 fn without_the_option_nothing_is_opened_and_nothing_happens() {
     let screen = own_screen();
     let sockets = |running: &Running| {

@@ -170,3 +170,18 @@ fn a_dialogue_that_the_user_starts_has_the_layer() {
     succeed(screen().give(&mut command));
     assert_eq!(reports(folder.path(), "")["report.json"], 2);
 }
+
+/// A program of a launch whose environment a script has cleared.
+#[test]
+fn a_program_that_has_lost_the_layer_is_named() {
+    library();
+    let mut command = manyview();
+    command.args(["run", "--views", "3", "--", "sh", "-c"]);
+    command.arg("env -u LD_PRELOAD timeout 6 \"$0\" --frames 1000000 --size 32x32");
+    command.arg(demo("gears"));
+    let output = screen().give(&mut command).output().expect("it starts");
+    let told = String::from_utf8_lossy(&output.stderr);
+    let line = "draws by OpenGL without the layer: LD_PRELOAD was taken from its environment";
+    assert_eq!(told.matches(line).count(), 1, "{told}");
+    assert!(told.starts_with("manyview: gears (process "), "{told}");
+}

@@ -14,6 +14,7 @@ use core::cell::Cell;
 use manyview_core::gl::shadow::no_shadow;
 use manyview_core::gl::{Gl, Ptr, Real};
 use manyview_core::layer::{CurrentDrawable, Frames, Layer};
+use std::time::Instant;
 
 /// The state of a thread. It has no destructor, because threads may call GL while they end.
 struct Thread {
@@ -445,8 +446,11 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
             if let Some(l) = &mut work.layer {
                 l.count_frame();
                 live::adopt(l);
+                let before = l.live();
+                l.advance(Instant::now());
+                live::changed(l, before);
                 // Keys come first, so that no client of the socket gets a picture that a key asked for.
-                keys::after(l, || c.draws_to().and_then(drawable::window));
+                keys::after(l, || c.draws_to().and_then(drawable::shown));
                 control::after(l);
             }
             if let Some(f) = &mut work.frames {

@@ -129,10 +129,10 @@ impl Server {
     fn open() -> Result<Server, ControlError> {
         // SAFETY: cannot fail.
         let user = unsafe { libc::geteuid() };
-        let folder = place::folder(std::env::var_os(place::RUNTIME).as_deref(), user);
-        place::prepare(&folder, user)?;
+        let given = config().map_or(&[][..], |config| &config.sockets);
+        let folder = place::choose(given, |name| std::env::var_os(name), user)?;
         let pid = std::process::id();
-        let path = place::socket(&folder, pid);
+        let path = place::free_socket(&folder, pid);
         let failed = |error: std::io::Error| ControlError::Socket {
             path: path.clone(),
             reason: error.kind().to_string(),

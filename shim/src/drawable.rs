@@ -36,17 +36,35 @@ impl Pair {
     }
 }
 
-/// The name of the X display and the window behind a GLX drawable. None for other drawables.
-pub(crate) fn window(drawable: Drawable) -> Option<(String, u32)> {
+/// Where a window is shown.
+pub(crate) enum Shown {
+    /// The name of an X display, and a window there.
+    X(String, u32),
+    /// A wl_display.
+    Wayland(Ptr),
+}
+
+/// Where the window behind a drawable is shown. None for drawables without a window.
+pub(crate) fn shown(drawable: Drawable) -> Option<Shown> {
     match drawable {
         Drawable::Glx(display, drawable) => {
             // SAFETY: the program has just shown a frame with this display on this thread.
             let name = unsafe { xcb::display_name(display) }?;
             let window = windows::behind(display, drawable);
             // Identifiers of X have 29 bits.
-            Some((name, window as u32))
+            Some(Shown::X(name, window as u32))
         }
-        _ => None,
+        Drawable::Egl(display, surface) => {
+            if let Some(wayland) = windows::wayland_display(display) {
+                return Some(Shown::Wayland(wayland));
+            }
+            // SAFETY: the program has just shown this surface on this thread.
+            let (_, window) = unsafe { windows::behind_surface(display, surface) }?;
+            // A connection of xcb does not tell the name that it was opened with.
+            let name = std::env::var("DISPLAY").ok()?;
+            Some(Shown::X(name, window))
+        }
+        Drawable::Memory(..) => None,
     }
 }
 

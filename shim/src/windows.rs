@@ -22,6 +22,8 @@ enum Native {
     Xlib(usize),
     /// A connection of xcb.
     Xcb(usize),
+    /// A wl_display.
+    Wayland(usize),
 }
 
 static WINDOWS: Mutex<Windows> = Mutex::new(Windows {
@@ -60,6 +62,7 @@ pub(crate) fn behind(display: Ptr, drawable: c_ulong) -> c_ulong {
 pub(crate) fn egl_display(display: Ptr, platform: u32, native: Ptr) {
     const X11: u32 = 0x31D5;
     const XCB: u32 = 0x31DC;
+    const WAYLAND: u32 = 0x31D8;
     // Without a native display, EGL opens a connection that only EGL knows.
     if display.is_null() || native.is_null() {
         return;
@@ -67,8 +70,12 @@ pub(crate) fn egl_display(display: Ptr, platform: u32, native: Ptr) {
     let native = match platform {
         X11 => Native::Xlib(native as usize),
         XCB => Native::Xcb(native as usize),
+        WAYLAND => Native::Wayland(native as usize),
         // SAFETY: the program has just given it to EGL as the display of some window system.
-        0 if unsafe { is_xlib(native) } => Native::Xlib(native as usize),
+        0 => match unsafe { system(native) } {
+            Some(known) => known,
+            None => return,
+        },
         _ => return,
     };
     let mut windows = windows();
@@ -87,27 +94,33 @@ fn is_mapped(address: Ptr) -> bool {
     start != 0 && known == 0
 }
 
-/// Whether an untyped native display belongs to X. It is detected as in Mesa: by EGL_PLATFORM, or else because it does not begin like those
-/// of Wayland and GBM.
+/// The window system of an untyped native display, if it is X or Wayland. It is detected as in Mesa: by EGL_PLATFORM, or else by how it begins; a Display of X begins like none
+/// of the others.
 ///
 /// # Safety
 /// Memory at `native`, if there is any, stays mapped during the call.
-unsafe fn is_xlib(native: Ptr) -> bool {
+unsafe fn system(native: Ptr) -> Option<Native> {
+    let (xlib, wayland) = (
+        Native::Xlib(native as usize),
+        Native::Wayland(native as usize),
+    );
     if let Some(platform) = std::env::var_os("EGL_PLATFORM") {
-        return platform == "x11";
+        return match platform.to_str() {
+            Some("x11") => Some(xlib),
+            Some("wayland") => Some(wayland),
+            _ => None,
+        };
     }
     if !is_mapped(native) {
-        return false;
+        return None;
     }
     // SAFETY: forwarded, and something is there.
     let first = unsafe { native.cast::<Ptr>().read_unaligned() };
-    let others: [(&CStr, &CStr); 2] = [
-        (c"libwayland-client.so.0", c"wl_display_interface"),
-        (c"libgbm.so.1", c"gbm_create_device"),
-    ];
-    others
-        .into_iter()
-        .all(|(library, symbol)| xcb::function(library, symbol) != Some(first))
+    let begins = |library: &CStr, symbol: &CStr| xcb::function(library, symbol) == Some(first);
+    if begins(c"libwayland-client.so.0", c"wl_display_interface") {
+        return Some(wayland);
+    }
+    (!begins(c"libgbm.so.1", c"gbm_create_device")).then_some(xlib)
 }
 
 /// The program has made a surface for a window. `window` is its argument to EGL: the window's number, or with `address` the address of that.
@@ -118,7 +131,12 @@ pub(crate) unsafe fn egl_made(display: Ptr, surface: Ptr, window: Ptr, address: 
     egl_gone(display, surface);
     let mut windows = windows();
     // Only windows of X are noted.
-    if !windows.displays.iter().any(|d| d.0 == display as usize) {
+    let is_x = |native| !matches!(native, Native::Wayland(_));
+    if !windows
+        .displays
+        .iter()
+        .any(|d| d.0 == display as usize && is_x(d.1))
+    {
         return;
     }
     let number = if address {
@@ -155,6 +173,18 @@ pub(crate) unsafe fn behind_surface(display: Ptr, surface: Ptr) -> Option<(Conne
         // SAFETY: a Display that EGL uses for this surface, and so is open.
         Native::Xlib(display) => unsafe { xcb::connection(display as Ptr) }?,
         Native::Xcb(connection) => connection as Connection,
+        Native::Wayland(_) => return None,
     };
     Some((connection, window))
+}
+
+/// The wl_display of an EGLDisplay.
+pub(crate) fn wayland_display(display: Ptr) -> Option<Ptr> {
+    let windows = windows();
+    let of = display as usize;
+    let &(_, native) = windows.displays.iter().find(|d| d.0 == of)?;
+    match native {
+        Native::Wayland(native) => Some(native as Ptr),
+        Native::Xlib(_) | Native::Xcb(_) => None,
+    }
 }

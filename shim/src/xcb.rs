@@ -94,7 +94,8 @@ macro_rules! functions {
                     return Some(table);
                 }
                 let table = $table {
-                    // SAFETY: functions of these names have these signatures (X11/Xlib.h, X11/Xlib-xcb.h, xcb/xproto.h, xcb/randr.h).
+                    // SAFETY: functions of these names have these signatures (X11/Xlib.h, X11/Xlib-xcb.h, xcb/xproto.h, xcb/randr.h, wayland-client-core.h,
+                    // xkbcommon/xkbcommon.h).
                     $($field: unsafe { transmute::<Ptr, $kind>(function($library, $name)?) }),+
                 };
                 Some(TABLE.get_or_init(|| table))
@@ -102,6 +103,7 @@ macro_rules! functions {
         }
     };
 }
+pub(crate) use functions;
 
 functions!(Xlib, c"libX11.so.6", {
     display_string = c"XDisplayString": unsafe extern "C" fn(Ptr) -> *const c_char,

@@ -66,14 +66,30 @@ enum What {
     },
     /// Show the program's own view, or all views again
     Toggle,
-    /// Read the program's profile again, or write one
+    /// Move to cameras of --presets
+    Preset {
+        /// Which, counted from 1
+        number: usize,
+    },
+    /// As `manyview profile`, which has taken its place
+    #[command(hide = true)]
     Profile {
         #[command(subcommand)]
         what: WhatOfProfile,
     },
 }
 
-#[derive(Subcommand)]
+/// `manyview profile`
+#[derive(Args)]
+pub(crate) struct ProfileArguments {
+    /// The program's process; needed only if several listen
+    #[arg(long, value_name = "PID")]
+    pid: Option<u32>,
+    #[command(subcommand)]
+    what: WhatOfProfile,
+}
+
+#[derive(Clone, Subcommand)]
 enum WhatOfProfile {
     /// Put the file as it is now in force from the next frame on
     Reload,
@@ -84,13 +100,22 @@ enum WhatOfProfile {
     },
 }
 
+pub(crate) fn profile(arguments: &ProfileArguments) -> Outcome {
+    run(&Arguments {
+        pid: arguments.pid,
+        what: What::Profile {
+            what: arguments.what.clone(),
+        },
+    })
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let request = request(&arguments.what)?;
     let (pid, stream) = find(arguments.pid)?;
     match ask(pid, stream, &request)? {
         Answer::Error(sentence) => Err(ControlError::Refused(sentence).into()),
         Answer::Values(values) => match arguments.what {
-            What::Set { .. } => Ok(ExitCode::SUCCESS),
+            What::Set { .. } | What::Preset { .. } => Ok(ExitCode::SUCCESS),
             What::Get { name: Some(_) } => {
                 let values = values.values().map(|value| word(value) + "\n");
                 print(&values.collect::<String>())
@@ -177,6 +202,7 @@ fn request(what: &What) -> Result<Request, CommandError> {
             path: absolute(path)?,
         }),
         What::Toggle => Request::Toggle(LAYER.to_owned()),
+        What::Preset { number } => Request::Preset(*number),
         What::Profile { what } => Request::Profile(match what {
             WhatOfProfile::Reload => ProfileRequest::Reload,
             WhatOfProfile::Save { path } => {
@@ -199,12 +225,12 @@ fn absolute(path: &Path) -> Result<PathBuf, CommandError> {
 /// Finds the program to talk to, and removes sockets at which no program listens any more.
 fn find(wanted: Option<u32>) -> Result<(u32, UnixStream), CommandError> {
     let user = rustix::process::geteuid().as_raw();
-    let folder = place::folder(std::env::var_os(place::RUNTIME).as_deref(), user);
     let mut listening = Vec::new();
-    if place::check(&folder, user)? {
-        for (pid, socket) in sockets(&folder) {
+    for folder in place::all(|name| std::env::var_os(name), user) {
+        place::check(&folder, user)?;
+        for (number, socket) in sockets(&folder) {
             match UnixStream::connect(&socket) {
-                Ok(stream) => listening.push((pid, stream)),
+                Ok(stream) => listening.push((process(&stream).unwrap_or(number), stream)),
                 Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
                     let _ = std::fs::remove_file(&socket);
                 }
@@ -230,7 +256,13 @@ fn find(wanted: Option<u32>) -> Result<(u32, UnixStream), CommandError> {
         .ok_or_else(|| ControlError::NoProgram.into())
 }
 
-/// Processes and their sockets, in the order of their numbers.
+/// The process ID of the program at the other end, as it is outside of its container.
+fn process(stream: &UnixStream) -> Option<u32> {
+    let peer = rustix::net::sockopt::socket_peercred(stream).ok()?;
+    u32::try_from(peer.pid.as_raw_nonzero().get()).ok()
+}
+
+/// Numbers and sockets, in the order of the numbers.
 fn sockets(folder: &Path) -> Vec<(u32, PathBuf)> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let paths = entries.map(|entry| entry.path());

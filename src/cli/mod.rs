@@ -62,6 +62,8 @@ enum Action {
     Capture(capture::Arguments),
     /// Read and change the views of a program that runs with --control.
     Ctl(ctl::Arguments),
+    /// Read the profile of a program that runs with --control again, or write it.
+    Profile(ctl::ProfileArguments),
     /// Write the mask of a panel: 16-bit RGB PNG, each value the view that the subpixel shows, 65535 for black.
     Mask(mask::Arguments),
     /// Interleave a quilt, a picture of all views, for a panel.
@@ -97,6 +99,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Points(arguments) => points::run(&arguments),
         Action::Capture(arguments) => capture::run(&arguments),
         Action::Ctl(arguments) => ctl::run(&arguments),
+        Action::Profile(arguments) => ctl::profile(&arguments),
         Action::Mask(arguments) => mask::run(&arguments),
         Action::Weave(arguments) => weave::run(&arguments),
         Action::Simulate(arguments) => simulate::run(&arguments),

@@ -36,5 +36,5 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let viewer = library::helper(VIEWER)?;
     let mut command = vec![viewer.into_os_string()];
     command.extend(arguments.file.iter().cloned());
-    run::start(&arguments.layer, &command)
+    run::start(&arguments.layer, &command, false)
 }

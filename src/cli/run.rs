@@ -9,7 +9,7 @@ use manyview::bench::proof;
 use manyview::config::{OptionId, Origin, Settings, Status};
 use manyview::launch::{Launch, by_vulkan};
 use manyview::report::Summary;
-use manyview::window::PanelServer;
+use manyview::window::{Monitor, PanelServer, monitors};
 use std::ffi::OsString;
 use std::io::Write;
 use std::os::unix::fs::MetadataExt;
@@ -21,17 +21,20 @@ use tempfile::TempDir;
 pub(crate) struct Arguments {
     #[command(flatten)]
     layer: LayerArguments,
+    /// APP is the ID of a program in Flatpak, such as `org.supertuxproject.SuperTux`
+    #[arg(long)]
+    flatpak: bool,
     /// The program and its arguments
     #[arg(required = true, trailing_var_arg = true, value_name = "APP")]
     command: Vec<OsString>,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    start(&arguments.layer, &arguments.command)
+    start(&arguments.layer, &arguments.command, arguments.flatpak)
 }
 
-/// Runs a program and its arguments under the layer.
-pub(super) fn start(layer: &LayerArguments, command: &[OsString]) -> Outcome {
+/// Runs a program and its arguments under the layer; `flatpak`: the first word is the ID of one in Flatpak.
+pub(super) fn start(layer: &LayerArguments, command: &[OsString], flatpak: bool) -> Outcome {
     let mut settings = layer.settings()?;
     let chosen = panel::choose(&mut settings)?;
     let status = match settings.get(OptionId::Prove) {
@@ -46,17 +49,26 @@ pub(super) fn start(layer: &LayerArguments, command: &[OsString]) -> Outcome {
             Origin::Default,
         );
     }
-    let launch = Launch::prepare(command, &settings)?;
+    let launch = match flatpak {
+        true => Launch::in_flatpak(command, &settings)?,
+        false => Launch::prepare(command, &settings)?,
+    };
     let panel = panel::open(&launch.config)?;
     if let Some(chosen) = chosen {
         tell(&chosen);
+    }
+    if panel.is_none() && launch.config.output.is_interlaced() {
+        // Without a screen the program has no window either.
+        let monitors = monitors().unwrap_or_default();
+        let resampled = monitors.iter().find_map(Monitor::resamples);
+        resampled.iter().for_each(|sentence| tell(sentence));
     }
     if let Some(vulkan) = by_vulkan(command, |name| std::env::var_os(name)) {
         tell(&vulkan);
     }
     let explanation = launch.config.explain.as_ref();
     let before = explanation.map(|explain| stamps(&explain.files()));
-    let ended = launch.run()?;
+    let ended = launch.run(|sentence| tell(&sentence))?;
     drop(panel);
     if let (Some(explain), Some(before)) = (explanation, before) {
         let files = explain.files();

@@ -52,6 +52,42 @@ pub enum ConfigError {
         /// The other one.
         remedy: Field,
     },
+    /// A key that cannot be bound.
+    #[error("{field} has '{item}': {reason}")]
+    Binding {
+        /// The option.
+        field: Field,
+        /// The part of its value.
+        item: String,
+        /// What is wrong with it, and what would be right.
+        reason: String,
+    },
+    /// Not cameras to choose from.
+    #[error(
+        "{field} is '{value}'; give SEPARATION:CONVERGENCE or auto, with commas between, such as 0.02:8,auto"
+    )]
+    Presets {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
+    /// A way to other cameras, where there are none.
+    #[error("{field} is the time to other cameras; give {remedy} with it, or leave it out")]
+    NoPresets {
+        /// The option.
+        field: Field,
+        /// That of the cameras.
+        remedy: Field,
+    },
+    /// Not a time.
+    #[error("{field} is '{value}'; give seconds from 0 to 60")]
+    Ramp {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
     /// Not names of programs.
     #[error("{field} is '{value}'; give the file names of programs, with commas between")]
     ProgramNames {

@@ -1,6 +1,7 @@
 //! What the user asked for: options of the command line, keys of the TOML file and `MANYVIEW_*` variables.
 #![forbid(unsafe_code)]
 
+mod bindings;
 mod cameras;
 mod capture;
 mod choice;
@@ -30,6 +31,7 @@ mod strategy;
 mod tests;
 mod words;
 
+pub use bindings::{Action, Binding, Bindings, Modifiers, Presets};
 pub use capture::{Capture, CaptureWhat};
 pub use class::{Class, DepthRange, DepthState, OrthographicDraws, Projection, Viewport, Word};
 pub use error::ConfigError;
@@ -108,14 +110,20 @@ pub struct Config {
     pub report: Option<PathBuf>,
     /// The running program takes commands from a socket.
     pub control: bool,
-    /// Keys with Ctrl and Alt change the views.
+    /// Keys change the views.
     pub keys: bool,
+    /// Which keys these are.
+    pub bindings: Bindings,
+    /// Cameras to choose from while the program runs.
+    pub presets: Presets,
     /// Pictures to write, if any.
     pub capture: Option<Capture>,
     /// Where the layer tells the launcher how far it is, if the launcher asked.
     pub status: Option<PathBuf>,
     /// The folder in which the programs of one launch claim paths, if the launcher has made one; see [`crate::claim`].
     pub launch: Option<PathBuf>,
+    /// Folders in which the program may listen; see [`crate::control::place`].
+    pub sockets: Vec<PathBuf>,
     /// The panel's own window, if the user wants one.
     pub panel: Option<PanelWindow>,
     /// Former names that somebody used, to be told.

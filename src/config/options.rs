@@ -83,6 +83,12 @@ pub enum OptionId {
     Control,
     /// Keys that change the views.
     Keys,
+    /// Which keys these are.
+    Bind,
+    /// Cameras to choose from.
+    Presets,
+    /// How long the way to others takes.
+    Ramp,
     /// Picture to write.
     CaptureOut,
     /// Frames to write.
@@ -95,6 +101,8 @@ pub enum OptionId {
     Launch,
     /// The socket of the panel's own window.
     PanelSocket,
+    /// Folders of sockets.
+    Sockets,
     /// Pixels of the panel without a window.
     PanelSize,
 }
@@ -419,6 +427,15 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::Keys, "keys", "MANYVIEW_KEYS", "",
         "Let keys with Ctrl+Alt change the views while the program runs (X11)")
         .manual("See [Keys](run-time-control.md#keys)."),
+    OptionSpec::new(OptionId::Bind, "bind", "MANYVIEW_BIND", "KEY=ACTION,…",
+        "Bind keys anew, such as F9=toggle,F10=hold:preset:1; turns keys on")
+        .manual("See [Keys](run-time-control.md#keys)."),
+    OptionSpec::new(OptionId::Presets, "presets", "MANYVIEW_PRESETS", "S:C,…",
+        "Cameras to choose from while the program runs: separation and convergence, or auto")
+        .manual("See [Presets](run-time-control.md#presets)."),
+    OptionSpec::new(OptionId::Ramp, "ramp", "MANYVIEW_RAMP", "SECONDS",
+        "How long the way to the cameras of a preset takes")
+        .default("0.4"),
     OptionSpec::new(OptionId::Config, "config", "MANYVIEW_CONFIG", "FILE.toml",
         "Read options from a TOML file; variables and the command line win over it")
         .path(PathKind::File).keyless(),
@@ -440,6 +457,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::variable(OptionId::PanelSocket, "MANYVIEW_PANEL_SOCKET", "PATH",
         "Socket of the panel's window; set by `run`")
         .path(PathKind::File),
+    OptionSpec::variable(OptionId::Sockets, "MANYVIEW_SOCKETS", "FOLDERS",
+        "Folders with colons between, of which a program listens in the first that its container shows; set by `run`"),
     OptionSpec::variable(OptionId::PanelSize, "MANYVIEW_PANEL_SIZE", "WxH",
         "Pixels of the panel where no window is opened for it; set by `capture`"),
     OptionSpec::variable(OptionId::Profiles, "MANYVIEW_PROFILES", "FOLDER",
@@ -571,6 +590,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 43, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 47, "a new option needs a row");
     }
 }

@@ -34,6 +34,12 @@ pub enum Output {
 }
 
 impl Output {
+    /// Its pixels have to be those of the monitor: another size mixes up the views.
+    #[must_use]
+    pub fn is_interlaced(self) -> bool {
+        matches!(self, Self::Panel | Self::Interlaced(_))
+    }
+
     /// It shows two eyes, whatever the display.
     #[must_use]
     pub fn is_stereo(self) -> bool {

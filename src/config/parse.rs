@@ -10,9 +10,9 @@ use super::output::{GLASSES, OUTPUTS};
 use super::settings::Settings;
 use super::strategy::STRATEGIES;
 use super::{
-    Anaglyph, AtlasLayout, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter, FrameCap,
-    MAX_VIEWS, Mixture, Optimisation, OrthographicDraws, OsdParts, Output, PanelWindow, Profile,
-    Strategy, TrueViews, ViewScale, panel, profile, program,
+    Anaglyph, AtlasLayout, Bindings, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter,
+    FrameCap, MAX_VIEWS, Mixture, Optimisation, OrthographicDraws, OsdParts, Output, PanelWindow,
+    Presets, Profile, Strategy, TrueViews, ViewScale, panel, profile, program,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::path::PathBuf;
@@ -27,6 +27,7 @@ impl Config {
         let views = views(settings, &display, output)?;
         check_output(settings, OptionId::Output, output, views)?;
         let strategy = strategy(settings)?;
+        let presets = Presets::of(settings)?;
         Ok(Self {
             views,
             output,
@@ -52,10 +53,17 @@ impl Config {
             prove: prove(settings, views)?,
             report: path(settings, OptionId::Report),
             control: changes(settings, OptionId::Control, views)?,
-            keys: changes(settings, OptionId::Keys, views)?,
+            keys: changes(settings, OptionId::Keys, views)?
+                || settings.get(OptionId::Bind).is_some(),
+            bindings: Bindings::of(settings, presets.cameras.len())?,
+            presets,
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
             launch: path(settings, OptionId::Launch),
+            sockets: settings
+                .get(OptionId::Sockets)
+                .map(|setting| std::env::split_paths(&setting.value).collect())
+                .unwrap_or_default(),
             panel: PanelWindow::from_settings(settings, views, (&display, output))?,
             renamings: settings.renamings().to_vec(),
             display,

@@ -5,7 +5,7 @@
 #[must_use]
 pub fn new(program: &str) -> String {
     let name = toml::Value::from(program);
-    format!("# Written by `manyview ctl profile save`.\nexecutable = {name}\n")
+    format!("# Written by `manyview profile save`.\nexecutable = {name}\n")
 }
 
 /// The text with other values for some keys that stand before the rules. Everything else stays as it is, and so do comments beside the values.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub enum ControlError {
     /// The line is not a request.
     #[error(
-        "a line is no request ({0}); send one JSON object with set, get, capture, explain, toggle or profile, such as {{\"get\": \"all\"}}"
+        "a line is no request ({0}); send one JSON object with set, get, capture, explain, toggle, preset or profile, such as {{\"get\": \"all\"}}"
     )]
     Request(String),
     /// The line is longer than any request.
@@ -48,6 +48,9 @@ pub enum ControlError {
     /// The option does not accept the value.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// There are not so many cameras to choose from.
+    #[error("there is no preset {0}; start the program with --presets, which are counted from 1")]
+    Preset(usize),
     /// The window has no stereo buffers.
     #[error(
         "output is 'quad', but the window has no left and right buffer (GL_STEREO); choose another output, such as anaglyph or half-sbs"
@@ -61,7 +64,7 @@ pub enum ControlError {
     Picture(String),
     /// There is no profile to be read.
     #[error(
-        "the program has no profile; give one with --profile, or write one with `manyview ctl profile save`"
+        "the program has no profile; give one with --profile, or write one with `manyview profile save`"
     )]
     NoProfile,
     /// The profile has a mistake, and the one before stays in force; the sentence names the file and the remedy.

@@ -1,43 +1,9 @@
-//! Keys for a running program, with Ctrl and Alt held, and the requests that each stands for.
+//! Keys for a running program, and the requests that each stands for.
 #![forbid(unsafe_code)]
 
-use super::{OUTPUT, Order};
-use crate::config::{Camera, Knob, Live, OptionId};
+use super::{OUTPUT, Order, ProfileRequest};
+use crate::config::{Action, Camera, Knob, Live, OptionId};
 use std::path::PathBuf;
-
-/// The action of a key.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Key {
-    /// Switches between the program's own picture and all views.
-    Toggle,
-    /// Increases or decreases the first number of the cameras: separation or eye-spacing.
-    Spread(bool),
-    /// Increases or decreases the second number of the cameras: convergence or focal-depth.
-    Focus(bool),
-    /// Moves flat draws farther or nearer.
-    HudDepth(bool),
-    /// Selects the next output.
-    Output,
-    /// Writes the next frame to a file.
-    Capture,
-    /// Explains the next frame.
-    Explain,
-}
-
-/// Keys by their X keysym without Shift. Keys that window managers and X itself use with Ctrl and Alt (arrows, Delete, Backspace,
-/// function keys) are not among them.
-const KEYS: [(u32, Key); 10] = [
-    (0x6d, Key::Toggle),
-    (0xff55, Key::Spread(true)),
-    (0xff56, Key::Spread(false)),
-    (0xff50, Key::Focus(true)),
-    (0xff57, Key::Focus(false)),
-    (0x6b, Key::HudDepth(true)),
-    (0x6a, Key::HudDepth(false)),
-    (0x6f, Key::Output),
-    (0x63, Key::Capture),
-    (0x65, Key::Explain),
-];
 
 /// Factor of one press for the numbers of the cameras.
 const FACTOR: f64 = 1.1;
@@ -46,65 +12,65 @@ const STEP: f64 = 0.05;
 /// The outputs that [`Key::Output`] cycles through.
 const OUTPUTS: [&str; 4] = ["panel", "quilt", "sbs", "anaglyph:red-cyan"];
 
-impl Key {
-    /// The key of a keysym.
-    #[must_use]
-    pub fn of(keysym: u32) -> Option<Self> {
-        let found = KEYS.iter().find(|(known, _)| *known == keysym);
-        found.map(|(_, key)| *key)
-    }
-
-    /// The requests that the key stands for with these current values. They are alternatives: the first one that is not refused counts.
-    /// `chosen` is as for [`Live::with`]; `picture` gives the path of a picture.
-    #[must_use]
-    pub fn orders(
-        self,
-        live: Live,
-        chosen: Option<(f64, f64)>,
-        picture: impl FnOnce() -> PathBuf,
-    ) -> Vec<Order> {
-        let set = |id, value: String| Order::Set(vec![(Knob::Option(id), value)]);
-        let camera = |at: usize, more: bool| {
-            // Until the cameras are chosen there is no number to change. A request for it is refused with the reason.
-            let unknown = match (live.camera, at) {
-                (Camera::Eye { .. }, 0) => OptionId::EyeSpacing,
-                (Camera::Eye { .. }, _) => OptionId::FocalDepth,
-                (_, 0) => OptionId::Separation,
-                _ => OptionId::Convergence,
-            };
-            match live.cameras(chosen).and_then(|pair| pair.get(at).copied()) {
-                Some((id, value)) => {
-                    let value = if more { value * FACTOR } else { value / FACTOR };
-                    set(id, rounded(value))
-                }
-                None => Order::Get(unknown.spec().key.map(str::to_owned)),
-            }
+/// The requests that an action stands for with these current values. They are alternatives: the first one that is not refused counts.
+/// `chosen` is as for [`Live::with`]; `presets` has the cameras to choose from; `picture` gives the path of a picture.
+#[must_use]
+pub fn orders(
+    action: Action,
+    live: Live,
+    chosen: Option<(f64, f64)>,
+    presets: &[Camera],
+    picture: impl FnOnce() -> PathBuf,
+) -> Vec<Order> {
+    let set = |id, value: String| Order::Set(vec![(Knob::Option(id), value)]);
+    let camera = |at: usize, more: bool| {
+        // Until the cameras are chosen there is no number to change. A request for it is refused with the reason.
+        let unknown = match (live.camera, at) {
+            (Camera::Eye { .. }, 0) => OptionId::EyeSpacing,
+            (Camera::Eye { .. }, _) => OptionId::FocalDepth,
+            (_, 0) => OptionId::Separation,
+            _ => OptionId::Convergence,
         };
-        match self {
-            Self::Toggle => vec![Order::Toggle],
-            Self::Spread(more) => vec![camera(0, more)],
-            Self::Focus(more) => vec![camera(1, more)],
-            Self::HudDepth(farther) => {
-                let step = if farther { STEP } else { -STEP };
-                vec![set(OptionId::HudDepth, rounded(live.hud_depth + step))]
+        match live.cameras(chosen).and_then(|pair| pair.get(at).copied()) {
+            Some((id, value)) => {
+                let value = if more { value * FACTOR } else { value / FACTOR };
+                set(id, rounded(value))
             }
-            Self::Output => {
-                let now = live.output.to_string();
-                let at = OUTPUTS.iter().position(|known| *known == now);
-                let next = at.map_or(0, |at| at + 1);
-                let others = OUTPUTS.iter().cycle().skip(next).take(OUTPUTS.len());
-                others
-                    .map(|word| set(OptionId::Output, (*word).to_owned()))
-                    .collect()
-            }
-            Self::Capture => vec![Order::Capture(picture(), OUTPUT.to_owned())],
-            Self::Explain => {
-                let picture = picture();
-                let stem = picture.file_stem().unwrap_or_default().to_string_lossy();
-                vec![Order::Explain(
-                    picture.with_file_name(format!("{stem}-explained.png")),
-                )]
-            }
+            None => Order::Get(unknown.spec().key.map(str::to_owned)),
+        }
+    };
+    match action {
+        Action::Toggle => vec![Order::Toggle],
+        Action::Spread(more) => vec![camera(0, more)],
+        Action::Focus(more) => vec![camera(1, more)],
+        Action::HudDepth(farther) => {
+            let step = if farther { STEP } else { -STEP };
+            vec![set(OptionId::HudDepth, rounded(live.hud_depth + step))]
+        }
+        Action::Output => {
+            let now = live.output.to_string();
+            let at = OUTPUTS.iter().position(|known| *known == now);
+            let next = at.map_or(0, |at| at + 1);
+            let others = OUTPUTS.iter().cycle().skip(next).take(OUTPUTS.len());
+            others
+                .map(|word| set(OptionId::Output, (*word).to_owned()))
+                .collect()
+        }
+        Action::Save => vec![Order::Profile(ProfileRequest::Save(None))],
+        Action::Preset(number) => vec![Order::Preset(number)],
+        Action::NextPreset => {
+            let now = presets.iter().position(|camera| *camera == live.camera);
+            // Without any, the refusal says so.
+            let next = now.map_or(0, |at| (at + 1) % presets.len().max(1));
+            vec![Order::Preset(next)]
+        }
+        Action::Capture => vec![Order::Capture(picture(), OUTPUT.to_owned())],
+        Action::Explain => {
+            let picture = picture();
+            let stem = picture.file_stem().unwrap_or_default().to_string_lossy();
+            vec![Order::Explain(
+                picture.with_file_name(format!("{stem}-explained.png")),
+            )]
         }
     }
 }
@@ -166,8 +132,8 @@ mod tests {
         Live::new(&Config::from_settings(&Settings::default()).unwrap())
     }
 
-    fn words(key: Key, live: Live, chosen: Option<(f64, f64)>) -> Vec<(OptionId, String)> {
-        let orders = key.orders(live, chosen, PathBuf::new);
+    fn words(action: Action, live: Live, chosen: Option<(f64, f64)>) -> Vec<(OptionId, String)> {
+        let orders = orders(action, live, chosen, &[], PathBuf::new);
         let sets = orders.into_iter().map(|order| match order {
             Order::Set(mut values) => match values.remove(0) {
                 (Knob::Option(id), value) => (id, value),
@@ -182,18 +148,18 @@ mod tests {
     fn up_and_down_meet_again() {
         let mut live = live();
         let chosen = Some((0.03, 8.0));
-        let (id, value) = words(Key::Spread(true), live, chosen).remove(0);
+        let (id, value) = words(Action::Spread(true), live, chosen).remove(0);
         assert_eq!((id, &*value), (OptionId::Separation, "0.033"));
-        let (id, value) = words(Key::Focus(false), live, chosen).remove(0);
+        let (id, value) = words(Action::Focus(false), live, chosen).remove(0);
         assert_eq!((id, &*value), (OptionId::Convergence, "7.27273"));
         live.camera = Camera::Eye {
             spacing: 0.033,
             focal_depth: 5.0,
         };
-        let (id, value) = words(Key::Spread(false), live, chosen).remove(0);
+        let (id, value) = words(Action::Spread(false), live, chosen).remove(0);
         assert_eq!((id, &*value), (OptionId::EyeSpacing, "0.03"));
         live.hud_depth = 0.05;
-        let (_, value) = words(Key::HudDepth(false), live, None).remove(0);
+        let (_, value) = words(Action::HudDepth(false), live, None).remove(0);
         assert_eq!(value, "0");
     }
 
@@ -201,7 +167,7 @@ mod tests {
     fn outputs_go_round() {
         let mut live = live();
         let outputs = |live| {
-            words(Key::Output, live, None)
+            words(Action::Output, live, None)
                 .into_iter()
                 .map(|(_, word)| word)
         };
@@ -213,7 +179,7 @@ mod tests {
 
     #[test]
     fn cameras_that_are_not_chosen_are_asked_for() {
-        let orders = Key::Focus(true).orders(live(), None, PathBuf::new);
+        let orders = orders(Action::Focus(true), live(), None, &[], PathBuf::new);
         assert_eq!(orders, [Order::Get(Some("convergence".to_owned()))]);
     }
 

@@ -8,9 +8,11 @@ pub mod keys;
 mod lines;
 pub mod panel;
 pub mod place;
+mod ramp;
 
 pub use error::ControlError;
 pub use lines::Lines;
+pub use ramp::Ramp;
 
 use crate::config::{Knob, Live, OptionId};
 use crate::display::LensPart;
@@ -44,6 +46,8 @@ pub enum Request {
     Toggle(String),
     /// Reads or writes the program's profile.
     Profile(ProfileRequest),
+    /// Selects cameras of `--presets`, counted from 1.
+    Preset(usize),
 }
 
 /// What is to be done with the profile.
@@ -90,6 +94,8 @@ pub enum Order {
     Toggle,
     /// Reads or writes the profile.
     Profile(ProfileRequest),
+    /// Selects cameras of `--presets`, counted from 0.
+    Preset(usize),
 }
 
 /// An answer as it is sent.
@@ -176,6 +182,10 @@ pub fn order(line: &str) -> Result<Order, ControlError> {
         )),
         Request::Explain(Explanation { path }) => Ok(Order::Explain(path)),
         Request::Profile(what) => Ok(Order::Profile(what)),
+        Request::Preset(number) => match number.checked_sub(1) {
+            Some(number) => Ok(Order::Preset(number)),
+            None => Err(ControlError::Preset(number)),
+        },
         Request::Toggle(what) if what == LAYER => Ok(Order::Toggle),
         Request::Toggle(what) => Err(ControlError::Toggle(what)),
     }
@@ -238,6 +248,7 @@ mod tests {
             Ok(Order::Explain("/a".into()))
         );
         assert_eq!(order(r#"{"toggle": "layer"}"#), Ok(Order::Toggle));
+        assert_eq!(order(r#"{"preset": 2}"#), Ok(Order::Preset(1)));
         let profile = |what| order(&line(&Request::Profile(what)));
         for what in [
             ProfileRequest::Reload,
@@ -293,6 +304,7 @@ mod tests {
             r#"{"capture": {"path": "/a.png", "frames": 3}}"#,
             r#"{"explain": {"path": "a"}}"#,
             r#"{"toggle": "sound"}"#,
+            r#"{"preset": 0}"#,
             r#"{"profile": "forget"}"#,
             r#"{"profile": {"save": "a.toml"}}"#,
             r#"{"stop": "now"}"#,

@@ -106,7 +106,7 @@ impl CaptureJob<'_> {
     }
 
     fn start(&self, screen: &Screen) -> Result<Program, LaunchError> {
-        let mut command = self.launch.command();
+        let mut command = self.launch.command()?;
         screen.give(&mut command);
         Program::start(self.launch, command)
     }

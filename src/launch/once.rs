@@ -40,7 +40,7 @@ pub fn layered(
     what: &str,
     stop: &mut Stop,
 ) -> Result<String, LaunchError> {
-    run(launch.command(), screen, what, stop)
+    run(launch.command()?, screen, what, stop)
 }
 
 fn run(

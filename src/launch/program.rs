@@ -3,14 +3,17 @@
 
 use super::error::LaunchError;
 use super::library::Libraries;
-use super::{library, preflight, preload, signals};
+use super::lost::Lost;
+use super::{flatpak, library, preflight, preload, signals};
 use crate::config::{Config, OPTIONS, OptionId, Origin, Settings, program};
+use crate::control::place;
 use rustix::process::{Pid, Signal, kill_process};
 use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
+use std::sync::mpsc::RecvTimeoutError;
 use tempfile::TempDir;
 
 /// A program that has passed every check and can be started.
@@ -21,6 +24,8 @@ pub struct Launch {
     arguments: Vec<OsString>,
     libraries: Libraries,
     variables: Vec<(String, String)>,
+    /// The program is in Flatpak, and this is its ID: `app` is `flatpak`, and the arguments are the program's.
+    flatpak: Option<OsString>,
     /// Has a folder for each start, in which its processes claim the paths that they write to. None where nothing is written.
     claims: Option<TempDir>,
     /// The parsed options.
@@ -57,6 +62,24 @@ impl Ended {
 impl Launch {
     /// Checks options, files, program and library, in this order. `command` is the program and its arguments.
     pub fn prepare(command: &[OsString], settings: &Settings) -> Result<Self, LaunchError> {
+        Self::prepared(command, None, settings)
+    }
+
+    /// The same for a program in Flatpak and its arguments: the first word is its ID.
+    pub fn in_flatpak(command: &[OsString], settings: &Settings) -> Result<Self, LaunchError> {
+        let Some((id, arguments)) = command.split_first() else {
+            return Err(LaunchError::AppNotFound("no program".to_owned()));
+        };
+        let mut words = vec![OsString::from(flatpak::COMMAND)];
+        words.extend_from_slice(arguments);
+        Self::prepared(&words, Some(id.clone()), settings)
+    }
+
+    fn prepared(
+        command: &[OsString],
+        flatpak: Option<OsString>,
+        settings: &Settings,
+    ) -> Result<Self, LaunchError> {
         let mut settings = settings.clone();
         let libraries = library::find();
         let beside = libraries.as_ref().ok().map(Libraries::main);
@@ -67,14 +90,33 @@ impl Launch {
             return Err(LaunchError::AppNotFound("no program".to_owned()));
         };
         let (app, class) = preflight::check_app(name)?;
-        config.choose_profile(&settings, program_name(&app));
+        let known = match &flatpak {
+            Some(_) => None,
+            None => program_name(&app),
+        };
+        config.choose_profile(&settings, known.clone());
         // What the user starts is what the user wants to see, even where it is left bare as a part of another launch.
-        let started = program_name(&app).filter(|name| program::is_helper(name));
+        let started = known.filter(|name| program::is_helper(name));
         if let Some(name) = started.filter(|_| settings.get(OptionId::Only).is_none()) {
             settings.set(OptionId::Only, name, Origin::Default);
         }
         let libraries = libraries?;
-        preflight::check_class(&app, class, &libraries)?;
+        preflight::check_class(&app, class.filter(|_| flatpak.is_none()), &libraries)?;
+        if config.control || config.panel.is_some() {
+            let user = rustix::process::geteuid().as_raw();
+            let folders = place::give(|name| std::env::var_os(name), user);
+            // A path with a colon is left out: no list can hold it.
+            let whole = folders
+                .iter()
+                .filter(|path| std::env::join_paths([path]).is_ok());
+            if let Ok(folders) = std::env::join_paths(whole) {
+                settings.set(
+                    OptionId::Sockets,
+                    folders.to_string_lossy(),
+                    Origin::Default,
+                );
+            }
+        }
         let folder = std::env::current_dir().map_err(|source| LaunchError::System {
             doing: "finding the current folder",
             source,
@@ -95,15 +137,17 @@ impl Launch {
             arguments: arguments.to_vec(),
             libraries,
             variables,
+            flatpak,
             claims,
             config,
         })
     }
 
     /// Runs the program to its end. Signals to the launcher are forwarded to it.
-    pub fn run(&self) -> Result<Ended, LaunchError> {
+    /// `tell` gets a sentence for each program of the launch that draws without the layer.
+    pub fn run(&self, tell: impl Fn(&str) + Send + 'static) -> Result<Ended, LaunchError> {
         let mut signals = signals::catch()?;
-        let mut child = self.spawn(self.command())?;
+        let mut child = self.spawn(self.command()?)?;
         let pid = Pid::from_child(&child);
         let handle = signals.handle();
         let forwarder = std::thread::spawn(move || {
@@ -113,19 +157,37 @@ impl Launch {
                 }
             }
         });
+        let (stop, stopped) = std::sync::mpsc::channel::<()>();
+        let mut lost = Lost::new(child.id(), self.libraries.clone());
+        let watcher = std::thread::spawn(move || {
+            while stopped.recv_timeout(lost.pause()) == Err(RecvTimeoutError::Timeout) {
+                lost.look().iter().for_each(|sentence| tell(sentence));
+            }
+        });
         let status = child.wait().map_err(|source| LaunchError::System {
             doing: "waiting for the program",
             source,
         });
         handle.close();
+        drop(stop);
+        // As below.
+        let _ = watcher.join();
         // The thread only forwards signals, so its failure does not matter now.
         let _ = forwarder.join();
         status.map(Ended)
     }
 
-    /// The command with the layer in its environment.
-    pub(super) fn command(&self) -> Command {
-        let mut command = Command::new(&self.app);
+    /// The command with the layer in its environment, or in that of its sandbox.
+    pub(super) fn command(&self) -> Result<Command, LaunchError> {
+        let mut command = match &self.flatpak {
+            None => Command::new(&self.app),
+            Some(_) => without_layer(&self.app, &[]),
+        };
+        if let Some(id) = &self.flatpak {
+            let words = flatpak::words(id, &self.variables, &self.arguments, &self.libraries)?;
+            command.args(words);
+            return Ok(command);
+        }
         command.arg0(&self.name).args(&self.arguments);
         for spec in OPTIONS {
             for name in spec.variables() {
@@ -139,7 +201,7 @@ impl Launch {
             command.env(OptionId::Launch.spec().variable, claims.keep());
         }
         command.env("LD_PRELOAD", preload_value(&self.libraries));
-        command
+        Ok(command)
     }
 
     /// Starts the command. All other causes were checked before, so an error is due to the program.

@@ -32,7 +32,7 @@ pub struct ProveJob<'a> {
 impl ProveJob<'_> {
     /// Runs the program and returns the layer's notes for the user.
     pub fn run(&self, stop: &mut Stop) -> Result<Vec<String>, LaunchError> {
-        let mut command = self.launch.command();
+        let mut command = self.launch.command()?;
         self.screen.give(&mut command);
         command
             // No swap waits for the monitor (the variables of Mesa and of NVIDIA).

@@ -90,7 +90,7 @@ impl Stepped {
         what: &str,
         stop: &mut Stop,
     ) -> Result<Self, LaunchError> {
-        Self::start(launch.command(), screen, what, stop)
+        Self::start(launch.command()?, screen, what, stop)
     }
 
     /// Starts a scene under the layer, with `cache` as the folder in which `--strategy auto` keeps its result.
@@ -101,7 +101,7 @@ impl Stepped {
         what: &str,
         stop: &mut Stop,
     ) -> Result<Self, LaunchError> {
-        let mut command = launch.command();
+        let mut command = launch.command()?;
         command.env("XDG_CACHE_HOME", cache);
         Self::start(command, screen, what, stop)
     }

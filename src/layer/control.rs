@@ -1,14 +1,15 @@
 //! Requests to the running program: values in force, and pictures of the next frame.
 
 use super::Layer;
-use crate::config::{Camera, Capture, CaptureWhat, Live, OptionId, Output};
-use crate::control::{Answer, ControlError, LAYER, Order, ProfileRequest, VIEWS, keys::Key};
+use crate::config::{Action, Camera, Capture, CaptureWhat, Live, OptionId, Output};
+use crate::control::{Answer, ControlError, LAYER, Order, ProfileRequest, Ramp, VIEWS, keys};
 use crate::display::LensPart;
 use crate::gl::Gl;
 use crate::interleave::Source;
 use crate::state::Neutral;
 use serde_json::{Map, Value};
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// What is asked for of the next frame that is shown.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +62,26 @@ impl Layer {
 
     /// Puts other values in force from the next draw on. It has to be called between frames, so that no frame is drawn with both.
     pub fn adopt(&mut self, live: Live) {
+        self.session.ramp = None;
+        self.put(live);
+    }
+
+    /// Goes on to the cameras of a preset that was selected. It has to be called between frames.
+    pub fn advance(&mut self, now: Instant) {
+        let Some(ramp) = self.session.ramp else {
+            return;
+        };
+        let (camera, arrived) = ramp.at(now);
+        self.put(Live {
+            camera,
+            ..self.session.live
+        });
+        if arrived {
+            self.session.ramp = None;
+        }
+    }
+
+    fn put(&mut self, live: Live) {
         if live.camera != self.session.live.camera {
             let focal = self.session.profile.focal_depth;
             self.cameras
@@ -117,6 +138,7 @@ impl Layer {
             }
             Order::Profile(ProfileRequest::Reload) => self.reload_profile().map(Ok),
             Order::Profile(ProfileRequest::Save(path)) => self.save_profile(path).map(Ok),
+            Order::Preset(number) => self.select(number).map(Ok),
             Order::Toggle => {
                 self.adopt(Live {
                     flat: !self.session.live.flat,
@@ -134,17 +156,48 @@ impl Layer {
         }
     }
 
+    /// Selects cameras of the user's, counted from 0.
+    fn select(&mut self, number: usize) -> Result<Answer, ControlError> {
+        let presets = &self.session.config.presets;
+        let found = presets.cameras.get(number);
+        let to = *found.ok_or(ControlError::Preset(number + 1))?;
+        self.move_to(to);
+        self.show_text(format!("preset {}", number + 1));
+        Ok(Answer::Values(self.values()))
+    }
+
+    /// Begins the way to other cameras. It has to be called between frames.
+    pub fn move_to(&mut self, camera: Camera) {
+        let (chosen, takes) = (self.known.rig.latched(), self.session.config.presets.ramp);
+        let now = Instant::now();
+        self.session.ramp = Some(Ramp::new(self.session.live, chosen, camera, takes, now));
+        self.advance(now);
+    }
+
+    /// The cameras in force, or those that they are on the way to.
+    pub fn camera_ahead(&self) -> Camera {
+        let ramp = self.session.ramp.as_ref();
+        ramp.map_or(self.session.live.camera, Ramp::target)
+    }
+
     /// Carries out the requests of a key, as [`Layer::control`] does. `picture` gives the path for the number of a frame.
     pub fn press(
         &mut self,
-        key: Key,
+        action: Action,
         picture: impl FnOnce(u64) -> PathBuf,
     ) -> Result<Result<Answer, Wanted>, ControlError> {
         // The next one, counted from 1.
         let frame = self.diagnostics.report.frames() + 1;
-        let orders = key.orders(self.session.live, self.known.rig.latched(), || {
-            picture(frame)
-        });
+        let presets = &self.session.config.presets.cameras;
+        let chosen = self.known.rig.latched();
+        let live = match action {
+            Action::NextPreset => Live {
+                camera: self.camera_ahead(),
+                ..self.session.live
+            },
+            _ => self.session.live,
+        };
+        let orders = keys::orders(action, live, chosen, presets, || picture(frame));
         let outcome = orders
             .into_iter()
             .fold(None, |outcome, order| match outcome {

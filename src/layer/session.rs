@@ -3,6 +3,7 @@
 
 use super::{Member, OnScreen, Panel, Support, auto};
 use crate::config::{Config, Live, Profile, Strategy};
+use crate::control::Ramp;
 use crate::display::{Display, Kind, Placement};
 use crate::gl::Gl;
 use crate::plan::decide::has_depths_of_replay;
@@ -18,6 +19,8 @@ pub(super) struct Session {
     pub(super) group: Arc<Member>,
     /// The values that the user may change while the program runs.
     pub(super) live: Live,
+    /// The way to the cameras of a preset, until they have arrived.
+    pub(super) ramp: Option<Ramp>,
     /// The rules for the program's draws, as the user's file last had them.
     pub(super) profile: Arc<Profile>,
     /// Position of the window; none where the window system does not report it.
@@ -53,6 +56,7 @@ impl Session {
             strategy: auto.as_ref().map_or(config.strategy, auto::Auto::strategy),
             group,
             live: Live::new(config),
+            ramp: None,
             profile: Arc::new(config.profile.clone()),
             on_screen: None,
             panel: Panel::default(),

@@ -27,6 +27,7 @@ fn monitor(folder: &Path) -> Option<Monitor> {
         at: (0, 0),
         size: modes.lines().next().and_then(size).unwrap_or((0, 0)),
         primary: false,
+        density: 1000,
         edid: std::fs::read(folder.join("edid")).unwrap_or_default(),
     })
 }

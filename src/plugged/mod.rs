@@ -238,6 +238,7 @@ mod tests {
             at: (0, 0),
             size,
             primary: false,
+            density: 1000,
             edid: Vec::new(),
         };
         Attached { monitor, edid }

@@ -14,11 +14,26 @@ pub struct Monitor {
     pub size: (u32, u32),
     /// The user has made it the primary monitor; under Wayland there is none.
     pub primary: bool,
+    /// Its pixels for a thousand of the desk: 1000 where the desk is not scaled.
+    pub density: u32,
     /// What it says of itself, its EDID; empty where nobody tells.
     pub edid: Vec<u8>,
 }
 
 impl Monitor {
+    /// For a monitor on which windows are resampled, one sentence that says what becomes of pictures there.
+    #[must_use]
+    pub fn resamples(&self) -> Option<String> {
+        (self.density != 1000).then(|| {
+            format!(
+                "monitor {} is scaled by {}, so a picture in the program's window is resampled there and its views are mixed up; \
+                 give --panel, which draws the monitor's own pixels, or set its scale to 1",
+                self.name,
+                f64::from(self.density) / 1000.0
+            )
+        })
+    }
+
     /// [`WindowError::TooLarge`] for a picture that is larger than the monitor.
     pub fn check(&self, picture: (u32, u32)) -> Result<(), WindowError> {
         if picture.0 > self.size.0 || picture.1 > self.size.1 {
@@ -78,6 +93,7 @@ mod tests {
             at: (x, 0),
             size,
             primary,
+            density: 1000,
             edid: Vec::new(),
         };
         vec![
@@ -101,6 +117,15 @@ mod tests {
             choose(equals, ("--monitor", None), None).unwrap().name,
             "DP-1"
         );
+    }
+
+    #[test]
+    fn a_scaled_monitor_is_told_with_the_remedy() {
+        let mut monitor = two().remove(0);
+        assert_eq!(monitor.resamples(), None);
+        monitor.density = 1250;
+        let told = monitor.resamples().unwrap();
+        assert!(told.contains("DP-1 is scaled by 1.25") && told.contains("--panel"));
     }
 
     #[test]

@@ -6,7 +6,7 @@
 use super::surface::{Picture, Seen, Surface};
 use super::{WindowError, open, wake};
 use crate::control::panel::{Frame, Hello, SLOTS, Sent, slot_bytes};
-use crate::control::place;
+use crate::control::{ControlError, place};
 use crate::display::Wall;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::net::sockopt::socket_peercred;
@@ -29,7 +29,7 @@ const FRAMES_AWAKE: u32 = 8;
 /// The open window, which shows pictures until it is dropped.
 #[derive(Debug)]
 pub struct PanelServer {
-    socket: PathBuf,
+    sockets: Vec<PathBuf>,
     /// Its end ends the thread.
     stop: Option<UnixStream>,
     thread: Option<JoinHandle<()>>,
@@ -67,21 +67,19 @@ impl PanelServer {
     }
 
     fn serve(parts: Vec<Part>, size: (u32, u32)) -> Result<Self, WindowError> {
-        let socket = Self::place();
-        let user = rustix::process::geteuid().as_raw();
-        let folder = folder();
         let no = |error: &dyn std::fmt::Display| WindowError::Socket(error.to_string());
-        place::prepare(&folder, user).map_err(|error| no(&error))?;
-        let _ = std::fs::remove_file(&socket);
-        let listener = UnixListener::bind(&socket).map_err(|error| no(&error))?;
-        place::close_to_others(&socket).map_err(|error| no(&error))?;
+        let mut doors = vec![Door::open(folder()).map_err(|error| no(&error))?];
+        // For programs in containers; where it cannot be, these are not shown.
+        let home = std::env::var_os("HOME");
+        let shared = place::shared_folder(home.as_deref());
+        doors.extend(shared.and_then(|folder| Door::open(folder).ok()));
         let (stop, stopped) = UnixStream::pair().map_err(|error| no(&error))?;
+        let sockets = doors.iter().map(Door::socket).collect();
         let served = Served {
             parts,
+            doors,
             size,
-            listener,
             stopped,
-            folder,
             clients: Vec::new(),
             count: 0,
             waiting: None,
@@ -89,7 +87,7 @@ impl PanelServer {
         // Its failure is the end of the window, of which the layer tells.
         let thread = std::thread::spawn(move || drop(served.run()));
         Ok(Self {
-            socket,
+            sockets,
             stop: Some(stop),
             thread: Some(thread),
         })
@@ -98,7 +96,7 @@ impl PanelServer {
     /// The socket to which the layer connects, of the window that this process opens.
     #[must_use]
     pub fn place() -> PathBuf {
-        folder().join(format!("panel-{}.sock", std::process::id()))
+        folder().join(name())
     }
 }
 
@@ -109,8 +107,42 @@ impl Drop for PanelServer {
             // A panic there has been told already.
             let _ = thread.join();
         }
-        let _ = std::fs::remove_file(&self.socket);
+        for socket in &self.sockets {
+            let _ = std::fs::remove_file(socket);
+        }
     }
+}
+
+/// A folder with a socket to which the layer connects.
+struct Door {
+    folder: PathBuf,
+    listener: UnixListener,
+}
+
+impl Door {
+    fn open(folder: PathBuf) -> Result<Self, ControlError> {
+        let user = rustix::process::geteuid().as_raw();
+        let _ = folder.parent().map(std::fs::create_dir_all);
+        place::prepare(&folder, user)?;
+        let path = folder.join(name());
+        let failed = |error: io::Error| ControlError::Socket {
+            path: path.clone(),
+            reason: error.kind().to_string(),
+        };
+        let _ = std::fs::remove_file(&path);
+        let listener = UnixListener::bind(&path).map_err(failed)?;
+        place::close_to_others(&path).map_err(failed)?;
+        Ok(Self { folder, listener })
+    }
+
+    fn socket(&self) -> PathBuf {
+        self.folder.join(name())
+    }
+}
+
+/// The name of the sockets of this process.
+fn name() -> String {
+    format!("panel-{}.sock", std::process::id())
 }
 
 fn folder() -> PathBuf {
@@ -123,9 +155,9 @@ struct Served {
     parts: Vec<Part>,
     /// Width and height of the picture in pixels.
     size: (u32, u32),
-    listener: UnixListener,
+    /// One outside, and one that containers share.
+    doors: Vec<Door>,
     stopped: UnixStream,
-    folder: PathBuf,
     clients: Vec<Client>,
     /// Programs that have connected.
     count: u32,
@@ -181,11 +213,11 @@ impl Served {
             if ready.stopped {
                 return Ok(());
             }
-            if ready.listener
-                && let Ok((stream, _)) = self.listener.accept()
-            {
-                // A program that is gone already is none.
-                let _ = self.welcome(stream);
+            for door in ready.doors {
+                if let Ok((stream, _)) = self.doors[door].listener.accept() {
+                    // A program that is gone already is none.
+                    let _ = self.welcome(stream, door);
+                }
             }
             for number in ready.clients {
                 if !self.receive(number)? {
@@ -208,10 +240,9 @@ impl Served {
     /// Waits until something can be read.
     fn wait(&self) -> io::Result<Ready> {
         let input = PollFlags::IN;
-        let mut all = vec![
-            PollFd::new(&self.stopped, input),
-            PollFd::new(&self.listener, input),
-        ];
+        let mut all = vec![PollFd::new(&self.stopped, input)];
+        let doors = self.doors.iter();
+        all.extend(doors.map(|door| PollFd::new(&door.listener, input)));
         let clients = self.clients.iter();
         all.extend(clients.map(|client| PollFd::new(&client.stream, input)));
         let windows = self.parts.iter().map(|part| part.surface.connection());
@@ -229,10 +260,11 @@ impl Served {
             Err(error) => return Err(error.into()),
         }
         let ready = |fd: &PollFd<'_>| !fd.revents().is_empty();
-        let clients = self.clients.iter().zip(&all[2..]);
+        let (doors, others) = all[1..].split_at(self.doors.len());
+        let clients = self.clients.iter().zip(others);
         Ok(Ready {
             stopped: ready(&all[0]),
-            listener: ready(&all[1]),
+            doors: (0..doors.len()).filter(|&at| ready(&doors[at])).collect(),
             clients: clients
                 .filter(|(_, fd)| ready(fd))
                 .map(|(client, _)| client.number)
@@ -241,10 +273,10 @@ impl Served {
     }
 
     /// Greets a program and makes the file of its pictures.
-    fn welcome(&mut self, mut stream: UnixStream) -> io::Result<()> {
+    fn welcome(&mut self, mut stream: UnixStream, door: usize) -> io::Result<()> {
         self.count += 1;
         let name = format!("panel-{}-{}.pictures", std::process::id(), self.count);
-        let path = self.folder.join(name);
+        let path = self.doors[door].folder.join(name);
         let _ = std::fs::remove_file(&path);
         let mut options = OpenOptions::new();
         let file = options
@@ -391,7 +423,8 @@ fn peer(stream: &UnixStream) -> Option<u32> {
 /// What can be read.
 struct Ready {
     stopped: bool,
-    listener: bool,
+    /// Their numbers.
+    doors: Vec<usize>,
     clients: Vec<u32>,
 }
 

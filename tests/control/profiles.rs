@@ -1,4 +1,4 @@
-//! `manyview ctl profile`: rules that are read again, values that are written.
+//! `manyview profile`: rules that are read again, values that are written.
 #![forbid(unsafe_code)]
 
 use super::running::{Running, same, stays, until};

@@ -5,7 +5,7 @@
 use super::support::{Screen, has, sized_screen};
 use super::x::User;
 use image::RgbImage;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -66,6 +66,15 @@ fn as_user(program: &str) -> Command {
 impl Compositor {
     /// Weston in a window of an X server for each monitor. Its monitors are called X0 and so on.
     pub(crate) fn weston(monitors: &[Monitor]) -> Self {
+        Self::weston_with(monitors, &[])
+    }
+
+    /// The same with an X server for programs of X (Xwayland).
+    pub(crate) fn weston_with_x(monitors: &[Monitor]) -> Self {
+        Self::weston_with(monitors, &["--xwayland"])
+    }
+
+    fn weston_with(monitors: &[Monitor], more: &[&str]) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let output = |(number, monitor): (usize, &Monitor)| {
             let [mode, turned, scale] = monitor.words();
@@ -81,7 +90,9 @@ impl Compositor {
             .args(["--backend=x11-backend.so", "--use-pixman"])
             .args(["--socket=wayland-test"])
             .arg(format!("--output-count={}", monitors.len()))
-            .arg(format!("--config={}", file.display()));
+            .arg(format!("--config={}", file.display()))
+            .arg(format!("--log={}", folder.path().join("log").display()))
+            .args(more);
         screen.give(&mut command);
         Self::start(command, folder, Some(screen))
     }
@@ -150,6 +161,29 @@ impl Compositor {
             .env("XDG_RUNTIME_DIR", self.folder.path())
             .env("WAYLAND_DISPLAY", &self.socket)
             .env_remove("DISPLAY")
+    }
+
+    /// The runtime folder in which its socket lies, and the name of that.
+    pub(crate) fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    pub(crate) fn socket(&self) -> &str {
+        &self.socket
+    }
+
+    /// The display of its X server.
+    pub(crate) fn x_display(&self) -> String {
+        let limit = Instant::now() + LIMIT;
+        loop {
+            let log = std::fs::read_to_string(self.folder.path().join("log")).unwrap_or_default();
+            let told = log.split_once("xserver listening on display ");
+            if let Some((_, rest)) = told {
+                return rest.lines().next().unwrap_or_default().to_owned();
+            }
+            assert!(Instant::now() < limit, "no X server: {log}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
     }
 
     /// The pixels of a monitor as they are sent to it, before it is turned.

@@ -53,12 +53,27 @@ impl User {
         let down = codes.iter().map(|&code| (KEY_PRESS_EVENT, code));
         let up = codes.iter().rev().map(|&code| (KEY_RELEASE_EVENT, code));
         for (kind, code) in down.chain(up) {
-            let sent = self
-                .connection
-                .xtest_fake_input(kind, code, 0, self.root, 0, 0, 0);
-            sent.expect("sent").check().expect("XTEST");
+            self.send(kind, code);
         }
         self.connection.sync().expect("a server");
+    }
+
+    /// Presses a key without releasing it, or releases it.
+    pub(crate) fn hold(&self, key: u32, down: bool) {
+        let kind = if down {
+            KEY_PRESS_EVENT
+        } else {
+            KEY_RELEASE_EVENT
+        };
+        self.send(kind, self.code(key));
+        self.connection.sync().expect("a server");
+    }
+
+    fn send(&self, kind: u8, code: u8) {
+        let sent = self
+            .connection
+            .xtest_fake_input(kind, code, 0, self.root, 0, 0, 0);
+        sent.expect("sent").check().expect("XTEST");
     }
 
     /// Moves the mouse from one place of the screen to another with its left button down.

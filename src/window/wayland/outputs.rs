@@ -24,6 +24,8 @@ pub(super) struct Output {
     turned: bool,
     /// Pixels on the monitor for one of the desk, in whole numbers.
     pub(super) scale: i32,
+    /// Width and height on the desk, where the compositor tells.
+    desk: Option<(u32, u32)>,
 }
 
 /// Asks for all monitors.
@@ -33,7 +35,7 @@ pub(super) fn ask(globals: &GlobalList, handle: &QueueHandle<State>) -> Vec<Outp
         .iter()
         .filter(|global| global.interface == WlOutput::interface().name);
     // Its second version tells names, which older compositors tell nowhere else.
-    let namer: Option<ZxdgOutputManagerV1> = globals.bind(handle, 2..=3, ()).ok();
+    let namer: Option<ZxdgOutputManagerV1> = globals.bind(handle, 1..=3, ()).ok();
     let all = known.enumerate().map(|(number, global)| {
         let version = global.version.min(VERSION);
         let output = globals
@@ -56,7 +58,17 @@ impl Output {
             mode: (0, 0),
             turned: false,
             scale: 1,
+            desk: None,
         }
+    }
+
+    /// See [`Monitor::density`].
+    fn density(&self) -> u32 {
+        let (width, height) = self.mode;
+        let across = if self.turned { height } else { width };
+        let thousands = |(desk, _): (u32, u32)| (across * 1000 + desk / 2) / desk;
+        let told = self.desk.filter(|(desk, _)| *desk > 0).map(thousands);
+        told.unwrap_or_else(|| self.scale.max(1) as u32 * 1000)
     }
 
     pub(super) fn monitor(&self) -> Monitor {
@@ -71,6 +83,7 @@ impl Output {
                 (width, height)
             },
             primary: false,
+            density: self.density(),
             edid: Vec::new(),
         }
     }
@@ -127,10 +140,15 @@ impl Dispatch<ZxdgOutputV1, usize> for State {
         _: &Connection,
         _: &QueueHandle<Self>,
     ) {
-        if let zxdg_output_v1::Event::Name { name } = event
-            && let Some(output) = state.outputs.get_mut(*number)
-        {
-            output.name = name;
+        let Some(output) = state.outputs.get_mut(*number) else {
+            return;
+        };
+        match event {
+            zxdg_output_v1::Event::Name { name } => output.name = name,
+            zxdg_output_v1::Event::LogicalSize { width, height } => {
+                output.desk = Some((width.max(0) as u32, height.max(0) as u32));
+            }
+            _ => {}
         }
     }
 }

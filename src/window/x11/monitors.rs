@@ -3,7 +3,7 @@
 
 use crate::window::{Monitor, WindowError};
 use x11rb::connection::Connection;
-use x11rb::protocol::randr::ConnectionExt as _;
+use x11rb::protocol::randr::{ConnectionExt as _, MonitorInfo};
 use x11rb::protocol::xproto::{AtomEnum, ConnectionExt as _, Screen};
 use x11rb::rust_connection::RustConnection;
 
@@ -36,6 +36,7 @@ pub(super) fn all(
                 at: (monitor.x, monitor.y),
                 size: (monitor.width.into(), monitor.height.into()),
                 primary: monitor.primary,
+                density: density(connection, &monitor).unwrap_or(1000),
                 edid: edid(connection, &monitor.outputs)?,
             });
         }
@@ -49,10 +50,33 @@ pub(super) fn all(
                 screen.height_in_pixels.into(),
             ),
             primary: true,
+            density: 1000,
             edid: Vec::new(),
         });
     }
     Ok(found)
+}
+
+/// See [`Monitor::density`]: the server may scale what a monitor shows (`xrandr --scale`).
+fn density(connection: &impl Connection, monitor: &MonitorInfo) -> Option<u32> {
+    let [output, ..] = monitor.outputs[..] else {
+        return None;
+    };
+    let output = connection
+        .randr_get_output_info(output, 0)
+        .ok()?
+        .reply()
+        .ok()?;
+    let crtc = connection
+        .randr_get_crtc_info(output.crtc, 0)
+        .ok()?
+        .reply()
+        .ok()?;
+    let transform = connection.randr_get_crtc_transform(output.crtc).ok()?;
+    // A fixed-point number of 16 bits before and after the point: how many pixels of the desk one of the monitor takes.
+    let across = transform.reply().ok()?.current_transform.matrix11;
+    let whole = f64::from(1 << 16) / f64::from(across);
+    (crtc.width > 0 && across > 0).then(|| (whole * 1000.0).round() as u32)
 }
 
 /// The EDID of the first output that has one.

@@ -1,22 +1,14 @@
-//! Keys for the layer while the program has the keyboard. They are watched, never taken. Only answers of the X server are waited for, with a
-//! short limit.
+//! The keyboard of an X server. Only answers of the server are waited for, with a short limit.
 //!
 //! A connection of our own selects the raw key events of the root window, which the server sends in addition to all events of the program.
-//! Only a key of ours with Ctrl and Alt held leads to a query: whether a window of the program has the focus.
+//! Only a key of ours leads to a query: whether a window of the program has the focus.
 
-use crate::live::{self, free};
+use super::{Event as KeyEvent, Fault, modifiers};
 use crate::socket::{self, Checked};
-use crate::switch::{config, say};
-use manyview_core::config::program;
-use manyview_core::control::{Answer, keys};
-use manyview_core::layer::{Layer, Pictured, Wanted};
-use std::error::Error;
+use manyview_core::config::Modifiers;
 use std::io;
 use std::os::fd::{AsRawFd, FromRawFd};
 use std::os::unix::net::UnixStream;
-use std::path::PathBuf;
-use std::sync::Mutex;
-use std::time::{SystemTime, UNIX_EPOCH};
 use x11rb::connection::Connection;
 use x11rb::protocol::Event;
 use x11rb::protocol::xinput::{ConnectionExt as _, Device, EventMask, XIEventMask};
@@ -34,89 +26,20 @@ const WINDOWS: usize = 16;
 const DEPTH: usize = 16;
 /// The most events handled per frame; the rest wait for the next one.
 const EVENTS: usize = 256;
-const CONTROL: [u32; 2] = [0xffe3, 0xffe4];
-const ALT: [u32; 2] = [0xffe9, 0xffea];
 
-type Fault = Box<dyn Error + Send + Sync>;
-
-enum State {
-    Unopened,
-    Open(Box<Keyboard>),
-    Closed,
-}
-
-struct Keyboard {
+pub(super) struct Keyboard {
     connection: RustConnection<Wire>,
     root: Window,
-    /// The process that opened the connection. After fork, a child has our memory and our descriptors, and must not use them.
-    pid: u32,
     /// The first keysym of each keycode.
     keysyms: Vec<u32>,
     /// Whether each keycode is down.
     down: [bool; 256],
     windows: Vec<Window>,
-    wanted: Option<Wanted>,
-    /// A picture is being taken.
-    waits: bool,
-}
-
-static STATE: Mutex<State> = Mutex::new(State::Unopened);
-
-fn wanted() -> bool {
-    config().is_some_and(|config| config.keys)
-}
-
-/// Before a frame is shown: gives the layer the picture that a key asked for.
-pub(crate) fn before(layer: &mut Layer) {
-    if !wanted() {
-        return;
-    }
-    if let Some(mut state) = free(&STATE)
-        && let State::Open(keyboard) = &mut *state
-        && keyboard.pid == std::process::id()
-        && !layer.awaits_picture()
-        && let Some(wanted) = keyboard.wanted.take()
-    {
-        layer.picture(wanted);
-        keyboard.waits = true;
-    }
-}
-
-/// After a frame was shown: handles keys, so that changes apply to the whole next frame. `window` returns the display's name and the window.
-pub(crate) fn after(layer: &mut Layer, window: impl FnOnce() -> Option<(String, Window)>) {
-    if !wanted() {
-        return;
-    }
-    let Some(mut state) = free(&STATE) else {
-        return;
-    };
-    let outcome = match &mut *state {
-        State::Closed => return,
-        State::Unopened => match window() {
-            None => Err("the program shows no window by GLX".into()),
-            Some((display, window)) => Keyboard::open(&display).map(|mut keyboard| {
-                keyboard.remember_window(window);
-                *state = State::Open(Box::new(keyboard));
-            }),
-        },
-        State::Open(keyboard) if keyboard.pid != std::process::id() => return,
-        State::Open(keyboard) => {
-            if let Some((_, window)) = window() {
-                keyboard.remember_window(window);
-            }
-            keyboard.handle_events(layer)
-        }
-    };
-    if let Err(fault) = outcome {
-        let sentence = format!("keys are off: {fault}; use `manyview ctl` with --control instead");
-        say(&sentence);
-        layer.note(sentence);
-        *state = State::Closed;
-    }
 }
 
 impl Keyboard {
-    fn open(display: &str) -> Result<Self, Fault> {
+    /// Opens a connection to the server of this name.
+    pub(super) fn open(display: &str) -> Result<Self, Fault> {
         let parsed = parse_display(Some(display))?;
         let mut fault: Fault = "the X server is on another machine".into();
         for address in parsed.connect_instruction() {
@@ -161,12 +84,9 @@ impl Keyboard {
         connection.xinput_xi_select_events(root, &[mask])?.check()?;
         let mut keyboard = Keyboard {
             root,
-            pid: std::process::id(),
             keysyms: Vec::new(),
             down: [false; 256],
             windows: Vec::new(),
-            wanted: None,
-            waits: false,
             connection,
         };
         keyboard.read_mapping()?;
@@ -198,7 +118,8 @@ impl Keyboard {
         Ok(())
     }
 
-    fn remember_window(&mut self, window: Window) {
+    /// The program shows this window.
+    pub(super) fn remember_window(&mut self, window: Window) {
         if !self.windows.contains(&window) {
             if self.windows.len() >= WINDOWS {
                 self.windows.remove(0);
@@ -207,53 +128,53 @@ impl Keyboard {
         }
     }
 
-    /// Handles the keys that were pressed since the last frame.
-    fn handle_events(&mut self, layer: &mut Layer) -> Result<(), Fault> {
-        if self.waits {
-            match layer.pictured() {
-                Some(Pictured::Later(wanted)) => self.wanted = Some(wanted),
-                Some(Pictured::Done(Ok(
-                    Answer::Captured { path, .. } | Answer::Explained { path, .. },
-                ))) => {
-                    say(&format!("wrote {}", path.display()));
-                }
-                Some(Pictured::Done(Err(error))) => say(&error.to_string()),
-                Some(Pictured::Done(Ok(_))) | None => {}
-            }
-            self.waits = false;
-        }
+    /// The keys that were let go since the last frame, and those that were pressed while a window of the program had the focus, of which `bound` asks whether they are
+    /// ours.
+    pub(super) fn events(
+        &mut self,
+        bound: &dyn Fn(u32, Modifiers) -> bool,
+    ) -> Result<Vec<KeyEvent>, Fault> {
+        let mut found = Vec::new();
         for _ in 0..EVENTS {
             match self.connection.poll_for_event()? {
                 None => break,
-                Some(Event::XinputRawKeyRelease(event)) => self.hold(event.detail, false),
+                Some(Event::XinputRawKeyRelease(event)) => {
+                    self.hold(event.detail, false);
+                    found.push(KeyEvent::Released(event.detail));
+                }
                 Some(Event::XinputRawKeyPress(event)) => {
-                    self.hold(event.detail, true);
+                    let repeats = self.hold(event.detail, true);
                     let keysym = self.keysyms.get(event.detail as usize).copied();
-                    if let Some(key) = keysym.and_then(keys::Key::of)
-                        && self.held(CONTROL)
-                        && self.held(ALT)
+                    let modifiers = modifiers(self.down());
+                    if let Some(keysym) = keysym
+                        && bound(keysym, modifiers)
                         && self.focused()?
                     {
-                        self.press(key, layer);
+                        found.push(KeyEvent::Pressed {
+                            code: event.detail,
+                            keysym,
+                            modifiers,
+                            repeats,
+                        });
                     }
                 }
                 Some(Event::MappingNotify(_)) => self.read_mapping()?,
                 Some(_) => {}
             }
         }
-        Ok(())
+        Ok(found)
     }
 
-    fn hold(&mut self, code: u32, down: bool) {
-        if let Some(key) = self.down.get_mut(code as usize) {
-            *key = down;
-        }
+    /// Notes whether a key is down, and returns whether it was before.
+    fn hold(&mut self, code: u32, down: bool) -> bool {
+        let key = self.down.get_mut(code as usize);
+        key.is_some_and(|key| std::mem::replace(key, down))
     }
 
-    /// Whether one of two keys is down.
-    fn held(&self, wanted: [u32; 2]) -> bool {
-        let mut keys = self.keysyms.iter().zip(self.down);
-        keys.any(|(keysym, down)| down && wanted.contains(keysym))
+    /// The keysyms of the keys that are down.
+    fn down(&self) -> impl Iterator<Item = u32> {
+        let keys = self.keysyms.iter().zip(self.down);
+        keys.filter_map(|(keysym, down)| down.then_some(*keysym))
     }
 
     /// Whether the keyboard focus is at the program: at one of its windows, or at one that encloses it or lies within it.
@@ -290,23 +211,6 @@ impl Keyboard {
         }
         Ok(found)
     }
-
-    fn press(&mut self, key: keys::Key, layer: &mut Layer) {
-        let before = layer.live();
-        match layer.press(key, picture) {
-            Ok(Ok(_)) => live::changed(layer, before),
-            Ok(Err(wanted)) => self.wanted = Some(wanted),
-            Err(error) => say(&error.to_string()),
-        }
-    }
-}
-
-/// The path of the picture of a frame, in the program's working directory.
-fn picture(frame: u64) -> PathBuf {
-    let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    let program = program::this_program().unwrap_or_default();
-    let name = keys::picture_name(&program, now.unwrap_or_default().as_secs(), frame);
-    std::env::current_dir().unwrap_or_default().join(name)
 }
 
 /// The connection to the X server. It raises no SIGPIPE, waits with a limit, and is not used once the program has closed its descriptor.
