@@ -19,7 +19,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let findings = Findings::gather(arguments.command.first().map(OsString::as_os_str))?;
+    let findings = Findings::gather(&arguments.command)?;
     if arguments.json {
         print_json(&findings)?;
     } else {
@@ -53,6 +53,7 @@ fn lines(findings: &Findings) -> Vec<(&str, String)> {
         };
         lines.push(("program", app.display().to_string() + &class));
     }
+    lines.extend(way(findings));
     lines.push((
         "layer",
         match &findings.library {
@@ -109,6 +110,39 @@ fn lines(findings: &Findings) -> Vec<(&str, String)> {
         let why = "not tried; the helper manyview-probe is not there for this class".to_owned();
         lines.push(("contexts", why));
     }
+    lines
+}
+
+/// How the program reaches the screen, and what the user should change.
+fn way(findings: &Findings) -> Vec<(&str, String)> {
+    let way = &findings.way;
+    let mut lines = Vec::new();
+    if let Some(windows) = &way.windows {
+        let class = windows.class.map_or_else(
+            || "of an unknown class".to_owned(),
+            |class| format!("of {} bits", class.bits()),
+        );
+        let api = windows
+            .api
+            .as_deref()
+            .unwrap_or("no API that its file names");
+        let name = windows.path.display();
+        lines.push(("Windows", format!("{name}, {class}, draws by {api}")));
+        let becomes = match windows.backend.as_deref() {
+            Some("OpenGL") => "drawn by OpenGL: in views",
+            Some("wined3d") => "drawn by wined3d, by OpenGL: in views",
+            Some(_) => "drawn by Vulkan: as it is, without views",
+            None => "what it loads when it runs is not known; `run` shows it",
+        };
+        lines.push(("", becomes.to_owned()));
+    }
+    if let Some(container) = &way.container {
+        lines.push(("container", container.clone()));
+    }
+    if let Some(desk) = &way.desk {
+        lines.push(("desk", desk.clone()));
+    }
+    lines.extend(way.advice.iter().map(|advice| ("advice", advice.clone())));
     lines
 }
 

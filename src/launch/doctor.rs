@@ -9,13 +9,14 @@ use super::error::LaunchError;
 use super::library::Libraries;
 use super::linked::{GlLibrary, linked_gl};
 use super::program::preload_value;
+use super::ways::Way;
 use super::xvfb::Xvfb;
 use super::{library, preflight};
 use crate::config::{self, OPTIONS};
 pub use crate::layer::support::Probe;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::ffi::OsStr;
+use std::ffi::OsString;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -49,11 +50,14 @@ pub struct Findings {
     pub disabled: bool,
     /// The contexts that were tried.
     pub probes: Vec<Probe>,
+    /// How the program reaches the screen.
+    pub way: Way,
 }
 
 impl Findings {
     /// Gathers all findings. A program that cannot be started under the layer is an error.
-    pub fn gather(app: Option<&OsStr>) -> Result<Self, LaunchError> {
+    pub fn gather(command: &[OsString]) -> Result<Self, LaunchError> {
+        let app = command.first().map(OsString::as_os_str);
         let (app, class) = app.map(preflight::check_app).transpose()?.unzip();
         let class = class.flatten();
         let libraries = library::find();
@@ -90,6 +94,7 @@ impl Findings {
             own_screen: screen.is_some(),
             disabled: config::disabled(|name| std::env::var(name).ok()),
             probes: probes.unwrap_or_default(),
+            way: Way::of(command, |name| std::env::var_os(name)),
             app,
         })
     }

@@ -20,6 +20,7 @@ mod proving;
 mod screen;
 mod signals;
 mod stepped;
+mod ways;
 mod wine;
 mod xvfb;
 
@@ -33,5 +34,6 @@ pub use program::{Ended, Launch};
 pub use proving::ProveJob;
 pub use screen::Screen;
 pub use stepped::{Stepped, Stop};
+pub use ways::Way;
 pub use wine::by_vulkan;
 pub use xvfb::Xvfb;
