@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, RenderbufferName, TextureName, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1886] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1888] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1786,6 +1786,8 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1886] = [
     AtomicPtr::new(first_glVertexArrayVertexAttribBindingEXT as *mut ()),
     AtomicPtr::new(first_glXChooseVisual as *mut ()),
     AtomicPtr::new(first_glXChooseFBConfig as *mut ()),
+    AtomicPtr::new(first_glXGetConfig as *mut ()),
+    AtomicPtr::new(first_glXGetFBConfigAttrib as *mut ()),
     AtomicPtr::new(first_glXChooseFBConfigSGIX as *mut ()),
     AtomicPtr::new(first_glXSwapBuffers as *mut ()),
     AtomicPtr::new(first_glXSwapBuffersMscOML as *mut ()),
@@ -1897,7 +1899,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1886] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1886] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1888] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -3676,6 +3678,8 @@ pub(crate) static HOOK: [Option<crate::Address>; 1886] = [
     Some(crate::Address(hook_glVertexArrayVertexAttribBindingEXT as *const ())),
     Some(crate::Address(hook_glXChooseVisual as *const ())),
     Some(crate::Address(hook_glXChooseFBConfig as *const ())),
+    Some(crate::Address(hook_glXGetConfig as *const ())),
+    Some(crate::Address(hook_glXGetFBConfigAttrib as *const ())),
     Some(crate::Address(hook_glXChooseFBConfigSGIX as *const ())),
     Some(crate::Address(hook_glXSwapBuffers as *const ())),
     Some(crate::Address(hook_glXSwapBuffersMscOML as *const ())),
@@ -3788,7 +3792,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1886] = [
 
 /// Calls the hook of each exported function with zeros, by slot.
 #[cfg(all(test, feature = "fake-driver"))]
-pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1886] = [
+pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1888] = [
     Some(zeros_glVertex2d),
     Some(zeros_glVertex2dv),
     Some(zeros_glVertex2f),
@@ -5567,6 +5571,8 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1886] = [
     Some(zeros_glVertexArrayVertexAttribBindingEXT),
     Some(zeros_glXChooseVisual),
     Some(zeros_glXChooseFBConfig),
+    Some(zeros_glXGetConfig),
+    Some(zeros_glXGetFBConfigAttrib),
     Some(zeros_glXChooseFBConfigSGIX),
     Some(zeros_glXSwapBuffers),
     Some(zeros_glXSwapBuffersMscOML),
@@ -5678,36 +5684,36 @@ pub(crate) static WITH_ZEROS: [Option<unsafe fn()>; 1886] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1831] = [
-    (b"OSMesaCreateContext", 1831, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1833, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1832, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1834, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1835, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1830, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglBindTexImage", 1812, crate::Address(eglBindTexImage as *const ())),
-    (b"eglCopyBuffers", 1809, crate::Address(eglCopyBuffers as *const ())),
-    (b"eglCreateContext", 1814, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1821, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1822, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1820, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1815, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1823, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1817, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1818, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1819, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1825, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1813, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglPostSubBufferNV", 1806, crate::Address(eglPostSubBufferNV as *const ())),
-    (b"eglReleaseThread", 1816, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1803, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersRegion2NOK", 1808, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
-    (b"eglSwapBuffersRegionNOK", 1807, crate::Address(eglSwapBuffersRegionNOK as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1805, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1804, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"eglTerminate", 1824, crate::Address(eglTerminate as *const ())),
-    (b"eglWaitClient", 1811, crate::Address(eglWaitClient as *const ())),
-    (b"eglWaitGL", 1810, crate::Address(eglWaitGL as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1833] = [
+    (b"OSMesaCreateContext", 1833, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1835, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1834, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1836, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1837, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1832, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglBindTexImage", 1814, crate::Address(eglBindTexImage as *const ())),
+    (b"eglCopyBuffers", 1811, crate::Address(eglCopyBuffers as *const ())),
+    (b"eglCreateContext", 1816, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1823, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1824, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1822, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1817, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1825, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1819, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1820, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1821, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1827, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1815, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglPostSubBufferNV", 1808, crate::Address(eglPostSubBufferNV as *const ())),
+    (b"eglReleaseThread", 1818, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1805, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersRegion2NOK", 1810, crate::Address(eglSwapBuffersRegion2NOK as *const ())),
+    (b"eglSwapBuffersRegionNOK", 1809, crate::Address(eglSwapBuffersRegionNOK as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1807, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1806, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"eglTerminate", 1826, crate::Address(eglTerminate as *const ())),
+    (b"eglWaitClient", 1813, crate::Address(eglWaitClient as *const ())),
+    (b"eglWaitGL", 1812, crate::Address(eglWaitGL as *const ())),
     (b"glAccum", 1414, crate::Address(glAccum as *const ())),
     (b"glActiveStencilFaceEXT", 823, crate::Address(glActiveStencilFaceEXT as *const ())),
     (b"glActiveTexture", 556, crate::Address(glActiveTexture as *const ())),
@@ -7484,32 +7490,34 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1831] = [
     (b"glWindowPos4sMESA", 711, crate::Address(glWindowPos4sMESA as *const ())),
     (b"glWindowPos4svMESA", 712, crate::Address(glWindowPos4svMESA as *const ())),
     (b"glWindowRectanglesEXT", 527, crate::Address(glWindowRectanglesEXT as *const ())),
-    (b"glXBindTexImageEXT", 1784, crate::Address(glXBindTexImageEXT as *const ())),
+    (b"glXBindTexImageEXT", 1786, crate::Address(glXBindTexImageEXT as *const ())),
     (b"glXChooseFBConfig", 1777, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1778, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseFBConfigSGIX", 1780, crate::Address(glXChooseFBConfigSGIX as *const ())),
     (b"glXChooseVisual", 1776, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCopyContext", 1792, crate::Address(glXCopyContext as *const ())),
-    (b"glXCopySubBufferMESA", 1781, crate::Address(glXCopySubBufferMESA as *const ())),
-    (b"glXCreateContext", 1788, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1790, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1791, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1789, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1794, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1793, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyGLXPbufferSGIX", 1797, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
-    (b"glXDestroyGLXPixmap", 1799, crate::Address(glXDestroyGLXPixmap as *const ())),
-    (b"glXDestroyPbuffer", 1796, crate::Address(glXDestroyPbuffer as *const ())),
-    (b"glXDestroyPixmap", 1798, crate::Address(glXDestroyPixmap as *const ())),
-    (b"glXDestroyWindow", 1795, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1800, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1801, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1786, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1785, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1787, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1779, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1780, crate::Address(glXSwapBuffersMscOML as *const ())),
-    (b"glXUseXFont", 1783, crate::Address(glXUseXFont as *const ())),
-    (b"glXWaitGL", 1782, crate::Address(glXWaitGL as *const ())),
+    (b"glXCopyContext", 1794, crate::Address(glXCopyContext as *const ())),
+    (b"glXCopySubBufferMESA", 1783, crate::Address(glXCopySubBufferMESA as *const ())),
+    (b"glXCreateContext", 1790, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1792, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1793, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1791, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1796, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1795, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyGLXPbufferSGIX", 1799, crate::Address(glXDestroyGLXPbufferSGIX as *const ())),
+    (b"glXDestroyGLXPixmap", 1801, crate::Address(glXDestroyGLXPixmap as *const ())),
+    (b"glXDestroyPbuffer", 1798, crate::Address(glXDestroyPbuffer as *const ())),
+    (b"glXDestroyPixmap", 1800, crate::Address(glXDestroyPixmap as *const ())),
+    (b"glXDestroyWindow", 1797, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetConfig", 1778, crate::Address(glXGetConfig as *const ())),
+    (b"glXGetFBConfigAttrib", 1779, crate::Address(glXGetFBConfigAttrib as *const ())),
+    (b"glXGetProcAddress", 1802, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1803, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1788, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1787, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1789, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1781, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1782, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXUseXFont", 1785, crate::Address(glXUseXFont as *const ())),
+    (b"glXWaitGL", 1784, crate::Address(glXWaitGL as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, zeros_glVertex2d, (x: f64, y: f64) -> (), {
@@ -19899,215 +19907,223 @@ export! { 1777, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConf
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1778, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1778, glXGetConfig, first_glXGetConfig, hook_glXGetConfig, zeros_glXGetConfig, (dpy: Ptr, visual: Ptr, name: i32, value: Ptr) -> i32, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glXGetConfig(dpy, visual, name, value) }
+} }
+export! { 1779, glXGetFBConfigAttrib, first_glXGetFBConfigAttrib, hook_glXGetFBConfigAttrib, zeros_glXGetFBConfigAttrib, (dpy: Ptr, config: Ptr, name: i32, value: Ptr) -> i32, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glXGetFBConfigAttrib(dpy, config, name, value) }
+} }
+export! { 1780, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, zeros_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1779, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1781, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, zeros_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1780, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1782, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, zeros_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1781, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1783, glXCopySubBufferMESA, first_glXCopySubBufferMESA, hook_glXCopySubBufferMESA, zeros_glXCopySubBufferMESA, (dpy: Ptr, drawable: c_ulong, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopySubBufferMESA(dpy, drawable, x, y, width, height) }
 } }
-export! { 1782, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
+export! { 1784, glXWaitGL, first_glXWaitGL, hook_glXWaitGL, zeros_glXWaitGL, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXWaitGL() }
 } }
-export! { 1783, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
+export! { 1785, glXUseXFont, first_glXUseXFont, hook_glXUseXFont, zeros_glXUseXFont, (font: c_ulong, first: i32, count: i32, base: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXUseXFont(font, first, count, base) }
 } }
-export! { 1784, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
+export! { 1786, glXBindTexImageEXT, first_glXBindTexImageEXT, hook_glXBindTexImageEXT, zeros_glXBindTexImageEXT, (dpy: Ptr, drawable: c_ulong, buffer: i32, attribs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXBindTexImageEXT(dpy, drawable, buffer, attribs) }
 } }
-export! { 1785, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1787, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, zeros_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1786, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1788, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, zeros_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1787, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1789, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, zeros_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1788, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1790, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, zeros_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1789, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1791, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, zeros_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1790, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1792, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, zeros_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1791, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1793, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, zeros_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1792, glXCopyContext, first_glXCopyContext, hook_glXCopyContext, zeros_glXCopyContext, (dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) -> (), {
+export! { 1794, glXCopyContext, first_glXCopyContext, hook_glXCopyContext, zeros_glXCopyContext, (dpy: Ptr, src: Ptr, dst: Ptr, mask: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCopyContext(dpy, src, dst, mask) }
 } }
-export! { 1793, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1795, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, zeros_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1794, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1796, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, zeros_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1795, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1797, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, zeros_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1796, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1798, glXDestroyPbuffer, first_glXDestroyPbuffer, hook_glXDestroyPbuffer, zeros_glXDestroyPbuffer, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPbuffer(dpy, pbuf) }
 } }
-export! { 1797, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
+export! { 1799, glXDestroyGLXPbufferSGIX, first_glXDestroyGLXPbufferSGIX, hook_glXDestroyGLXPbufferSGIX, zeros_glXDestroyGLXPbufferSGIX, (dpy: Ptr, pbuf: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPbufferSGIX(dpy, pbuf) }
 } }
-export! { 1798, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1800, glXDestroyPixmap, first_glXDestroyPixmap, hook_glXDestroyPixmap, zeros_glXDestroyPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyPixmap(dpy, pixmap) }
 } }
-export! { 1799, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
+export! { 1801, glXDestroyGLXPixmap, first_glXDestroyGLXPixmap, hook_glXDestroyGLXPixmap, zeros_glXDestroyGLXPixmap, (dpy: Ptr, pixmap: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyGLXPixmap(dpy, pixmap) }
 } }
-export! { 1800, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1802, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, zeros_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1801, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1803, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, zeros_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1803, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1805, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, zeros_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1804, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1806, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, zeros_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1805, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1807, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, zeros_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1806, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
+export! { 1808, eglPostSubBufferNV, first_eglPostSubBufferNV, hook_eglPostSubBufferNV, zeros_eglPostSubBufferNV, (dpy: Ptr, surface: Ptr, x: i32, y: i32, width: i32, height: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglPostSubBufferNV(dpy, surface, x, y, width, height) }
 } }
-export! { 1807, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1809, eglSwapBuffersRegionNOK, first_eglSwapBuffersRegionNOK, hook_eglSwapBuffersRegionNOK, zeros_eglSwapBuffersRegionNOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegionNOK(dpy, surface, numRects, rects) }
 } }
-export! { 1808, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
+export! { 1810, eglSwapBuffersRegion2NOK, first_eglSwapBuffersRegion2NOK, hook_eglSwapBuffersRegion2NOK, zeros_eglSwapBuffersRegion2NOK, (dpy: Ptr, surface: Ptr, numRects: i32, rects: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersRegion2NOK(dpy, surface, numRects, rects) }
 } }
-export! { 1809, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
+export! { 1811, eglCopyBuffers, first_eglCopyBuffers, hook_eglCopyBuffers, zeros_eglCopyBuffers, (dpy: Ptr, surface: Ptr, target: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCopyBuffers(dpy, surface, target) }
 } }
-export! { 1810, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
+export! { 1812, eglWaitGL, first_eglWaitGL, hook_eglWaitGL, zeros_eglWaitGL, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitGL() }
 } }
-export! { 1811, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
+export! { 1813, eglWaitClient, first_eglWaitClient, hook_eglWaitClient, zeros_eglWaitClient, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglWaitClient() }
 } }
-export! { 1812, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
+export! { 1814, eglBindTexImage, first_eglBindTexImage, hook_eglBindTexImage, zeros_eglBindTexImage, (dpy: Ptr, surface: Ptr, buffer: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglBindTexImage(dpy, surface, buffer) }
 } }
-export! { 1813, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1815, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, zeros_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1814, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1816, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, zeros_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1815, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1817, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, zeros_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1816, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
+export! { 1818, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, zeros_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1817, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1819, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, zeros_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1818, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1820, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, zeros_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1819, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1821, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, zeros_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1820, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1822, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, zeros_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1821, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1823, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, zeros_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1822, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1824, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, zeros_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1823, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1825, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, zeros_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1824, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
+export! { 1826, eglTerminate, first_eglTerminate, hook_eglTerminate, zeros_eglTerminate, (dpy: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglTerminate(dpy) }
 } }
-export! { 1825, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1827, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, zeros_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1830, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1832, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, zeros_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1831, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1833, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, zeros_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1832, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1834, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, zeros_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1833, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1835, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, zeros_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1834, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1836, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, zeros_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1835, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1837, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, zeros_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

@@ -149,6 +149,7 @@ fn window((width, height): (u32, u32)) -> Window {
             es: false,
             double_buffered: true,
             stereo: false,
+            eyes: false,
             names_back: true,
             default_draw: c::BACK,
             default_read: c::BACK,

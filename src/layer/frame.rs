@@ -100,8 +100,18 @@ impl Layer {
         if self.is_mono() {
             self.enter_mono(gl);
         }
+        let eyes = self.state.framebuffers.has_eyes();
+        if eyes {
+            self.spread_eyes(gl);
+            self.known.mono.active = false;
+            self.targets.atlas.tiles.shown = ViewSet::ALL;
+        }
         super::orphans::delete_orphans(gl, &self.session.group);
         self.in_neutral(gl, |layer, neutral| layer.show_picture(gl, swap, neutral));
+        self.known.mono.active |= eyes;
+        if swap {
+            self.state.framebuffers.swapped();
+        }
         if swap {
             if self.is_mono() {
                 self.diagnostics.report.mono_frame();
@@ -147,7 +157,9 @@ impl Layer {
             gl.read_buffer(self.state.window.buffers.default_read);
         }
         let used = self.state.framebuffers.uses_front();
-        if swap && self.targets.atlas.swapped(gl, used) {
+        // That is the right eye's picture otherwise.
+        let front = !self.state.framebuffers.has_eyes();
+        if swap && front && self.targets.atlas.swapped(gl, used) {
             self.apply_buffers(gl);
         }
         self.next_proof(gl);

@@ -240,7 +240,7 @@ impl Layer {
         if buffers.iter().any(refused) || buffers.iter().enumerate().any(twice) {
             return None;
         }
-        f.draw_buffers = buffers.to_vec();
+        f.draw_to(buffers);
         self.apply_buffers(gl);
         Some(())
     }
@@ -476,6 +476,7 @@ impl Layer {
             c::READ_FRAMEBUFFER_BINDING if reads => Some(f.read.0.into()),
             c::READ_BUFFER if reads && f.read.is_zero() => self.buffer_of_zero(name),
             _ if self.is_plain() => None,
+            c::STEREO if self.state.window.buffers.eyes => Some(1),
             c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.0.into()),
             c::DRAW_BUFFER if zero && !es => self.buffer_of_zero(name),
             c::DRAW_BUFFER0..=c::DRAW_BUFFER15 if zero => self.buffer_of_zero(name),

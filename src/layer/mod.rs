@@ -20,6 +20,7 @@ mod dissolve;
 mod draw;
 mod executed;
 mod explain;
+mod eyes;
 mod feedback;
 mod fit;
 mod frame;

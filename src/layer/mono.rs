@@ -30,7 +30,7 @@ impl Layer {
 
     /// Ends a mono frame: copies the program's own view to the others, and draws all views from now on.
     pub(super) fn draw_all_views(&mut self, gl: &Gl) {
-        if !std::mem::take(&mut self.known.mono.active) {
+        if self.state.framebuffers.has_eyes() || !std::mem::take(&mut self.known.mono.active) {
             return;
         }
         self.targets.atlas.tiles.shown = self.shown();
@@ -46,7 +46,7 @@ impl Layer {
 
     /// After a frame: draws the next one in the program's own view only, where that is possible, for as long as nothing depends on the view.
     pub(super) fn enter_mono(&mut self, gl: &Gl) {
-        let mono = self.may_enter_mono();
+        let mono = self.state.framebuffers.has_eyes() || self.may_enter_mono();
         if mono {
             self.known.mono.active = true;
         } else {

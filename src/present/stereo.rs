@@ -18,6 +18,28 @@ impl Attributes {
         self == Self::Config || ![1, 4, 5, STEREO].contains(&name)
     }
 
+    /// The program's list without the wish for a stereo window; `None` if it has none. `list` is not read beyond its end.
+    pub fn without_stereo(self, list: impl IntoIterator<Item = i32>) -> Option<Vec<i32>> {
+        let mut list = list.into_iter();
+        let mut changed = Vec::new();
+        let mut asked = false;
+        while let Some(name) = list.next().filter(|&name| name != 0) {
+            let value = if self.has_value(name) {
+                list.next()
+            } else {
+                None
+            };
+            if name == STEREO {
+                asked = value.is_none_or(|value| value == 1);
+                continue;
+            }
+            changed.push(name);
+            changed.extend(value);
+        }
+        changed.push(0);
+        asked.then_some(changed)
+    }
+
     /// The program's list, changed to ask for a stereo window as well; `None` if the program asks for one itself. `list` is not read
     /// beyond its end.
     pub fn with_stereo(self, list: impl IntoIterator<Item = i32>) -> Option<Vec<i32>> {
@@ -66,6 +88,17 @@ mod tests {
     fn changed(kind: Attributes, list: &[i32]) -> Option<Vec<i32>> {
         let beyond = std::iter::from_fn(|| panic!("read past its end"));
         kind.with_stereo(list.iter().copied().chain(beyond))
+    }
+
+    #[test]
+    fn the_wish_for_a_stereo_window_is_left_out() {
+        let asked = [RGBA, STEREO, DOUBLEBUFFER, RED_SIZE, 8, 0, 99];
+        let left = vec![RGBA, DOUBLEBUFFER, RED_SIZE, 8, 0];
+        assert_eq!(Visual.without_stereo(asked), Some(left));
+        assert_eq!(Visual.without_stereo([RGBA, RED_SIZE, STEREO, 0]), None);
+        let asked = [DOUBLEBUFFER, 1, STEREO, 1, 0];
+        assert_eq!(Config.without_stereo(asked), Some(vec![DOUBLEBUFFER, 1, 0]));
+        assert_eq!(Config.without_stereo([STEREO, 0, DOUBLEBUFFER, 1, 0]), None);
     }
 
     #[test]

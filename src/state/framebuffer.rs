@@ -1,5 +1,6 @@
 //! Framebuffer 0 as the program sees it.
 
+use super::eyes::are_eyes_given;
 use crate::gl::{FramebufferName, Gl, consts as c};
 
 /// Which buffers a drawable has, and their names.
@@ -12,6 +13,8 @@ pub struct Buffers {
     pub double_buffered: bool,
     /// There is a left and a right buffer.
     pub stereo: bool,
+    /// The program has a left and a right buffer of the layer's (see [`super::eyes`]).
+    pub eyes: bool,
     /// Whether GL_BACK names a buffer. Where there is only a front buffer, Mesa allows the name for that.
     pub names_back: bool,
     /// The buffer that a new context draws to. GL_BACK for some drawables without a back buffer too (EGL pbuffers).
@@ -120,11 +123,14 @@ impl Window {
         let srgb_capable = modern
             && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) as u32
                 == c::SRGB;
+        let samples = bit(c::SAMPLES);
+        let stereo = !es && gl.get_integer(c::STEREO) != 0;
         Window {
             buffers: Buffers {
                 es,
                 double_buffered,
-                stereo: !es && gl.get_integer(c::STEREO) != 0,
+                stereo,
+                eyes: are_eyes_given() && !stereo && double_buffered && !es && samples == 0,
                 names_back,
                 default_draw: match es {
                     true => c::BACK,
@@ -142,7 +148,7 @@ impl Window {
                 true => BITS.map(bit),
                 false => attached_bits(gl, color),
             },
-            samples: bit(c::SAMPLES),
+            samples,
             srgb_capable,
             srgb: srgb_capable && gl.is_srgb_enabled(),
             float: modern
@@ -154,7 +160,7 @@ impl Window {
 
 /// The attachment of the atlas that is the back buffer, or the only one.
 pub const BACK: u32 = c::COLOR_ATTACHMENT0;
-/// The attachment that is the front buffer, where that is another image.
+/// The attachment that is the front buffer, where that is another image; the right buffer where the program has one of the layer's.
 pub const FRONT: u32 = c::COLOR_ATTACHMENT1;
 
 /// Which framebuffers are bound and which buffers of framebuffer 0 are drawn to and read from, in the program's words.
@@ -170,7 +176,12 @@ pub struct Framebuffers {
     pub read_buffer: u32,
     buffers: Buffers,
     two: bool,
+    /// Swaps for which the program counts as one that draws both eyes.
+    eyes: u32,
 }
+
+/// A program that has drawn nothing for the right eye for so many swaps has left its stereo mode.
+const EYES_IDLE: u32 = 60;
 
 impl Framebuffers {
     /// The bindings and buffers of a new context.
@@ -182,6 +193,7 @@ impl Framebuffers {
             read_buffer: window.buffers.default_read,
             buffers: window.buffers,
             two: window.has_two_images(),
+            eyes: 0,
         }
     }
 
@@ -195,6 +207,17 @@ impl Framebuffers {
     /// window does not have; the driver then has to decide.
     pub fn images(&self, buffer: u32) -> Option<&'static [u32]> {
         const BOTH: [u32; 2] = [FRONT, BACK];
+        const EYES: [u32; 2] = [BACK, FRONT];
+        let right = [c::BACK_RIGHT, c::FRONT_RIGHT, c::RIGHT].contains(&buffer);
+        if self.has_eyes() || self.buffers.eyes && right {
+            return match buffer {
+                c::NONE => Some(&[]),
+                c::BACK_LEFT | c::FRONT_LEFT | c::LEFT => Some(&EYES[..1]),
+                c::BACK_RIGHT | c::FRONT_RIGHT | c::RIGHT => Some(&EYES[1..]),
+                c::BACK | c::FRONT | c::FRONT_AND_BACK => Some(&EYES),
+                _ => None,
+            };
+        }
         let (front, both) = match self.two {
             true => (&BOTH[..1], &BOTH[..]),
             false => (&BOTH[1..], &BOTH[1..]),
@@ -231,6 +254,25 @@ impl Framebuffers {
         images.map_or(BACK, |i| i.first().copied().unwrap_or(c::NONE))
     }
 
+    /// Whether the program draws a picture for each eye, to buffers of the layer's. One that has asked for them and does not use them is drawn as any other.
+    pub fn has_eyes(&self) -> bool {
+        self.buffers.eyes && self.eyes > 0
+    }
+
+    /// The program has named these buffers to draw to.
+    pub fn draw_to(&mut self, buffers: &[u32]) {
+        let right = [c::BACK_RIGHT, c::FRONT_RIGHT, c::RIGHT];
+        if buffers.iter().any(|buffer| right.contains(buffer)) {
+            self.eyes = EYES_IDLE;
+        }
+        self.draw_buffers = buffers.to_vec();
+    }
+
+    /// A frame was shown.
+    pub fn swapped(&mut self) {
+        self.eyes = self.eyes.saturating_sub(1);
+    }
+
     /// Whether the front buffer is drawn to or read from, and is another image than the back buffer.
     pub fn uses_front(&self) -> bool {
         self.read_image() == FRONT || self.draw_images().contains(&FRONT)
@@ -239,7 +281,8 @@ impl Framebuffers {
     /// Whether the program draws to the front buffer, so that a flush must show it.
     pub fn draws_front(&self) -> bool {
         let front = [c::FRONT, c::FRONT_LEFT, c::LEFT, c::FRONT_AND_BACK];
-        self.draw_buffers.iter().any(|b| front.contains(b))
+        // What is drawn to the front of such a window is shown at the swap.
+        !self.has_eyes() && self.draw_buffers.iter().any(|b| front.contains(b))
     }
 
     /// Reads the draw buffer again: glPopAttrib may have restored another one of the atlas.

@@ -4,6 +4,7 @@
 
 mod classification;
 mod effect;
+mod eyes;
 mod framebuffer;
 mod lists;
 mod neutral;
@@ -15,6 +16,7 @@ mod uniform_buffers;
 
 pub use classification::ClassificationState;
 pub use effect::{Effect, Immediate};
+pub use eyes::{are_eyes_given, give_eyes};
 pub use framebuffer::{BACK, Buffers, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Lists, Orphans, Run, Segment, Start};
 pub use neutral::Neutral;

@@ -1,4 +1,5 @@
-//! The choice of visuals under GLX: where the output needs a left and a right buffer, the driver is asked for a stereo window.
+//! The choice of visuals under GLX: where the output needs a left and a right buffer, the driver is asked for a stereo window. Where the program asks for one and the driver has none, the
+//! program gets another one, of which it is told that it has both.
 
 use crate::context::guarded;
 use crate::provider::Provider;
@@ -6,6 +7,7 @@ use crate::switch::{self, Mode};
 use manyview_core::config::Output;
 use manyview_core::gl::Ptr;
 use manyview_core::present::Attributes;
+use manyview_core::state::{are_eyes_given, give_eyes};
 
 /// The program's attributes with stereo added. None where the output needs no stereo, or the list cannot be extended.
 ///
@@ -27,6 +29,22 @@ unsafe fn with_stereo(kind: Attributes, attribs: Ptr) -> Option<Vec<i32>> {
     kind.with_stereo((0..).map(|i| unsafe { list.add(i).read() }))
 }
 
+/// The program's attributes without the wish for stereo. None where it has no such wish, or the layer is not to help.
+///
+/// # Safety
+/// A list as GLX takes it, or null.
+unsafe fn without_stereo(kind: Attributes, attribs: Ptr) -> Option<Vec<i32>> {
+    if attribs.is_null() || switch::mode() != Mode::Active {
+        return None;
+    }
+    let several = switch::config().is_some_and(|config| config.views > 1);
+    let list = attribs.cast::<i32>();
+    // SAFETY: as above.
+    several
+        .then(|| kind.without_stereo((0..).map(|i| unsafe { list.add(i).read() })))
+        .flatten()
+}
+
 /// A hook that asks the driver for a stereo window, and if there is none, for the window that the program wants.
 macro_rules! choose {
     ($name:ident($($count:ident)?), $kind:expr) => {
@@ -36,7 +54,19 @@ macro_rules! choose {
             // SAFETY: the program's list.
             let stereo = unsafe { with_stereo($kind, attribs) };
             let found = stereo.map(|mut list| ask(list.as_mut_ptr().cast()));
-            found.filter(|found| !found.is_null()).unwrap_or_else(|| ask(attribs))
+            let found = found.filter(|found| !found.is_null()).unwrap_or_else(|| ask(attribs));
+            if !found.is_null() {
+                return found;
+            }
+            // SAFETY: the program's list.
+            let Some(mut list) = (unsafe { without_stereo($kind, attribs) }) else {
+                return found;
+            };
+            let found = ask(list.as_mut_ptr().cast());
+            if !found.is_null() {
+                give_eyes();
+            }
+            found
         }
     };
 }
@@ -44,3 +74,24 @@ macro_rules! choose {
 choose!(glXChooseVisual(), Attributes::Visual);
 choose!(glXChooseFBConfig(count), Attributes::Config);
 choose!(glXChooseFBConfigSGIX(count), Attributes::Config);
+
+/// GLX_STEREO
+const STEREO: i32 = 6;
+
+/// A hook that tells of a window that it has a left and a right buffer, once the program was given these.
+macro_rules! tell {
+    ($name:ident($of:ident)) => {
+        pub(crate) unsafe fn $name(dpy: Ptr, $of: Ptr, name: i32, value: Ptr) -> i32 {
+            // SAFETY: the program's own call.
+            let answer = guarded(|| unsafe { Provider::Gl.real().$name(dpy, $of, name, value) });
+            if answer == 0 && name == STEREO && are_eyes_given() && !value.is_null() {
+                // SAFETY: the driver has written one integer there.
+                unsafe { value.cast::<i32>().write(1) };
+            }
+            answer
+        }
+    };
+}
+
+tell!(glXGetConfig(visual));
+tell!(glXGetFBConfigAttrib(config));

@@ -221,6 +221,7 @@ impl Layer {
                 },
             front: self.targets.atlas.has_front(),
             copies: !offscreen.is_empty(),
+            eyes: self.state.framebuffers.has_eyes(),
         }
     }
 

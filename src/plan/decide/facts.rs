@@ -184,6 +184,8 @@ pub struct Destination {
     pub front: bool,
     /// Some image beside the window differs between the views.
     pub copies: bool,
+    /// The program draws a picture for each eye itself.
+    pub eyes: bool,
 }
 
 impl Destination {

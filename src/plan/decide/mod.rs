@@ -7,6 +7,7 @@
 mod backdrop;
 mod depths;
 mod effect;
+mod eyes;
 mod facts;
 mod foreground;
 mod grid;
@@ -62,6 +63,10 @@ pub fn decide(facts: &Facts, known: &Known, settings: &Settings) -> Result<Decis
     let mut effects = Vec::new();
     if let Some((detail, why)) = grid::demanded(facts) {
         return Err(Preparation::ChangeGrid(detail, why));
+    }
+    if facts.destination.eyes {
+        scene::observe(facts, &mut known, settings);
+        return Ok(eyes::decide(facts, known));
     }
     if let Shaders::Unlinked(program) = facts.shaders
         && settings.views > 1

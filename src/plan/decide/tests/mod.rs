@@ -83,6 +83,7 @@ pub(super) fn scene() -> Facts {
             layered: false,
             front: false,
             copies: false,
+            eyes: false,
         },
         grid: None,
         clear: ClearFacts::default(),
