@@ -8,14 +8,22 @@ use image::{RgbImage, imageops};
 use manyview::metric::{Comparison, Gate};
 use std::path::Path;
 use std::process::Command;
-use support::{Screen, manyview, own_screen, rgb, scratch, succeed, target_folder};
+use support::{Screen, manyview, own_screen, rgb, scratch, sized_screen, succeed, target_folder};
 use tempfile::tempdir;
 
 const VIEWS: u32 = 3;
 const CAMERAS: [&str; 4] = ["--separation", "0.2", "--convergence", "4"];
 /// Each program with its options.
-const SCENES: [(&str, &[&str]); 8] = [
+const SCENES: [(&str, &[&str]); 20] = [
     ("wgl", &[]),
+    ("d3d3", &[]),
+    ("d3d3", &["--software"]),
+    ("d3d3", &["--execute"]),
+    ("d3d3", &["--full"]),
+    ("d3d7", &[]),
+    ("d3d7", &["--software"]),
+    ("d3d7", &["--full"]),
+    ("d3d7", &["--software", "--full"]),
     ("d3d8", &[]),
     ("d3d8", &["--shader", "rows"]),
     ("d3d8", &["--shader", "columns", "--offset", "7"]),
@@ -23,6 +31,10 @@ const SCENES: [(&str, &[&str]); 8] = [
     ("d3d9", &["--shader", "rows", "--offset", "3"]),
     ("d3d9", &["--shader", "columns"]),
     ("d3d9", &["--shader", "indexed", "--offset", "50"]),
+    ("d3d10", &["--shader", "rows"]),
+    ("d3d10", &["--shader", "columns", "--offset", "7"]),
+    ("d3d11", &["--shader", "rows", "--offset", "3"]),
+    ("d3d11", &["--shader", "columns"]),
 ];
 
 /// Wine with its files in a folder of their own, so that nothing is changed of the user's.
@@ -52,7 +64,8 @@ fn captured(screen: &Screen, out: &Path, layer: &[&str], program: &[&str]) -> Rg
 #[test]
 #[ignore = "Wine: make test-wine"]
 fn wine_programs_have_the_views_that_they_draw_themselves() {
-    let screen = own_screen();
+    // Xvfb has one mode, which the programs that have the screen for themselves ask for.
+    let screen = sized_screen((320, 240));
     let folder = tempdir().expect("a folder");
     let out = folder.path().join("picture.png");
     for class in ["64", "32"] {

@@ -1,10 +1,11 @@
 /* What the programs for Windows draw: boxes that turn, and a sign that stands still.
  *
- * PROGRAM [--shader rows|columns|indexed] [--offset N] [--frames N] [--view I/N] [--separation S] [--convergence C]
+ * PROGRAM [--shader rows|columns|indexed] [--offset N] [--software] [--execute] [--full] [--frames N] [--view I/N] [--separation S] [--convergence C]
  *
  * --shader, where the program has shaders: rows, the camera is four dot products (m4x4); columns, four multiplications and additions; indexed, a bone of three rows,
- * chosen by an index of the vertex, before the camera's rows. --offset: the constant at which the camera begins. --view I/N: draws view I of N itself: x in clip space
- * moves by S·place·(w - C), where place is I - (N - 1) / 2. */
+ * chosen by an index of the vertex, before the camera's rows. --offset: the constant at which the camera begins. --software, where the program can: it transforms the
+ * vertices itself. --execute, where the program can: it draws by execute buffers. --full, where the program can: it has the screen for itself and flips. --view I/N: draws
+ * view I of N itself: x in clip space moves by S·place·(w - C), where place is I - (N - 1) / 2. */
 #include <windows.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@ enum { WIDTH = 320, HEIGHT = 240, BONES = 8 };
 
 typedef float matrix[16]; /* rows, for row vectors, as Direct3D has them */
 
-static int frames = 5, view, views = 1, offset;
+static int frames = 5, view, views = 1, offset, software, execute, full;
 static const char *shader = "";
 static double separation, convergence = 1.0;
 
@@ -85,23 +86,54 @@ static DWORD colour_of(int box, int corner)
     return colours[(corner / 6 + box) % 6];
 }
 
+/* The constants of a box: its bone, if it has one, and the camera. */
+__attribute__((unused)) static void constants_of(const matrix place, const matrix camera, float bone[12], float rows[16])
+{
+    matrix m;
+    if (!strcmp(shader, "indexed")) {
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 4; j++)
+                bone[4 * i + j] = place[4 * j + i];
+        memcpy(m, camera, sizeof m);
+    } else
+        product(m, place, camera);
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            rows[4 * i + j] = strcmp(shader, "columns") ? m[4 * j + i] : m[4 * i + j];
+}
+
+/* The sign, in screen coordinates. */
+__attribute__((unused)) static const struct flat_vertex {
+    float x, y, z, rhw;
+    DWORD colour;
+} sign[6] = {
+    {10, 10, 0, 1, 0xffffffff}, {60, 10, 0, 1, 0xffffffff}, {10, 30, 0, 1, 0xffffffff},
+    {60, 10, 0, 1, 0xffffffff}, {60, 30, 0, 1, 0xff808080}, {10, 30, 0, 1, 0xffffffff}};
+
 /* Reads the options and makes the window. */
 static HWND begin(int count, char **words)
 {
     WNDCLASSA kind = {0};
-    for (int i = 1; i + 1 < count; i += 2) {
-        if (!strcmp(words[i], "--shader"))
-            shader = words[i + 1];
+    for (int i = 1; i < count; i++) {
+        const char *value = i + 1 < count ? words[i + 1] : "";
+        if (!strcmp(words[i], "--software"))
+            software = 1;
+        else if (!strcmp(words[i], "--execute"))
+            execute = 1;
+        else if (!strcmp(words[i], "--full"))
+            full = 1;
+        else if (!strcmp(words[i], "--shader"))
+            shader = value, i++;
         else if (!strcmp(words[i], "--offset"))
-            offset = atoi(words[i + 1]);
+            offset = atoi(value), i++;
         else if (!strcmp(words[i], "--frames"))
-            frames = atoi(words[i + 1]);
+            frames = atoi(value), i++;
         else if (!strcmp(words[i], "--view"))
-            sscanf(words[i + 1], "%d/%d", &view, &views);
+            sscanf(value, "%d/%d", &view, &views), i++;
         else if (!strcmp(words[i], "--separation"))
-            separation = atof(words[i + 1]);
+            separation = atof(value), i++;
         else if (!strcmp(words[i], "--convergence"))
-            convergence = atof(words[i + 1]);
+            convergence = atof(value), i++;
         else
             fprintf(stderr, "%s is no option\n", words[i]), exit(2);
     }

@@ -1,14 +1,6 @@
 /* A vertex shader of Direct3D 8 and 9, put together by hand: a compiler of shaders is not there on every system. */
 #include "scene.h"
 
-/* The sign, in screen coordinates. */
-static const struct flat_vertex {
-    float x, y, z, rhw;
-    DWORD colour;
-} sign[6] = {
-    {10, 10, 0, 1, 0xffffffff}, {60, 10, 0, 1, 0xffffffff}, {10, 30, 0, 1, 0xffffffff},
-    {60, 10, 0, 1, 0xffffffff}, {60, 30, 0, 1, 0xff808080}, {10, 30, 0, 1, 0xffffffff}};
-
 static DWORD code[128];
 static int length;
 
@@ -63,20 +55,4 @@ static const DWORD *assemble(int declares)
     instruction(1, to(R_COLOUR, 0, ALL), 1, (DWORD[]){from(R_INPUT, 1, NO_SWIZZLE)});
     put(0xffff);
     return code;
-}
-
-/* The constants of a box: its bone, if it has one, and the camera. */
-static void constants_of(const matrix place, const matrix camera, float bone[12], float rows[16])
-{
-    matrix m;
-    if (!strcmp(shader, "indexed")) {
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 4; j++)
-                bone[4 * i + j] = place[4 * j + i];
-        memcpy(m, camera, sizeof m);
-    } else
-        product(m, place, camera);
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            rows[4 * i + j] = strcmp(shader, "columns") ? m[4 * j + i] : m[4 * i + j];
 }

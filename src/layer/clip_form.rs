@@ -36,10 +36,11 @@ impl Layer {
     /// Measures the w of a draw's vertices, before it is drawn. The next draw of its program uses what is found.
     pub(super) fn measure_w(&mut self, gl: &Gl, draw: &mut Draw) {
         let program = self.state.in_use.program;
-        let repeatable = draw.hazard == ReplayHazard::None && !self.queries.feeds();
-        let Some(mode) = draw.drawing.mode.filter(|_| repeatable) else {
+        if draw.hazard != ReplayHazard::None || self.queries.feeds() {
             return;
-        };
+        }
+        // Of primitives of another kind than the driver is told, it writes nothing.
+        let mode = draw.drawing.mode.unwrap_or(c::TRIANGLES);
         let refused = self.link_other(gl, program, VariantUse::Written).is_err();
         if refused || is_adjacent(mode) {
             if let Some(search) = self.variants.own.search_mut(program) {

@@ -126,6 +126,37 @@ impl Layer {
         self.read(gl, x, width, &mut || call(texture));
     }
 
+    /// glCopyImageSubData from one texture to another: where each view has its own image of the first, it gets its own of the other. `call` makes the call between two textures.
+    pub fn copy_image(
+        &mut self,
+        gl: &Gl,
+        [from, to]: [TextureName; 2],
+        call: &mut dyn FnMut([TextureName; 2]),
+    ) {
+        self.write_back_textures(gl);
+        self.cameras.image_sums.forget(to);
+        let views = self.targets.offscreen.views(from);
+        let split = !views.is_empty() && from != to && self.ensure_split(gl, None, to);
+        let copies = self.targets.offscreen.views(to);
+        if !split || copies.len() != views.len() {
+            self.written(gl, Object::Texture(to));
+            return call([from, to]);
+        }
+        self.leave_mono(gl);
+        self.state.keep_errors(gl);
+        let own = self.targets.atlas.tiles.own();
+        let shown = self.wanted_views();
+        let all = ViewIndex::all(self.session.config.views);
+        for (view, (source, copy)) in all.zip(views.into_iter().zip(copies)) {
+            if copy != to && (view == own || shown.has(view)) {
+                call([source, copy]);
+            }
+        }
+        self.targets.offscreen.written(to);
+        self.drain_own_errors(gl);
+        call([from, to]);
+    }
+
     /// Splits a texture, unless it is split already. False where that cannot be done.
     fn ensure_split(&mut self, gl: &Gl, target: Option<u32>, texture: TextureName) -> bool {
         if self.targets.offscreen.has(Object::Texture(texture)) {

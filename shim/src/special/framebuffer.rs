@@ -74,18 +74,26 @@ macro_rules! copies_images {
             height: i32,
             depth: i32,
         ) {
-            write_back();
-            named(match dstTarget {
-                c::RENDERBUFFER => Object::Renderbuffer(RenderbufferName(dstName)),
-                _ => Object::Texture(TextureName(dstName)),
-            });
-            // SAFETY: the program's own call.
-            unsafe {
+            before_uncompiled();
+            // SAFETY: the program's own call, or the same between other textures.
+            let call = &mut |(from, to): (u32, u32)| unsafe {
                 real().$name(
-                    srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel,
-                    dstX, dstY, dstZ, width, height, depth,
+                    from, srcTarget, srcLevel, srcX, srcY, srcZ, to, dstTarget, dstLevel, dstX,
+                    dstY, dstZ, width, height, depth,
                 )
             };
+            if [srcTarget, dstTarget].contains(&c::RENDERBUFFER) {
+                write_back();
+                named(match dstTarget {
+                    c::RENDERBUFFER => Object::Renderbuffer(RenderbufferName(dstName)),
+                    _ => Object::Texture(TextureName(dstName)),
+                });
+                return call((srcName, dstName));
+            }
+            instead_at((srcName, dstName), call, |gl, l, call| {
+                let names = [TextureName(srcName), TextureName(dstName)];
+                l.copy_image(gl, names, &mut |[from, to]| call((from.0, to.0)));
+            });
         }
     )*};
 }

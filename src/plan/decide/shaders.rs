@@ -84,7 +84,7 @@ fn is_measurable(facts: &Facts) -> bool {
         && facts.traits.target.is_shown()
         && matches!(
             facts.traits.kind,
-            Kind::Begin(_) | Kind::Arrays(_) | Kind::Elements(_)
+            Kind::Begin(_) | Kind::Arrays(_) | Kind::Elements(_) | Kind::Other
         )
         && !facts.unprojects()
         && !facts.counted
