@@ -158,10 +158,15 @@ struct Running {
 
 impl Running {
     fn start(shown: &Shown, home: TempDir, program: &[String]) -> Self {
-        let runtime = tempfile::tempdir().expect("a folder");
         let mut command = manyview();
         command.args(["run", "--views", "3", "--display", "huebner8", "--control"]);
         command.arg("--").args(program);
+        Self::started(shown, home, command)
+    }
+
+    /// By a command that starts a program under the layer.
+    fn started(shown: &Shown, home: TempDir, mut command: Command) -> Self {
+        let runtime = tempfile::tempdir().expect("a folder");
         let outside = match (&shown.compositor, shown.desk) {
             (Some(compositor), Desk::Wayland) => compositor.folder().to_owned(),
             _ => runtime.path().to_owned(),
@@ -310,4 +315,52 @@ fn ways_without_the_layer_are_one_line_that_names_the_remedy() {
         .collect();
     assert_eq!(lines.len(), 1, "{said}");
     assert!(lines[0].contains("LD_PRELOAD was taken"), "{said}");
+}
+
+/// Flatpak itself, with a runtime and a program of our own. It needs a session bus.
+#[test]
+#[ignore = "packages and another /usr: make test-launch"]
+fn ways_of_flatpak_show_views_and_are_reached_from_outside() {
+    library();
+    let installed = target_folder().with_file_name("launch").join("flatpak");
+    assert!(installed.is_dir(), "make test-launch");
+    let shown = Shown::new(Desk::X11);
+    let home = home();
+    let told = manyview();
+    let mut command = Command::new("dbus-run-session");
+    command.arg("--").arg(told.get_program());
+    for (name, value) in told.get_envs() {
+        match value {
+            Some(value) => command.env(name, value),
+            None => command.env_remove(name),
+        };
+    }
+    command.args(["run", "--views", "3", "--display", "huebner8", "--control"]);
+    command.args(["--flatpak", "org.example.Gears"]);
+    command.env("FLATPAK_USER_DIR", &installed);
+    let running = Running::started(&shown, home, command);
+    let picture = running.home.path().join("pictures/views.png");
+    let picture = picture.to_str().expect("UTF-8").to_owned();
+    let limit = Instant::now() + LIMIT;
+    // Inside, the folder of the sockets alone is shown.
+    let inside = running
+        .home
+        .path()
+        .join(".cache/manyview/sockets/views.png");
+    let inside = inside.to_str().expect("UTF-8").to_owned();
+    while let Err(told) = running.ctl(&shown, &["capture", &inside, "--what", "atlas"]) {
+        assert!(Instant::now() < limit, "{told}{}", running.end());
+        std::thread::sleep(Duration::from_millis(200));
+    }
+    std::fs::rename(&inside, &picture).expect("moved");
+    let views = rgb(Path::new(&picture));
+    let width = views.width() / 3;
+    let tile =
+        |view| image::imageops::crop_imm(&views, view * width, 0, width, views.height()).to_image();
+    assert!(
+        tile(0) != tile(1) && tile(1) != tile(2),
+        "the views are the same"
+    );
+    let told = running.end();
+    assert!(!told.contains("without the layer"), "{told}");
 }
