@@ -166,7 +166,7 @@ test-launch: packages-32 build-32 ## start programs in containers and under Wayl
 test-wine: build-32 ## run programs for Windows under Wine (installs it, and i386 packages)
 	@sh scripts/packages.sh $(PACKAGES_WINE)
 	$(MAKE) -C examples/windows OUT=$(TARGET)/windows
-	$(CARGO) test --release --no-fail-fast --test windows -- --ignored
+	$(CARGO) test --release --no-fail-fast --test windows -- --ignored --test-threads 1
 
 test-full: packages build demos ## run all tests but those of programs, also all of piglit's, valgrind and fuzz (three hours)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)

@@ -64,14 +64,16 @@ fn views_are_those_that_the_program_draws_itself() {
     }
 }
 
-/// Where w does not vary, there is nothing to shift by.
+/// Where w does not vary, there is nothing to shift by, which is told after some measurements.
 #[test]
 fn a_program_without_a_perspective_stays_flat() {
     let folder = tempdir().expect("a folder");
+    let [out, report] = ["view.png", "report.json"].map(|name| folder.path().join(name));
     let pictures = [0, 2].map(|view| {
-        let out = folder.path().join("view.png");
         let mut command = manyview();
-        command.args(["capture", "--frame", "3", "--out"]).arg(&out);
+        command
+            .args(["capture", "--frame", "10", "--out"])
+            .arg(&out);
         command.args(["--views", "3", "--what", &format!("view:{view}")]);
         command.args([
             "--atlas",
@@ -81,8 +83,14 @@ fn a_program_without_a_perspective_stays_flat() {
             "--convergence",
             "4",
         ]);
-        command.arg("--").arg(demo("shade")).args(APART);
-        succeed(screen().give(command.arg("--orthographic")));
+        command.arg("--report").arg(&report);
+        command.arg("--").arg(demo("shade")).args(&APART[..3]);
+        succeed(screen().give(command.args(["--frames", "11", "--orthographic"])));
+        let told = std::fs::read_to_string(&report).expect("a report");
+        assert!(
+            told.contains("what they draw is the same in all views"),
+            "{told}"
+        );
         rgb(&out)
     });
     assert!(pictures[0] == pictures[1]);

@@ -64,7 +64,9 @@ fn keys_of_a_compositor_change_the_views() {
     };
     let type_keys = |words: &[&str]| {
         let mut command = Command::new("wtype");
-        let status = compositor.give(&mut command).args(words).status();
+        // The keyboard is there while wtype is, and the program learns of it by its next frames.
+        let typed = compositor.give(&mut command).args(["-s", "1500"]);
+        let status = typed.args(words).args(["-s", "300"]).status();
         assert!(status.expect("wtype").success(), "{words:?}");
     };
     let until = |what: &str, wanted: &str, name: &str| {
@@ -79,12 +81,14 @@ fn keys_of_a_compositor_change_the_views() {
         }
     };
     until("the program runs", "0.03", "separation");
-    // The first frame asks for the keyboard, whose keys come some frames later.
-    std::thread::sleep(Duration::from_secs(1));
     type_keys(&["-k", "Page_Up"]);
     type_keys(&["-M", "ctrl", "-M", "alt", "-k", "Page_Up"]);
     until("with Ctrl and Alt alone", "0.033", "separation");
-    type_keys(&["-P", "F9", "-s", "1500", "-p", "F9"]);
+    std::thread::scope(|scope| {
+        let held = scope.spawn(|| type_keys(&["-P", "F9", "-s", "3000", "-p", "F9"]));
+        until("while it is held", "off", "layer");
+        held.join().expect("typed");
+    });
     until("let go", "on", "layer");
     let _ = child.kill();
     let output = child.wait_with_output().expect("ended");

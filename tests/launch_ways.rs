@@ -106,7 +106,9 @@ fn words(container: Container, home: &Path, shown: &Shown) -> Vec<String> {
     for name in ["bin", "sbin", "lib", "lib64"] {
         add(&["--symlink", &format!("usr/{name}"), &format!("/{name}")]);
     }
-    add(&["--proc", "/proc", "--dev", "/dev", "--unshare-pid"]);
+    add(&["--proc", "/proc", "--dev", "/dev"]);
+    // The program ends with the container, of which `run` knows alone.
+    add(&["--unshare-pid", "--die-with-parent"]);
     add(&[
         "--tmpfs",
         "/tmp",

@@ -24,9 +24,18 @@ impl Gl {
         };
     }
 
+    /// Whether a query of a target is active. False for a target that the context does not know.
+    pub fn counts(&self, target: u32) -> bool {
+        const OVERFLOWS: std::ops::RangeInclusive<u32> = 0x82EC..=0x82ED;
+        if OVERFLOWS.contains(&target) && !self.since((4, 6), None) {
+            return false;
+        }
+        !self.current_query(target).is_zero()
+    }
+
     /// What the first vertices of a draw write, at most so many, in the order of its primitives; nothing is rasterised. A program that writes four floats for each vertex has to
     /// be in use. `kind` is the kind of its primitives: GL_POINTS, GL_LINES or GL_TRIANGLES. Waits for the driver. No transform feedback may be going on, paused ones aside, and
-    /// the context has objects for it: OpenGL 4.0, or OpenGL ES 3.0.
+    /// the context has objects for it: OpenGL 4.0; OpenGL ES has them from 3.0 on, and writes any draw from 3.2 on.
     pub fn written_vertices(
         &self,
         kind: u32,

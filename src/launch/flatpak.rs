@@ -59,8 +59,22 @@ pub(super) fn words(
     for folder in std::env::split_paths(sockets).filter(|path| path.is_absolute()) {
         share(&folder, "");
     }
-    for folder in named(variables) {
+    for (folder, path) in named(variables) {
+        if std::env::var_os("HOME").is_some_and(|home| Path::new(&home).starts_with(&folder)) {
+            return Err(LaunchError::NotWritable {
+                purpose: "a file that an option names",
+                path,
+                reason: "its folder is your whole home, which the sandbox would be shown; give a file in a folder below it"
+                    .to_owned(),
+            });
+        }
         share(&folder, "");
+    }
+    let launch = variables
+        .iter()
+        .find(|(name, _)| *name == OptionId::Launch.spec().variable);
+    if let Some((_, folder)) = launch {
+        share(Path::new(folder), "");
     }
     let mut set = |name: &str, value: &OsStr| {
         let mut word = OsString::from(format!("--env={name}="));
@@ -79,9 +93,9 @@ pub(super) fn words(
     Ok(words)
 }
 
-/// The folders of the files that options name, without those of sockets and of the layer's own.
-fn named(variables: &[(String, String)]) -> Vec<PathBuf> {
-    let apart = [OptionId::Profiles, OptionId::PanelSocket];
+/// The folders of the files that options name, each with one of them, without those of sockets and of the layer's own.
+fn named(variables: &[(String, String)]) -> Vec<(PathBuf, PathBuf)> {
+    let apart = [OptionId::Profiles, OptionId::PanelSocket, OptionId::Launch];
     let rows = OPTIONS
         .iter()
         .filter(|spec| spec.path != PathKind::No && !apart.contains(&spec.id));
@@ -89,12 +103,11 @@ fn named(variables: &[(String, String)]) -> Vec<PathBuf> {
         let (_, value) = variables.iter().find(|(name, _)| *name == spec.variable)?;
         Path::new(value).is_absolute().then(|| PathBuf::from(value))
     });
-    let mut folders: Vec<PathBuf> = values
-        .filter_map(|path| Some(path.parent()?.to_owned()))
-        .filter(|path| path != Path::new("/"))
+    let mut folders: Vec<(PathBuf, PathBuf)> = values
+        .filter_map(|path| Some((path.parent()?.to_owned(), path.clone())))
         .collect();
     folders.sort();
-    folders.dedup();
+    folders.dedup_by(|next, before| next.0 == before.0);
     folders
 }
 
@@ -151,11 +164,10 @@ fn update(from: &Path, to: &Path) -> std::io::Result<()> {
         fs::create_dir_all(folder)?;
     }
     let growing = to.with_extension(format!("{}.new", std::process::id()));
-    fs::copy(from, &growing)?;
-    fs::File::options()
-        .write(true)
-        .open(&growing)?
-        .set_modified(about.modified()?)?;
+    // Not with the mode of the other, which may be closed to writing.
+    let mut copy = fs::File::create(&growing)?;
+    std::io::copy(&mut fs::File::open(from)?, &mut copy)?;
+    copy.set_modified(about.modified()?)?;
     fs::rename(&growing, to)
 }
 
@@ -175,7 +187,11 @@ mod tests {
             variable(OptionId::Profiles, "/usr/lib/manyview/profiles"),
             variable(OptionId::Strategy, "replay"),
         ];
-        assert_eq!(named(&variables), [Path::new("/home/me/out")]);
+        let folders: Vec<_> = named(&variables)
+            .into_iter()
+            .map(|(folder, _)| folder)
+            .collect();
+        assert_eq!(folders, [Path::new("/home/me/out")]);
     }
 
     #[test]

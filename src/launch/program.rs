@@ -183,8 +183,14 @@ impl Launch {
             None => Command::new(&self.app),
             Some(_) => without_layer(&self.app, &[]),
         };
+        let claims = self.claims.as_ref().map(tempfile::tempdir_in);
+        // Without the folder, paths are claimed as by programs that were started without the launcher.
+        let claims = claims.and_then(Result::ok).map(TempDir::keep);
+        let launch = OptionId::Launch.spec().variable;
         if let Some(id) = &self.flatpak {
-            let words = flatpak::words(id, &self.variables, &self.arguments, &self.libraries)?;
+            let mut variables = self.variables.clone();
+            variables.extend(claims.map(|path| (launch.to_owned(), path.display().to_string())));
+            let words = flatpak::words(id, &variables, &self.arguments, &self.libraries)?;
             command.args(words);
             return Ok(command);
         }
@@ -195,10 +201,8 @@ impl Launch {
             }
         }
         command.envs(self.variables.iter().map(|(name, value)| (name, value)));
-        let claims = self.claims.as_ref().map(tempfile::tempdir_in);
-        // Without the folder, paths are claimed as by programs that were started without the launcher.
-        if let Some(Ok(claims)) = claims {
-            command.env(OptionId::Launch.spec().variable, claims.keep());
+        if let Some(claims) = claims {
+            command.env(launch, claims);
         }
         command.env("LD_PRELOAD", preload_value(&self.libraries));
         Ok(command)

@@ -8,17 +8,22 @@ use crate::gl::{Gl, ProgramName, consts as c};
 
 /// Vertices of a draw that are looked at: the first ones.
 const MOST: usize = 4096;
+/// Queries that count what transform feedback writes: GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, _OVERFLOW and _STREAM_OVERFLOW.
+const WRITTEN: [u32; 3] = [0x8C88, 0x82EC, 0x82ED];
 
 impl Layer {
-    /// Whether the driver can write vertices while other transform feedback waits.
+    /// Whether the driver can write the vertices of any draw while other transform feedback waits.
     pub(super) fn measures_w(&self) -> bool {
-        self.session.support.pauses_feedback
+        let support = &self.session.support;
+        // Before, OpenGL ES writes neither indexed draws nor more than the buffer has room for.
+        support.pauses_feedback && (!self.state.window.buffers.es || support.version >= (3, 2))
     }
 
     /// Whether it is time to measure the w of a program's vertices.
     pub(super) fn is_unmeasured(&mut self, program: ProgramName) -> bool {
+        let measures = self.measures_w();
         let search = self.variants.own.search_mut(program);
-        self.session.support.pauses_feedback && search.is_some_and(|search| search.is_unmeasured())
+        measures && search.is_some_and(|search| search.is_unmeasured())
     }
 
     /// Whether that was done for some time, or cannot be, and no camera was found.
@@ -36,13 +41,16 @@ impl Layer {
     /// Measures the w of a draw's vertices, before it is drawn. The next draw of its program uses what is found.
     pub(super) fn measure_w(&mut self, gl: &Gl, draw: &mut Draw) {
         let program = self.state.in_use.program;
-        if draw.hazard != ReplayHazard::None || self.queries.feeds() {
+        let counted = WRITTEN.iter().any(|&target| gl.counts(target));
+        if draw.hazard != ReplayHazard::None || self.queries.feeds() || counted {
             return;
         }
         // Of primitives of another kind than the driver is told, it writes nothing.
         let mode = draw.drawing.mode.unwrap_or(c::TRIANGLES);
-        let refused = self.link_other(gl, program, VariantUse::Written).is_err();
-        if refused || is_adjacent(mode) {
+        if is_adjacent(mode) {
+            return;
+        }
+        if self.link_other(gl, program, VariantUse::Written).is_err() {
             if let Some(search) = self.variants.own.search_mut(program) {
                 search.refuse();
             }

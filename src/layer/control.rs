@@ -62,7 +62,9 @@ impl Layer {
 
     /// Puts other values in force from the next draw on. It has to be called between frames, so that no frame is drawn with both.
     pub fn adopt(&mut self, live: Live) {
-        self.session.ramp = None;
+        if live.camera != self.session.live.camera {
+            self.session.ramp = None;
+        }
         self.put(live);
     }
 

@@ -136,7 +136,7 @@ impl Layer {
         self.write_back_textures(gl);
         self.cameras.image_sums.forget(to);
         let views = self.targets.offscreen.views(from);
-        let split = !views.is_empty() && from != to && self.ensure_split(gl, None, to);
+        let split = !views.is_empty() && self.ensure_split(gl, None, to);
         let copies = self.targets.offscreen.views(to);
         if !split || copies.len() != views.len() {
             self.written(gl, Object::Texture(to));

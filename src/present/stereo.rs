@@ -2,6 +2,11 @@
 
 /// GLX_STEREO
 const STEREO: i32 = 6;
+/// GLX_DOUBLEBUFFER
+const DOUBLEBUFFER: i32 = 5;
+/// GLX_SAMPLE_BUFFERS and GLX_SAMPLES
+const SAMPLE_BUFFERS: i32 = 100_000;
+const SAMPLES: i32 = 100_001;
 
 /// The format of a list of GLX attributes. Both formats end with a 0 in the place of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,26 +23,33 @@ impl Attributes {
         self == Self::Config || ![1, 4, 5, STEREO].contains(&name)
     }
 
-    /// The program's list without the wish for a stereo window; `None` if it has none. `list` is not read beyond its end.
+    /// The program's list without the wish for a stereo window; `None` if it has none, or wants a window without a back buffer or with several samples, for which there are no eyes. `list` is
+    /// not read beyond its end.
     pub fn without_stereo(self, list: impl IntoIterator<Item = i32>) -> Option<Vec<i32>> {
         let mut list = list.into_iter();
         let mut changed = Vec::new();
-        let mut asked = false;
+        let [mut asked, mut double, mut sampled] = [false; 3];
         while let Some(name) = list.next().filter(|&name| name != 0) {
             let value = if self.has_value(name) {
                 list.next()
             } else {
                 None
             };
-            if name == STEREO {
-                asked = value.is_none_or(|value| value == 1);
-                continue;
+            // Of two values GLX takes the last.
+            match name {
+                STEREO => {
+                    asked = value.is_none_or(|value| value == 1);
+                    continue;
+                }
+                DOUBLEBUFFER => double = value.is_none_or(|value| value == 1),
+                SAMPLE_BUFFERS | SAMPLES => sampled |= value.is_some_and(|value| value > 0),
+                _ => {}
             }
             changed.push(name);
             changed.extend(value);
         }
         changed.push(0);
-        asked.then_some(changed)
+        (asked && double && !sampled).then_some(changed)
     }
 
     /// The program's list, changed to ask for a stereo window as well; `None` if the program asks for one itself. `list` is not read
@@ -78,7 +90,6 @@ mod tests {
     const BUFFER_SIZE: i32 = 2;
     const LEVEL: i32 = 3;
     const RGBA: i32 = 4;
-    const DOUBLEBUFFER: i32 = 5;
     const RED_SIZE: i32 = 8;
     const DEPTH_SIZE: i32 = 12;
     const DRAWABLE_TYPE: i32 = 0x8010;
@@ -99,6 +110,9 @@ mod tests {
         let asked = [DOUBLEBUFFER, 1, STEREO, 1, 0];
         assert_eq!(Config.without_stereo(asked), Some(vec![DOUBLEBUFFER, 1, 0]));
         assert_eq!(Config.without_stereo([STEREO, 0, DOUBLEBUFFER, 1, 0]), None);
+        let sampled = [DOUBLEBUFFER, 1, STEREO, 1, SAMPLE_BUFFERS, 1, SAMPLES, 4, 0];
+        assert_eq!(Config.without_stereo(sampled), None);
+        assert_eq!(Visual.without_stereo([RGBA, STEREO, 0]), None, "one buffer");
     }
 
     #[test]

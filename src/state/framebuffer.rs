@@ -13,7 +13,7 @@ pub struct Buffers {
     pub double_buffered: bool,
     /// There is a left and a right buffer.
     pub stereo: bool,
-    /// The program has a left and a right buffer of the layer's (see [`super::eyes`]).
+    /// The program has a left and a right buffer of the layer's (see [`super::give_eyes`]).
     pub eyes: bool,
     /// Whether GL_BACK names a buffer. Where there is only a front buffer, Mesa allows the name for that.
     pub names_back: bool,
@@ -266,6 +266,11 @@ impl Framebuffers {
             self.eyes = EYES_IDLE;
         }
         self.draw_buffers = buffers.to_vec();
+    }
+
+    /// Whether something was drawn for the right eye since the last frame was shown.
+    pub fn drew_right(&self) -> bool {
+        self.eyes == EYES_IDLE
     }
 
     /// A frame was shown.

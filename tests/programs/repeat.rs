@@ -1,7 +1,7 @@
 //! Records programs and repeats their traces.
 
 use crate::play::{Ended, mute, play, run};
-use crate::support::{Screen, bare, layered};
+use crate::support::{Screen, bare, layered, target_folder};
 use crate::table::Program;
 use std::collections::BTreeMap;
 use std::fs;
@@ -151,6 +151,11 @@ pub(crate) fn live(
 ) -> Ended {
     let mut command = layered(&program.command[0], variables);
     command.args(&program.command[1..]);
+    // Where both libraries are built, the program gets that of its class.
+    let links = target_folder().join("by-class");
+    if links.join("32/libmanyview.so").is_file() {
+        command.env("LD_PRELOAD", links.join("$LIB/libmanyview.so"));
+    }
     run(
         prepared(&mut command, program, screen),
         Duration::from_secs(seconds),

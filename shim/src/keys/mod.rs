@@ -39,7 +39,7 @@ struct Keys {
 }
 
 enum Keyboard {
-    X(x11::Keyboard),
+    X(Box<x11::Keyboard>),
     Wayland(wayland::Keyboard),
 }
 
@@ -128,11 +128,12 @@ impl Keys {
             Shown::X(display, window) => {
                 let mut keyboard = x11::Keyboard::open(&display)?;
                 keyboard.remember_window(window);
-                Keyboard::X(keyboard)
+                Keyboard::X(Box::new(keyboard))
             }
-            // SAFETY: the program has just shown a frame at this display.
             Shown::Wayland(display) => {
-                Keyboard::Wayland(unsafe { wayland::Keyboard::open(display) }?)
+                // SAFETY: the program has just shown a frame at this display.
+                let keyboard = unsafe { wayland::Keyboard::open(display) }?;
+                Keyboard::Wayland(keyboard)
             }
         };
         Ok(Keys {

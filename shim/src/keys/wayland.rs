@@ -16,6 +16,9 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 const GET_REGISTRY: u32 = 1;
 const BIND: u32 = 0;
 const GET_KEYBOARD: u32 = 1;
+const RELEASE: u32 = 0;
+/// The version of a keyboard from which on it can be released.
+const RELEASES: u32 = 3;
 /// The highest version of a seat whose events are all known here.
 const SEAT: u32 = 5;
 const HAS_KEYBOARD: u32 = 2;
@@ -36,6 +39,9 @@ functions!(Client, c"libwayland-client.so.0", {
     set_queue = c"wl_proxy_set_queue": unsafe extern "C" fn(Ptr, Ptr),
     construct = c"wl_proxy_marshal_constructor": Construct,
     construct_versioned = c"wl_proxy_marshal_constructor_versioned": ConstructVersioned,
+    marshal = c"wl_proxy_marshal": unsafe extern "C" fn(Ptr, u32, ...),
+    version = c"wl_proxy_get_version": unsafe extern "C" fn(Ptr) -> u32,
+    destroy = c"wl_proxy_destroy": unsafe extern "C" fn(Ptr),
     listen = c"wl_proxy_add_listener": unsafe extern "C" fn(Ptr, Ptr, Ptr) -> c_int,
     dispatch = c"wl_display_dispatch_queue_pending": unsafe extern "C" fn(Ptr, Ptr) -> c_int,
     flush = c"wl_display_flush": unsafe extern "C" fn(Ptr) -> c_int,
@@ -43,6 +49,7 @@ functions!(Client, c"libwayland-client.so.0", {
 
 functions!(Xkb, c"libxkbcommon.so.0", {
     context = c"xkb_context_new": unsafe extern "C" fn(c_int) -> Ptr,
+    forget = c"xkb_context_unref": unsafe extern "C" fn(Ptr),
     keymap = c"xkb_keymap_new_from_string": unsafe extern "C" fn(Ptr, Ptr, c_int, c_int) -> Ptr,
     release = c"xkb_keymap_unref": unsafe extern "C" fn(Ptr),
     symbols = c"xkb_keymap_key_get_syms_by_level": unsafe extern "C" fn(Ptr, u32, u32, u32, *mut *const u32) -> c_int,
@@ -66,9 +73,11 @@ struct Seen {
 
 #[derive(Default)]
 struct State {
-    /// Addresses of the seat that was bound, and of the keymap.
+    /// Addresses: of the seat that was bound.
     seat: usize,
-    has_keyboard: bool,
+    /// The keyboard of the seat, while it has one: it may be plugged in and out.
+    keyboard: usize,
+    /// Of the keymap, as xkb has it.
     keymap: usize,
     focused: bool,
     /// Keys that are down, to be let go when the focus is lost.
@@ -112,6 +121,9 @@ impl Keyboard {
             (client.set_queue)(wrapper, queue);
             let registry = (client.construct)(wrapper, GET_REGISTRY, registry_interface, none);
             (client.unwrap)(wrapper);
+            if registry.is_null() {
+                return Err("the connection to the compositor is broken".into());
+            }
             let data = core::ptr::from_ref(seen).cast_mut().cast();
             (client.listen)(
                 registry,
@@ -146,11 +158,9 @@ impl Keyboard {
         let mut found = Vec::new();
         for (code, pressed, held) in events {
             if !pressed {
-                state.down.remove(&code);
                 found.push(Event::Released(code));
                 continue;
             }
-            state.down.insert(code);
             let [shift, control, alt, logo] = MODIFIERS.map(|bit| held & bit != 0);
             found.push(Event::Pressed {
                 code,
@@ -165,6 +175,15 @@ impl Keyboard {
             });
         }
         found
+    }
+}
+
+impl State {
+    /// The program has lost the keyboard. Nobody tells when keys that are down are let go.
+    fn leave(&mut self) {
+        (self.focused, self.held) = (false, 0);
+        let released = self.down.drain().map(|code| (code, false, 0));
+        self.events.extend(released);
     }
 }
 
@@ -205,6 +224,10 @@ impl Seen {
                 true => none,
                 false => (self.xkb.keymap)(context, text, TEXT as c_int, 0),
             };
+            if !context.is_null() {
+                // The keymap keeps what it needs of it.
+                (self.xkb.forget)(context);
+            }
             libc::munmap(text, size);
             keymap
         }
@@ -301,18 +324,24 @@ unsafe extern "C" fn capable(data: Ptr, seat: Ptr, capabilities: u32) {
     unsafe {
         let seen = seen(data);
         let mut state = seen.lock();
-        let new = capabilities & HAS_KEYBOARD != 0 && !state.has_keyboard;
-        let (true, Ok(keyboard)) = (new, interface(c"wl_keyboard_interface")) else {
+        let has = capabilities & HAS_KEYBOARD != 0;
+        if !has && state.keyboard != 0 {
+            let keyboard = std::mem::take(&mut state.keyboard) as Ptr;
+            if (seen.client.version)(keyboard) >= RELEASES {
+                (seen.client.marshal)(keyboard, RELEASE);
+            }
+            (seen.client.destroy)(keyboard);
+            state.leave();
+        }
+        let new = has && state.keyboard == 0;
+        let (true, Ok(kind)) = (new, interface(c"wl_keyboard_interface")) else {
             return;
         };
-        state.has_keyboard = true;
         let none: Ptr = core::ptr::null_mut();
-        let keyboard = (seen.client.construct)(seat, GET_KEYBOARD, keyboard, none);
-        (seen.client.listen)(
-            keyboard,
-            core::ptr::from_ref(&KEYBOARDS).cast_mut().cast(),
-            data,
-        );
+        let keyboard = (seen.client.construct)(seat, GET_KEYBOARD, kind, none);
+        state.keyboard = keyboard as usize;
+        let listener = core::ptr::from_ref(&KEYBOARDS).cast_mut().cast();
+        (seen.client.listen)(keyboard, listener, data);
     }
 }
 
@@ -350,20 +379,19 @@ unsafe extern "C" fn entered(data: Ptr, _: Ptr, _: u32, _: Ptr, keys: *const Key
 
 unsafe extern "C" fn left(data: Ptr, _: Ptr, _: u32, _: Ptr) {
     // SAFETY: as above.
-    let mut state = unsafe { seen(data) }.lock();
-    state.focused = false;
-    // Nobody tells when they are let go.
-    let down: Vec<_> = state.down.drain().collect();
-    let released = down.into_iter().map(|code| (code, false, 0));
-    state.events.extend(released);
+    unsafe { seen(data) }.lock().leave();
 }
 
 unsafe extern "C" fn changed(data: Ptr, _: Ptr, _: u32, _: u32, key: u32, pressed: u32) {
     // SAFETY: as above.
     let mut state = unsafe { seen(data) }.lock();
     if state.focused {
-        let held = state.held;
-        state.events.push((key, pressed == 1, held));
+        let (held, pressed) = (state.held, pressed == 1);
+        match pressed {
+            true => state.down.insert(key),
+            false => state.down.remove(&key),
+        };
+        state.events.push((key, pressed, held));
     }
 }
 

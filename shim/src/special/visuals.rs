@@ -4,10 +4,12 @@
 use crate::context::guarded;
 use crate::provider::Provider;
 use crate::switch::{self, Mode};
+use core::ffi::c_ulong;
 use manyview_core::config::Output;
 use manyview_core::gl::Ptr;
 use manyview_core::present::Attributes;
 use manyview_core::state::{are_eyes_given, give_eyes};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The program's attributes with stereo added. None where the output needs no stereo, or the list cannot be extended.
 ///
@@ -47,7 +49,7 @@ unsafe fn without_stereo(kind: Attributes, attribs: Ptr) -> Option<Vec<i32>> {
 
 /// A hook that asks the driver for a stereo window, and if there is none, for the window that the program wants.
 macro_rules! choose {
-    ($name:ident($($count:ident)?), $kind:expr) => {
+    ($name:ident($($count:ident)?), $kind:expr, $note:ident) => {
         pub(crate) unsafe fn $name(dpy: Ptr, screen: i32, attribs: Ptr $(, $count: Ptr)?) -> Ptr {
             // SAFETY: the program's own call, with its own list or a longer one that ends as it should.
             let ask = |list: Ptr| guarded(|| unsafe { Provider::Gl.real().$name(dpy, screen, list $(, $count)?) });
@@ -64,6 +66,10 @@ macro_rules! choose {
             };
             let found = ask(list.as_mut_ptr().cast());
             if !found.is_null() {
+                let count: Ptr = core::ptr::null_mut();
+                $(let count = { let _ = count; $count };)?
+                // SAFETY: what the driver has returned for this call.
+                unsafe { $note(dpy, found, count) };
                 give_eyes();
             }
             found
@@ -71,20 +77,80 @@ macro_rules! choose {
     };
 }
 
-choose!(glXChooseVisual(), Attributes::Visual);
-choose!(glXChooseFBConfig(count), Attributes::Config);
-choose!(glXChooseFBConfigSGIX(count), Attributes::Config);
+choose!(glXChooseVisual(), Attributes::Visual, note_visual);
+choose!(glXChooseFBConfig(count), Attributes::Config, note_configs);
+choose!(
+    glXChooseFBConfigSGIX(count),
+    Attributes::Config,
+    note_configs
+);
 
 /// GLX_STEREO
 const STEREO: i32 = 6;
+/// GLX_VISUAL_ID
+const VISUAL_ID: i32 = 0x800B;
 
-/// A hook that tells of a window that it has a left and a right buffer, once the program was given these.
+/// The visuals, by their IDs, and the configurations, by their addresses, that the program was given with eyes of the layer's.
+static GIVEN: Mutex<Vec<usize>> = Mutex::new(Vec::new());
+
+fn given() -> MutexGuard<'static, Vec<usize>> {
+    GIVEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The ID of a visual.
+///
+/// # Safety
+/// An XVisualInfo.
+unsafe fn id(visual: Ptr) -> usize {
+    // SAFETY: its second field (Xutil.h).
+    unsafe { visual.cast::<c_ulong>().add(1).read() as usize }
+}
+
+/// Notes a visual that is given.
+///
+/// # Safety
+/// As [`id`].
+unsafe fn note_visual(_: Ptr, visual: Ptr, _: Ptr) {
+    // SAFETY: forwarded.
+    given().push(unsafe { id(visual) });
+}
+
+/// Notes configurations that are given, and their visuals.
+///
+/// # Safety
+/// What glXChooseFBConfig returns, and the number of them.
+unsafe fn note_configs(dpy: Ptr, configs: Ptr, count: Ptr) {
+    // SAFETY: forwarded.
+    let all = unsafe {
+        let count = usize::try_from(*count.cast::<i32>()).unwrap_or(0);
+        core::slice::from_raw_parts(configs.cast::<Ptr>(), count)
+    };
+    for &config in all {
+        let mut visual = 0i32;
+        // SAFETY: a configuration of this display; one integer.
+        let answer = guarded(|| unsafe {
+            let value = (&raw mut visual).cast();
+            Provider::Gl
+                .real()
+                .glXGetFBConfigAttrib(dpy, config, VISUAL_ID, value)
+        });
+        let mut given = given();
+        given.push(config as usize);
+        if answer == 0 && visual > 0 {
+            given.push(visual as usize);
+        }
+    }
+}
+
+/// A hook that tells of a window that it has a left and a right buffer, if it is one of those that were given with them.
 macro_rules! tell {
-    ($name:ident($of:ident)) => {
+    ($name:ident($of:ident), $known:expr) => {
         pub(crate) unsafe fn $name(dpy: Ptr, $of: Ptr, name: i32, value: Ptr) -> i32 {
             // SAFETY: the program's own call.
             let answer = guarded(|| unsafe { Provider::Gl.real().$name(dpy, $of, name, value) });
-            if answer == 0 && name == STEREO && are_eyes_given() && !value.is_null() {
+            let asked = answer == 0 && name == STEREO && !value.is_null() && are_eyes_given();
+            // SAFETY: the driver has taken it for what it is.
+            if asked && given().contains(&unsafe { $known($of) }) {
                 // SAFETY: the driver has written one integer there.
                 unsafe { value.cast::<i32>().write(1) };
             }
@@ -93,5 +159,10 @@ macro_rules! tell {
     };
 }
 
-tell!(glXGetConfig(visual));
-tell!(glXGetFBConfigAttrib(config));
+/// The address of a configuration. Nothing is read there.
+unsafe fn address(config: Ptr) -> usize {
+    config as usize
+}
+
+tell!(glXGetConfig(visual), id);
+tell!(glXGetFBConfigAttrib(config), address);
