@@ -52,7 +52,7 @@ fn keys_of_a_compositor_change_the_views() {
     ]);
     command.arg("--").arg(PROGRAM).env("HOME", home.path());
     let child = compositor.give(&mut command).stdout(Stdio::null());
-    let mut child = child.stderr(Stdio::piped()).spawn().expect("manyview");
+    let child = child.stderr(Stdio::piped()).spawn().expect("manyview");
     let value = |name: &str| {
         let mut command = manyview();
         command.args(["ctl", "get", name]).env("HOME", home.path());
@@ -90,7 +90,9 @@ fn keys_of_a_compositor_change_the_views() {
         held.join().expect("typed");
     });
     until("let go", "on", "layer");
-    let _ = child.kill();
+    // It is forwarded to the program, which holds the pipe as well.
+    let pid = rustix::process::Pid::from_child(&child);
+    let _ = rustix::process::kill_process(pid, rustix::process::Signal::TERM);
     let output = child.wait_with_output().expect("ended");
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!told.contains("keys are off"), "{told}");
