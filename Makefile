@@ -31,7 +31,7 @@ LONG_PACKAGES := gltron xscreensaver-gl piglit
 PACKAGES_32 := gcc-multilib g++-multilib libgl1:i386 libegl1:i386 libgl1-mesa-dri:i386 libosmesa6:i386 libosmesa6-dev:i386 \
 	libgl-dev:i386 libegl-dev:i386 libx11-dev:i386 libpng-dev:i386 libglu1-mesa-dev:i386
 # Containers, desks of Wayland, and programs for them of both classes.
-PACKAGES_LAUNCH := bubblewrap flatpak dbus debootstrap weston xwayland mesa-utils-bin mesa-utils-bin:i386
+PACKAGES_LAUNCH := bubblewrap debootstrap weston xwayland mesa-utils-bin mesa-utils-bin:i386
 # Wine of both classes, and what compiles programs for it.
 PACKAGES_WINE := wine wine64 wine32:i386 gcc-mingw-w64-x86-64 gcc-mingw-w64-i686
 # Tests that preload the layer into programs of this project.
@@ -160,7 +160,6 @@ test-both: build-32 demos demos-32 ## run the tests of programs of both classes 
 test-launch: packages-32 build-32 ## start programs in containers and under Wayland (installs packages of both classes, and makes another /usr of 600 MB)
 	@sh scripts/packages.sh $(PACKAGES_LAUNCH)
 	@sh scripts/other-usr.sh $(TARGET)/launch/trixie
-	@sh scripts/flatpak-runtime.sh $(TARGET)/launch/trixie $(TARGET)/launch/flatpak
 	$(CARGO) test --release --no-fail-fast --test launch_ways -- --ignored --test-threads 1 --nocapture
 
 test-wine: build-32 ## run programs for Windows under Wine (installs it, and i386 packages)
