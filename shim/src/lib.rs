@@ -21,6 +21,7 @@ mod instead;
 mod keys;
 mod limiter;
 mod live;
+mod loaded;
 mod messages;
 mod panel;
 mod provider;

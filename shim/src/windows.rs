@@ -1,5 +1,6 @@
 //! The X windows behind the program's drawables: those of glXCreateWindow, and surfaces of EGL.
 
+use crate::loaded::function;
 use crate::xcb::{self, Connection};
 use core::ffi::{CStr, c_ulong};
 use manyview_core::gl::Ptr;
@@ -116,7 +117,7 @@ unsafe fn system(native: Ptr) -> Option<Native> {
     }
     // SAFETY: forwarded, and something is there.
     let first = unsafe { native.cast::<Ptr>().read_unaligned() };
-    let begins = |library: &CStr, symbol: &CStr| xcb::function(library, symbol) == Some(first);
+    let begins = |library: &CStr, symbol: &CStr| function(library, symbol) == Some(first);
     if begins(c"libwayland-client.so.0", c"wl_display_interface") {
         return Some(wayland);
     }

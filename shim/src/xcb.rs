@@ -1,11 +1,8 @@
 //! The requests of xcb and Xlib that the shim makes. Most use xcb, which returns errors as values; an X error through Xlib would end the program.
-//! The libraries are those that the program or the driver has loaded. Their functions are looked up once.
 
-use crate::provider::symbol;
+use crate::loaded::functions;
 use core::ffi::{CStr, c_char, c_int, c_uint, c_void};
-use core::mem::transmute;
 use manyview_core::gl::Ptr;
-use std::sync::OnceLock;
 
 /// An xcb_connection_t.
 pub(crate) type Connection = Ptr;
@@ -68,42 +65,6 @@ pub(crate) struct Window {
 
 /// The type of every `xcb_…_reply` function.
 type Reply = unsafe extern "C" fn(Connection, Cookie, *mut *mut c_void) -> *mut c_void;
-
-/// A function (or a variable) of a library that the program or the driver has loaded. The library stays loaded from then on.
-pub(crate) fn function(library: &CStr, name: &CStr) -> Option<Ptr> {
-    // SAFETY: a string; NOLOAD only finds what is there.
-    let handle = unsafe { libc::dlopen(library.as_ptr(), libc::RTLD_NOLOAD | libc::RTLD_LAZY) };
-    if handle.is_null() {
-        return None;
-    }
-    let p = symbol(handle, name);
-    (!p.is_null()).then_some(p)
-}
-
-/// Defines a table of functions of one library. They are looked up at each use until all are found, and then never again.
-macro_rules! functions {
-    ($table:ident, $library:literal, { $($field:ident = $name:literal: $kind:ty),+ $(,)? }) => {
-        struct $table {
-            $($field: $kind),+
-        }
-
-        impl $table {
-            fn get() -> Option<&'static $table> {
-                static TABLE: OnceLock<$table> = OnceLock::new();
-                if let Some(table) = TABLE.get() {
-                    return Some(table);
-                }
-                let table = $table {
-                    // SAFETY: functions of these names have these signatures (X11/Xlib.h, X11/Xlib-xcb.h, xcb/xproto.h, xcb/randr.h, wayland-client-core.h,
-                    // xkbcommon/xkbcommon.h).
-                    $($field: unsafe { transmute::<Ptr, $kind>(function($library, $name)?) }),+
-                };
-                Some(TABLE.get_or_init(|| table))
-            }
-        }
-    };
-}
-pub(crate) use functions;
 
 functions!(Xlib, c"libX11.so.6", {
     display_string = c"XDisplayString": unsafe extern "C" fn(Ptr) -> *const c_char,

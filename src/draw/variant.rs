@@ -132,14 +132,7 @@ pub fn drawn(
     if distorts {
         rewritten.add_displacement(gl, &shift, &mut outputs)?;
     }
-    let shaders = rewritten.compile(gl)?;
-    let attributes = locations(gl.active_attributes(program), |name| {
-        gl.attribute_location(program, name)
-    });
-    let name = gl
-        .link_at(&shaders, &attributes, &outputs, None)
-        .map_err(NoVariant::Driver)?;
-    let variant = Variant::of(gl, program, name, &shift, &rewritten);
+    let variant = rewritten.link(gl, program, &outputs, None, &shift)?;
     Ok(Drawn::ByVariant(Arc::new(variant)))
 }
 
@@ -171,14 +164,7 @@ pub fn point_variant(
         ],
         ..Rewritten::default()
     };
-    let shaders = rewritten.compile(gl)?;
-    let attributes = locations(gl.active_attributes(program), |name| {
-        gl.attribute_location(program, name)
-    });
-    let name = gl
-        .link_at(&shaders, &attributes, &outputs(gl, program), None)
-        .map_err(NoVariant::Driver)?;
-    Ok(Variant::of(gl, program, name, &new.names, &rewritten))
+    rewritten.link(gl, program, &outputs(gl, program), None, &new.names)
 }
 
 /// Links a program that draws as the program's own does, and writes an output of its vertex shader by transform feedback.
@@ -202,20 +188,8 @@ pub fn writing_variant(
         let text = shader.source.as_slice().into();
         rewritten.sources.push((shader.kind, text));
     }
-    let shaders = rewritten.compile(gl)?;
-    let attributes = locations(gl.active_attributes(program), |name| {
-        gl.attribute_location(program, name)
-    });
-    let name = gl
-        .link_at(&shaders, &attributes, &outputs(gl, program), Some(output))
-        .map_err(NoVariant::Driver)?;
-    Ok(Variant::of(
-        gl,
-        program,
-        name,
-        &Names::default(),
-        &rewritten,
-    ))
+    let names = Names::default();
+    rewritten.link(gl, program, &outputs(gl, program), Some(output), &names)
 }
 
 /// The last stage that writes positions of vertices.
@@ -335,6 +309,25 @@ impl<'a> Rewritten<'a> {
             }
         }
         Ok(shaders)
+    }
+
+    /// Links the sources with the attributes of `program` where it has them, and its fragment outputs at `outputs`. `written`: an output of the vertex shader that transform feedback writes.
+    fn link(
+        &self,
+        gl: &Gl,
+        program: ProgramName,
+        outputs: &[(CString, u32)],
+        written: Option<&CStr>,
+        names: &Names,
+    ) -> Result<Variant, NoVariant> {
+        let shaders = self.compile(gl)?;
+        let attributes = locations(gl.active_attributes(program), |name| {
+            gl.attribute_location(program, name)
+        });
+        let name = gl
+            .link_at(&shaders, &attributes, outputs, written)
+            .map_err(NoVariant::Driver)?;
+        Ok(Variant::of(gl, program, name, names, self))
     }
 }
 

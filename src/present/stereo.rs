@@ -23,25 +23,33 @@ impl Attributes {
         self == Self::Config || ![1, 4, 5, STEREO].contains(&name)
     }
 
-    /// The program's list without the wish for a stereo window; `None` if it has none, or wants a window without a back buffer or with several samples, for which there are no eyes. `list` is
-    /// not read beyond its end.
-    pub fn without_stereo(self, list: impl IntoIterator<Item = i32>) -> Option<Vec<i32>> {
-        let mut list = list.into_iter();
-        let mut changed = Vec::new();
-        let [mut asked, mut double, mut sampled] = [false; 3];
-        while let Some(name) = list.next().filter(|&name| name != 0) {
+    /// The attributes of a list, each with its value if it has one. `list` is not read beyond its end.
+    fn of(self, list: impl IntoIterator<Item = i32>) -> impl Iterator<Item = (i32, Option<i32>)> {
+        let mut list = list.into_iter().fuse();
+        std::iter::from_fn(move || {
+            let name = list.next().filter(|&name| name != 0)?;
             let value = if self.has_value(name) {
                 list.next()
             } else {
                 None
             };
+            Some((name, value))
+        })
+    }
+
+    /// The program's list without the wish for a stereo window; `None` if it has none, or wants a window without a back buffer or with several samples, for which there are no eyes. `list` is
+    /// not read beyond its end.
+    pub fn without_stereo(self, list: impl IntoIterator<Item = i32>) -> Option<Vec<i32>> {
+        let mut changed = Vec::new();
+        let [mut asked, mut double, mut sampled] = [false; 3];
+        for (name, value) in self.of(list) {
             // Of two values GLX takes the last.
             match name {
                 STEREO => {
-                    asked = value.is_none_or(|value| value == 1);
+                    asked = is_on(value);
                     continue;
                 }
-                DOUBLEBUFFER => double = value.is_none_or(|value| value == 1),
+                DOUBLEBUFFER => double = is_on(value),
                 SAMPLE_BUFFERS | SAMPLES => sampled |= value.is_some_and(|value| value > 0),
                 _ => {}
             }
@@ -55,18 +63,12 @@ impl Attributes {
     /// The program's list, changed to ask for a stereo window as well; `None` if the program asks for one itself. `list` is not read
     /// beyond its end.
     pub fn with_stereo(self, list: impl IntoIterator<Item = i32>) -> Option<Vec<i32>> {
-        let mut list = list.into_iter();
         let mut changed = Vec::new();
         let mut asked = false;
-        while let Some(name) = list.next().filter(|&name| name != 0) {
-            let value = if self.has_value(name) {
-                list.next()
-            } else {
-                None
-            };
+        for (name, value) in self.of(list) {
             if name == STEREO {
                 // Of two values GLX takes the last.
-                asked = value.is_none_or(|value| value == 1);
+                asked = is_on(value);
                 continue;
             }
             changed.push(name);
@@ -79,6 +81,11 @@ impl Attributes {
         changed.push(0);
         (!asked).then_some(changed)
     }
+}
+
+/// A boolean attribute is true: a name alone, or the value 1.
+fn is_on(value: Option<i32>) -> bool {
+    value.is_none_or(|value| value == 1)
 }
 
 #[cfg(test)]

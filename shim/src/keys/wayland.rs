@@ -4,13 +4,12 @@
 //! go to a queue of ours; whoever reads the connection, the program or the driver at the swap, fills that. Nothing here waits.
 
 use super::{Event, Fault};
-use crate::xcb::{function, functions};
+use crate::loaded::{function, functions};
 use core::ffi::{CStr, c_char, c_int};
-use core::mem::transmute;
 use manyview_core::config::Modifiers;
 use manyview_core::gl::Ptr;
 use std::collections::HashSet;
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Opcodes of requests (wayland.xml).
 const GET_REGISTRY: u32 = 1;

@@ -9,6 +9,7 @@ use manyview_core::config::Output;
 use manyview_core::gl::Ptr;
 use manyview_core::present::Attributes;
 use manyview_core::state::{are_eyes_given, give_eyes};
+use std::collections::BTreeSet;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The program's attributes with stereo added. None where the output needs no stereo, or the list cannot be extended.
@@ -91,9 +92,9 @@ const STEREO: i32 = 6;
 const VISUAL_ID: i32 = 0x800B;
 
 /// The visuals, by their IDs, and the configurations, by their addresses, that the program was given with eyes of the layer's.
-static GIVEN: Mutex<Vec<usize>> = Mutex::new(Vec::new());
+static GIVEN: Mutex<BTreeSet<usize>> = Mutex::new(BTreeSet::new());
 
-fn given() -> MutexGuard<'static, Vec<usize>> {
+fn given() -> MutexGuard<'static, BTreeSet<usize>> {
     GIVEN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -112,7 +113,7 @@ unsafe fn id(visual: Ptr) -> usize {
 /// As [`id`].
 unsafe fn note_visual(_: Ptr, visual: Ptr, _: Ptr) {
     // SAFETY: forwarded.
-    given().push(unsafe { id(visual) });
+    given().insert(unsafe { id(visual) });
 }
 
 /// Notes configurations that are given, and their visuals.
@@ -135,9 +136,9 @@ unsafe fn note_configs(dpy: Ptr, configs: Ptr, count: Ptr) {
                 .glXGetFBConfigAttrib(dpy, config, VISUAL_ID, value)
         });
         let mut given = given();
-        given.push(config as usize);
+        given.insert(config as usize);
         if answer == 0 && visual > 0 {
-            given.push(visual as usize);
+            given.insert(visual as usize);
         }
     }
 }
