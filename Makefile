@@ -65,7 +65,7 @@ DEB_PACKAGES := dpkg-dev binutils
 APPSTREAM_ID := io.github.manyview.manyview
 VERSION := $(shell sed -n '/^\[workspace.package\]/,/^\[/s/^version = "\(.*\)"/\1/p' Cargo.toml)
 
-.PHONY: help build library-32 release demos demo bench overhead overhead-ways panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-both test-launch test-wine test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
+.PHONY: help build library-32 release demos demo bench overhead overhead-ways panel-cost points-cost points-large pictures gallery test test-long check-shadow test-32 test-both test-launch test-wine test-full test-drivers build-32 demos-32 packages-32 programs looks looks-strategies soak calibration openarena openarena-walk openarena-pictures same measured mutants sanitize fuzz shaders man notices book lint packages \
 	install install-debug uninstall deb dist clean
 
 help: ## list the targets
@@ -137,8 +137,8 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak|both|wine)_/)'; \
-	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_ --skip wine_; fi
+	then MANYVIEW_TESTS_ALL=1 $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak|both|wine)_/)'; \
+	else MANYVIEW_TESTS_ALL=1 $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_ --skip wine_; fi
 	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
 
@@ -171,8 +171,8 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak|both|wine)_/)'; \
-	else $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_ --skip wine_; fi
+	then MANYVIEW_TESTS_ALL=1 $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak|both|wine)_/)'; \
+	else MANYVIEW_TESTS_ALL=1 $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_ --skip wine_; fi
 	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
 	@if $(CARGO) deny fetch >/dev/null 2>&1; then $(CARGO) deny --workspace check advisories; else echo "advisories of crates are not checked: cargo-deny or its database is not to be had here" >&2; fi
@@ -203,6 +203,9 @@ looks: packages build ## play games as a new user launches them, without an opti
 
 looks-strategies: packages build ## play them under each strategy, the only option; writes docs/looks-strategies.md (two hours)
 	$(CARGO) test --release --test looks looks_are_right -- --ignored --nocapture
+
+calibration: ## fit photos of simulated displays and compare with the truth; writes docs/calibrated.md (an hour)
+	$(CARGO) test --release --test calibrate_glass full_ -- --ignored --nocapture --test-threads 1
 
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak
 	$(CARGO) test --release --test soak soak_ -- --ignored --nocapture

@@ -81,3 +81,8 @@ pub mod bench;
 
 #[cfg(feature = "cli")]
 pub mod launch;
+
+// The tests of all modules use it, so it has no place in the order.
+#[cfg(test)]
+#[path = "../tests/support/share.rs"]
+mod share;

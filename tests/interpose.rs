@@ -3,6 +3,8 @@
 //! second run through [`Display::mask`].
 #![forbid(unsafe_code)]
 
+#[path = "support/share.rs"]
+mod share;
 mod support;
 
 use image::{RgbImage, imageops};
@@ -245,7 +247,10 @@ fn every_display_and_api() {
         ("glx", "slanted8", 8),
         ("egl", "lenticular-5", 5),
         ("osmesa", "slanted8", 9),
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(2))
+    {
         let what = format!("{api} {display} {views}");
         let options = [("VIEWS", &*views.to_string()), ("DISPLAY", display)];
         let (atlas, output, window) = demo_pictures(api, &options);
@@ -332,7 +337,8 @@ fn quilts_rows_and_single_views() {
         ("egl", "view:3", Layout::View(3), 8),
         ("osmesa", "view:7", Layout::View(7), 8),
     ] {
-        for atlas_layout in ["side-by-side", "layers"] {
+        let layouts = ["side-by-side", "layers"];
+        for atlas_layout in layouts.into_iter().step_by(share::every(2)) {
             let what = format!("{api} {output} {views} {atlas_layout}");
             let count = views.to_string();
             let options = [

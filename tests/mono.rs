@@ -1,6 +1,8 @@
 //! Frames that are the same in all views are drawn once: the panel shows the same picture as if all views had been drawn.
 #![forbid(unsafe_code)]
 
+#[path = "support/share.rs"]
+mod share;
 mod support;
 
 use image::RgbImage;
@@ -54,7 +56,8 @@ fn same(demonstration: &[&str], options: &[&str], count: u32) -> (u64, Vec<RgbIm
 /// A menu, a menu over a menu, a scene, and a menu after the scene's stencil.
 #[test]
 fn a_menu_is_drawn_once_and_a_scene_in_all_views() {
-    for strategy in ["replay", "instanced", "geometry"] {
+    let strategies = ["replay", "instanced", "geometry"];
+    for strategy in strategies.into_iter().step_by(share::every(2)) {
         let (once, pictures) = same(&["menu"], &["--strategy", strategy], 48);
         // The frame after a scene is still drawn in all views, as are those in which the stencils of the views may differ.
         assert!((22..=24).contains(&once), "{strategy}: {once}");
@@ -74,7 +77,10 @@ fn outputs_that_show_more_than_one_view_get_them() {
         &["--view-scale", "auto"],
         &["--what", "view:0"],
         &["--what", "atlas"],
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(2))
+    {
         let (once, _) = same(&["menu"], options, 16);
         assert_eq!(once, 0, "{options:?}");
     }
@@ -83,7 +89,8 @@ fn outputs_that_show_more_than_one_view_get_them() {
 /// Commands that read earlier pictures: copies of the frame, the accumulation buffer, readback, display lists, depths without a scene.
 #[test]
 fn what_looks_at_other_views_finds_them() {
-    for name in ["echo", "blur", "readback", "lists", "sky", "room"] {
+    let demos = ["echo", "blur", "readback", "lists", "sky", "room"];
+    for name in demos.into_iter().step_by(share::every(2)) {
         same(&[name], &[], 12);
     }
 }

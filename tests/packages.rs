@@ -99,6 +99,7 @@ fn field(package: &Path, name: &str) -> String {
 
 /// One test, because making the packages takes most of its time.
 #[test]
+#[ignore = "a minute: make test-long"]
 fn the_debian_packages_are_right() {
     let Some(packages) = make() else { return };
     the_unpacked_command_finds_its_parts(&packages);

