@@ -471,10 +471,15 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
     r
 }
 
-/// Tells the layer where the window is, where its picture depends on that.
+/// Tells the layer where the window and the pointer are, where its picture depends on that.
 fn follow_window(layer: &mut Layer, drawable: Drawable, seen: &mut Option<Seen>) {
     if layer.follows_window() {
         layer.moved(drawable::place(drawable, layer.size(), seen));
+    }
+    if layer.wants_pointer()
+        && let Some((x, y)) = drawable::pointer(drawable)
+    {
+        layer.point([x, layer.size().1 as i32 - 1 - y]);
     }
 }
 

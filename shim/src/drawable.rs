@@ -3,7 +3,7 @@
 use crate::geometry::{self, Seen};
 use crate::provider::Provider;
 use crate::windows;
-use crate::xcb;
+use crate::xcb::{self, Connection};
 use core::ffi::c_ulong;
 use manyview_core::gl::Ptr;
 use manyview_core::layer::OnScreen;
@@ -107,18 +107,30 @@ pub(crate) fn place(
     size: (u32, u32),
     seen: &mut Option<Seen>,
 ) -> Option<OnScreen> {
+    let (connection, window) = window(drawable)?;
+    // SAFETY: the window's own connection, which the program has open as long as it shows something in it.
+    unsafe { geometry::place(connection, window, size, seen) }
+}
+
+/// Where the pointer is, in pixels from the top left corner of a drawable's window. None for drawables without a window.
+pub(crate) fn pointer(drawable: Drawable) -> Option<(i32, i32)> {
+    let (connection, window) = window(drawable)?;
+    // SAFETY: as for [`place`].
+    unsafe { xcb::pointer(connection, window) }
+}
+
+/// The window behind a drawable, and the connection for queries about it.
+fn window(drawable: Drawable) -> Option<(Connection, u32)> {
     // SAFETY: the program shows this drawable on this thread.
-    let (connection, window) = unsafe {
+    unsafe {
         match drawable {
             Drawable::Glx(display, drawable) => {
                 let window = windows::behind(display, drawable);
-                (xcb::connection(display)?, window as u32)
+                Some((xcb::connection(display)?, window as u32))
             }
-            Drawable::Egl(display, surface) => windows::behind_surface(display, surface)?,
+            Drawable::Egl(display, surface) => windows::behind_surface(display, surface),
             // Memory has no place on a screen.
-            Drawable::Memory(..) => return None,
+            Drawable::Memory(..) => None,
         }
-    };
-    // SAFETY: the window's own connection, which the program has open as long as it shows something in it.
-    unsafe { geometry::place(connection, window, size, seen) }
+    }
 }

@@ -35,6 +35,14 @@ struct Translated {
     y: i16,
 }
 
+/// xcb_query_pointer_reply_t
+#[repr(C)]
+struct Pointer {
+    head: [u8; 20],
+    x: i16,
+    y: i16,
+}
+
 /// xcb_randr_monitor_info_t
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -79,6 +87,8 @@ functions!(Core, c"libxcb.so.1", {
     geometry_reply = c"xcb_get_geometry_reply": Reply,
     translate = c"xcb_translate_coordinates": unsafe extern "C" fn(Connection, u32, u32, i16, i16) -> Cookie,
     translate_reply = c"xcb_translate_coordinates_reply": Reply,
+    pointer = c"xcb_query_pointer": unsafe extern "C" fn(Connection, u32) -> Cookie,
+    pointer_reply = c"xcb_query_pointer_reply": Reply,
 });
 
 functions!(RandR, c"libxcb-randr.so.0", {
@@ -165,6 +175,21 @@ pub(crate) unsafe fn translated(
     unsafe {
         let cookie = (xcb.translate)(connection, window, root, 0, 0);
         answer(connection, xcb.translate_reply, cookie, |r: &Translated| {
+            (i32::from(r.x), i32::from(r.y))
+        })
+    }
+}
+
+/// Where the pointer is, in pixels from the top left corner of a window.
+///
+/// # Safety
+/// An open connection.
+pub(crate) unsafe fn pointer(connection: Connection, window: u32) -> Option<(i32, i32)> {
+    let xcb = Core::get()?;
+    // SAFETY: forwarded; request and reply belong to each other.
+    unsafe {
+        let cookie = (xcb.pointer)(connection, window);
+        answer(connection, xcb.pointer_reply, cookie, |r: &Pointer| {
             (i32::from(r.x), i32::from(r.y))
         })
     }

@@ -13,6 +13,32 @@ const SAMPLES: u32 = 128;
 /// Bytes from picture to picture in the buffer.
 const SLOT: usize = (SAMPLES * SAMPLES) as usize * size_of::<f32>();
 
+/// A small copy of depths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DepthPicture {
+    /// Width and height in samples.
+    pub size: [usize; 2],
+    /// Window depths, row by row from the lowest.
+    pub depths: Vec<f32>,
+}
+
+impl DepthPicture {
+    /// The samples around a place, given as parts of width and height, up to `reach` samples away.
+    pub fn around(&self, place: [f64; 2], reach: usize) -> Vec<f32> {
+        let span = |axis: usize| {
+            let (size, part) = (self.size[axis], place[axis]);
+            let middle = (part * size as f64) as usize;
+            middle.saturating_sub(reach)..(middle + reach + 1).min(size)
+        };
+        let (rows, columns) = (span(1), span(0));
+        let rows = rows.filter_map(|row| self.depths.get(row * self.size[0]..));
+        rows.filter_map(|row| row.get(columns.clone()))
+            .flatten()
+            .copied()
+            .collect()
+    }
+}
+
 /// The framebuffer and the buffer object of the copies.
 #[derive(Debug)]
 pub(super) struct Depths {
@@ -133,9 +159,9 @@ impl Atlas {
         fence.is_some_and(|fence| gl.passed(fence))
     }
 
-    /// The pictures since the last read, in the order in which they were taken: each is the window depths of all samples. No pack buffer may be
+    /// The pictures since the last read, in the order in which they were taken: No pack buffer may be
     /// bound.
-    pub fn read_depths(&mut self, gl: &Gl) -> Vec<Vec<f32>> {
+    pub fn read_depths(&mut self, gl: &Gl) -> Vec<DepthPicture> {
         let Some(depths) = &mut self.depths else {
             return Vec::new();
         };
@@ -149,7 +175,10 @@ impl Atlas {
         let pictures = taken.into_iter().enumerate().map(|(picture, size)| {
             let mut samples = vec![0.0; bytes(size) / size_of::<f32>()];
             gl.get_buffer_depths(c::PIXEL_PACK_BUFFER, picture * SLOT, &mut samples);
-            samples
+            DepthPicture {
+                size: size.map(|n| n as usize),
+                depths: samples,
+            }
         });
         let pictures = pictures.collect();
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);

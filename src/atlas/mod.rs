@@ -22,7 +22,7 @@ mod view_set;
 
 use crate::view::ViewIndex;
 use depths::Depths;
-pub use depths::{inside, small_size};
+pub use depths::{DepthPicture, inside, small_size};
 use front::Front;
 pub use grid::Grid;
 pub use names::Names;

@@ -297,7 +297,10 @@ fn depths_are_read_when_they_are_there() {
     assert!(atlas.depths_are_there(&gl));
     let pictures = atlas.read_depths(&gl);
     assert_eq!(
-        pictures.iter().map(Vec::len).collect::<Vec<_>>(),
+        pictures
+            .iter()
+            .map(|picture| picture.depths.len())
+            .collect::<Vec<_>>(),
         [64 * 48; 3]
     );
     assert_eq!(fake.value(c::PIXEL_PACK_BUFFER_BINDING), [0.0]);

@@ -6,8 +6,7 @@ use crate::display::MAX_FINE_VIEWS;
 use std::path::PathBuf;
 
 /// The depths that may be given, in words.
-pub(super) const DEPTH_REMEDY: &str =
-    "give a number from -10 (far before the panel) to 1 (infinitely far); 0 is on the panel";
+pub(super) const DEPTH_REMEDY: &str = "give a number from -10 (far before the panel) to 1 (infinitely far), 0 is on the panel, or crosshair or cursor to follow the scene";
 
 /// Why the options cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -2,8 +2,8 @@
 #![forbid(unsafe_code)]
 
 use super::{
-    Camera, CaptureWhat, Config, ConfigError, OptionId, Origin, OsdParts, Output, Settings,
-    cameras, parse,
+    Camera, CaptureWhat, Config, ConfigError, FlatDepth, OptionId, Origin, OsdParts, Output,
+    Settings, cameras, parse,
 };
 use crate::display::{Lens, LensPart};
 
@@ -15,7 +15,7 @@ pub struct Live {
     /// Spacing of the cameras and the depth of zero parallax.
     pub camera: Camera,
     /// Depth of flat draws without a rule.
-    pub hud_depth: f64,
+    pub hud_depth: FlatDepth,
     /// The numbers of the panel's sheet; none where it has no slanted one.
     pub lens: Option<Lens>,
     /// Parts of the on-screen display.
@@ -52,7 +52,10 @@ impl Live {
         Self {
             output: config.output,
             camera: config.camera,
-            hud_depth: config.hud_depth.or(config.profile.hud_depth).unwrap_or(0.0),
+            hud_depth: config
+                .hud_depth
+                .or(config.profile.hud_depth)
+                .unwrap_or_default(),
             lens: config.display.lens(),
             osd: config.osd,
             flat: false,
@@ -281,7 +284,7 @@ mod tests {
         assert_eq!(
             after,
             Live {
-                hud_depth: -0.5,
+                hud_depth: FlatDepth::At(-0.5),
                 ..before
             }
         );

@@ -10,6 +10,7 @@ mod error;
 mod explain;
 mod field;
 mod file;
+mod flat_depth;
 mod frame_cap;
 mod live;
 mod options;
@@ -38,6 +39,7 @@ pub use error::ConfigError;
 pub use explain::Explain;
 pub use field::{Field, Origin, Renaming};
 pub use file::user_folder;
+pub use flat_depth::FlatDepth;
 pub use frame_cap::FrameCap;
 pub use live::{Knob, Live};
 pub use options::{DISABLE, Former, LIBRARY, OPTIONS, OptionId, OptionSpec, PathKind, Scope};
@@ -95,7 +97,7 @@ pub struct Config {
     /// Parts of the on-screen display.
     pub osd: OsdParts,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
-    pub hud_depth: Option<f64>,
+    pub hud_depth: Option<FlatDepth>,
     /// Optimisations that are turned off.
     pub disabled: Disabled,
     /// Rules for the classes of the program's draws.

@@ -389,8 +389,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::Osd, "osd", "MANYVIEW_OSD", "WORDS",
         "What is written over the picture, words with commas between them")
         .choices(&osd::WORDS).default("values,warnings").manual("See [On-screen display](outputs.md#on-screen-display)."),
-    OptionSpec::new(OptionId::HudDepth, "hud-depth", "MANYVIEW_HUD_DEPTH", "D",
-        "Where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel")
+    OptionSpec::new(OptionId::HudDepth, "hud-depth", "MANYVIEW_HUD_DEPTH", "D|crosshair|cursor",
+        "Where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before it; or where the scene is in the middle or under the pointer")
         .default("0").manual("See [Profiles](profiles.md)."),
     OptionSpec::new(OptionId::Orthographic, "orthographic", "MANYVIEW_ORTHOGRAPHIC", "",
         "Which draws without perspective are moved by their depths: those of a scene, none, or all that are tested against depths")

@@ -5,6 +5,7 @@ use super::cameras;
 use super::choice::{choice, choices, switch};
 use super::error::ConfigError;
 use super::field::{Field, Origin};
+use super::flat_depth::FlatDepth;
 use super::options::OptionId;
 use super::output::{GLASSES, OUTPUTS};
 use super::settings::Settings;
@@ -290,13 +291,13 @@ fn view_scale(settings: &Settings) -> Result<ViewScale, ConfigError> {
     }
 }
 
-pub(super) fn hud_depth(settings: &Settings) -> Result<Option<f64>, ConfigError> {
+pub(super) fn hud_depth(settings: &Settings) -> Result<Option<FlatDepth>, ConfigError> {
     let Some((field, value)) = settings.field(OptionId::HudDepth) else {
         return Ok(None);
     };
-    match value.parse() {
-        Ok(depth) if profile::depth_in_range(depth) => Ok(Some(depth)),
-        _ => Err(ConfigError::HudDepth {
+    match FlatDepth::of(value) {
+        Some(depth) => Ok(Some(depth)),
+        None => Err(ConfigError::HudDepth {
             field,
             value: value.to_owned(),
         }),

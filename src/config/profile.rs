@@ -6,14 +6,11 @@
 use super::class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 use super::error::DEPTH_REMEDY;
 use super::file::{one_line, read_capped, user_folder};
+use super::flat_depth::FlatDepth;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
-/// Infinitely far, as the depth of a flat draw.
-pub const FARTHEST: f64 = 1.0;
-/// As far before the panel as anyone may ask for.
-pub const NEAREST: f64 = -10.0;
 /// The value of `--profile` that wants none.
 pub const NONE: &str = "none";
 
@@ -25,7 +22,7 @@ pub struct Profile {
     /// File names of the programs for which it is chosen by itself.
     pub executable: Vec<String>,
     /// Depth of flat draws without a rule, unless the user gives another.
-    pub hud_depth: Option<f64>,
+    pub hud_depth: Option<FlatDepth>,
     /// Depth of zero parallax, in eye-space units, unless the user gives another.
     pub focal_depth: Option<f64>,
     /// The first that matches decides.
@@ -67,8 +64,8 @@ pub struct Rule {
     pub before_depth: Option<bool>,
     /// The class of the draw.
     pub class: Class,
-    /// Where a flat draw stands: 0 on the panel, 1 infinitely far, below 0 before the panel.
-    pub depth: Option<f64>,
+    /// Where a flat draw stands.
+    pub depth: Option<FlatDepth>,
     /// Depth of zero parallax of a scene draw, in eye-space units.
     pub focal_depth: Option<f64>,
 }
@@ -94,11 +91,6 @@ const RULE_KEYS: &[&str] = &[
     "depth",
     "focal-depth",
 ];
-
-/// Checks where a flat draw is to stand.
-pub fn depth_in_range(depth: f64) -> bool {
-    (NEAREST..=FARTHEST).contains(&depth)
-}
 
 impl Profile {
     /// Reads a profile; the error is one sentence that names the file, the rule, the key and the remedy.
@@ -349,11 +341,14 @@ fn flag(table: &Table, key: &str) -> Result<Option<bool>, String> {
     }
 }
 
-fn depth(table: &Table, key: &str) -> Result<Option<f64>, String> {
-    match number(table, key) {
-        Some((_, Some(number))) if depth_in_range(number) => Ok(Some(number)),
-        Some((value, _)) => Err(wrong(key, value, DEPTH_REMEDY)),
-        None => Ok(None),
+fn depth(table: &Table, key: &str) -> Result<Option<FlatDepth>, String> {
+    let Some((value, number)) = number(table, key) else {
+        return Ok(None);
+    };
+    let word = value.as_str().and_then(FlatDepth::of);
+    match number.map_or(word, FlatDepth::at) {
+        Some(depth) => Ok(Some(depth)),
+        None => Err(wrong(key, value, DEPTH_REMEDY)),
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::profile::*;
 use super::{
-    Class, Config, ConfigError, DepthRange, DepthState, OptionId, Projection, Settings, Viewport,
+    Class, Config, ConfigError, DepthRange, DepthState, FlatDepth, OptionId, Projection, Settings,
+    Viewport,
 };
 use proptest::prelude::*;
 use std::path::Path;
@@ -44,7 +45,7 @@ focal-depth = 2.5
 fn every_key_is_understood() {
     let profile = Profile::parse(WHOLE, Path::new("room.toml")).unwrap();
     assert_eq!(profile.executable, ["room", "room.x86_64"]);
-    assert_eq!(profile.hud_depth, Some(0.25));
+    assert_eq!(profile.hud_depth, Some(FlatDepth::At(0.25)));
     assert_eq!(profile.focal_depth, Some(64.0));
     let [first, second, third] = &profile.rules[..] else {
         panic!("{:?}", profile.rules)
@@ -68,7 +69,7 @@ fn every_key_is_understood() {
             after_clear: Some((1, 3)),
             before_depth: Some(true),
             class: Class::Flat,
-            depth: Some(-0.5),
+            depth: Some(FlatDepth::At(-0.5)),
             focal_depth: None,
         }
     );

@@ -8,9 +8,9 @@ pub fn new(program: &str) -> String {
     format!("# Written by `manyview profile save`.\nexecutable = {name}\n")
 }
 
-/// The text with other values for some keys that stand before the rules. Everything else stays as it is, and so do comments beside the values.
+/// The text with other values, in the words of TOML, for some keys that stand before the rules. Everything else stays as it is, and so do comments beside the values.
 #[must_use]
-pub fn with_values(text: &str, values: &[(&str, f64)]) -> String {
+pub fn with_values(text: &str, values: &[(&str, &str)]) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let key = |line: &str| line.split('=').next().map(|key| key.trim().to_owned());
     for (name, value) in values {
@@ -43,21 +43,21 @@ mod tests {
     #[test]
     fn values_are_changed_and_the_rest_stays() {
         let text = "# A room.\nexecutable = [\"room\", \"room.x86_64\"]\nhud-depth = 0.5 # a little behind\n\nrule = [\n    { draw = 3, class = \"flat\" }, # hud-depth = 2\n]\n";
-        let changed = with_values(text, &[("hud-depth", -0.25), ("focal-depth", 8.0)]);
+        let changed = with_values(text, &[("hud-depth", "-0.25"), ("focal-depth", "8")]);
         assert_eq!(
             changed,
             "# A room.\nexecutable = [\"room\", \"room.x86_64\"]\nhud-depth = -0.25    # a little behind\n\nfocal-depth = 8\nrule = [\n    { draw = 3, class = \"flat\" }, # hud-depth = 2\n]\n"
         );
         assert_eq!(with_values(&changed, &[]), changed);
         assert_eq!(
-            with_values("[[rule]]\nclass = \"flat\"\n", &[("hud-depth", 1.0)]),
+            with_values("[[rule]]\nclass = \"flat\"\n", &[("hud-depth", "1")]),
             "hud-depth = 1\n[[rule]]\nclass = \"flat\"\n"
         );
     }
 
     #[test]
     fn a_new_profile_names_its_program() {
-        let text = with_values(&new("a \"b\""), &[("hud-depth", 0.25)]);
+        let text = with_values(&new("a \"b\""), &[("hud-depth", "0.25")]);
         let table: toml::Table = text.parse().expect("TOML");
         assert_eq!(table["executable"].as_str(), Some("a \"b\""));
         assert_eq!(table["hud-depth"].as_float(), Some(0.25));

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::{OUTPUT, Order, ProfileRequest};
-use crate::config::{Action, Camera, Knob, Live, OptionId};
+use crate::config::{Action, Camera, FlatDepth, Knob, Live, OptionId};
 use std::path::PathBuf;
 
 /// Factor of one press for the numbers of the cameras.
@@ -45,7 +45,12 @@ pub fn orders(
         Action::Focus(more) => vec![camera(1, more)],
         Action::HudDepth(farther) => {
             let step = if farther { STEP } else { -STEP };
-            vec![set(OptionId::HudDepth, rounded(live.hud_depth + step))]
+            // From what follows the scene, the way begins on the panel.
+            let from = match live.hud_depth {
+                FlatDepth::At(depth) => depth,
+                FlatDepth::Crosshair | FlatDepth::Cursor => 0.0,
+            };
+            vec![set(OptionId::HudDepth, rounded(from + step))]
         }
         Action::Output => {
             let now = live.output.to_string();
@@ -158,7 +163,7 @@ mod tests {
         };
         let (id, value) = words(Action::Spread(false), live, chosen).remove(0);
         assert_eq!((id, &*value), (OptionId::EyeSpacing, "0.03"));
-        live.hud_depth = 0.05;
+        live.hud_depth = FlatDepth::At(0.05);
         let (_, value) = words(Action::HudDepth(false), live, None).remove(0);
         assert_eq!(value, "0");
     }

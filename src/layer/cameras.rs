@@ -2,7 +2,7 @@
 
 use super::comfort::Comfort;
 use super::image_sums::ImageSums;
-use crate::config::{Config, Live, Projection};
+use crate::config::{Config, FlatDepth, Live, Projection};
 use crate::plan::{Classifier, Shear};
 
 /// The classifier of draws, the measurement of depths that places the cameras of the views, and the raster position.
@@ -21,7 +21,7 @@ pub(super) struct Cameras {
 impl Cameras {
     /// Nothing has been drawn. `program` is the name of the program's file.
     pub(super) fn new(config: &Config, live: &Live, program: Option<&str>) -> Self {
-        Cameras {
+        let mut cameras = Cameras {
             classifier: Classifier::new(
                 &config.profile,
                 Some(live.hud_depth),
@@ -32,7 +32,16 @@ impl Cameras {
             image_sums: ImageSums::default(),
             raster: None,
             raster_placed: Projection::None,
-        }
+        };
+        cameras.follow(config.views);
+        cameras
+    }
+
+    /// Has depths read where flat draws follow the scene.
+    pub(super) fn follow(&mut self, views: u32) {
+        let places = [FlatDepth::Crosshair, FlatDepth::Cursor];
+        let follows = views > 1 && places.map(|at| self.classifier.follows(at)).contains(&true);
+        self.comfort.follow(follows);
     }
 
     /// The program has set the raster position to a point of the scene, which moves with the view: under a projection of this kind, whose

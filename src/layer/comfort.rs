@@ -13,8 +13,7 @@ use crate::state::Neutral;
 /// State of the measurement of depths.
 #[derive(Debug)]
 pub(super) struct Comfort {
-    /// Depths are read, because the cameras follow them or the report has disparities.
-    on: bool,
+    readers: Readers,
     cameras: comfort::Comfort,
     /// The same for an orthographic scene.
     slanting: Slanting,
@@ -36,12 +35,23 @@ pub(super) struct Comfort {
     pub(super) told_orthographic: bool,
 }
 
+/// Who reads the depths.
+#[derive(Clone, Copy, Debug, Default)]
+struct Readers {
+    /// The cameras follow them, or the report has disparities.
+    cameras: bool,
+    /// Flat draws follow the scene.
+    draws: bool,
+}
+
 /// What has to be known to use one depth picture.
 #[derive(Clone, Debug)]
-struct Taken {
+pub(super) struct Taken {
     frame: u64,
-    mappings: DepthMappings,
-    clear: f32,
+    pub(super) mappings: DepthMappings,
+    pub(super) clear: f32,
+    /// The part of the window that the picture shows: left, bottom, right, top in its pixels; none for a framebuffer of the program's.
+    pub(super) area: Option<[i32; 4]>,
     /// Separation and convergence that the frame is drawn with.
     cameras: Option<(f64, f64)>,
     /// The same of what is drawn before everything else.
@@ -53,7 +63,7 @@ struct Taken {
 impl Comfort {
     pub(super) fn new(config: &Config, camera: Camera) -> Self {
         let mut comfort = Comfort {
-            on: false,
+            readers: Readers::default(),
             cameras: comfort::Comfort::new(None),
             next: None,
             foreground: None,
@@ -72,7 +82,12 @@ impl Comfort {
 
     /// Whether depths are read.
     pub(super) fn looks(&self) -> bool {
-        self.on
+        self.readers.cameras || self.readers.draws
+    }
+
+    /// Has depths read for flat draws, or no longer.
+    pub(super) fn follow(&mut self, follows: bool) {
+        self.readers.draws = follows;
     }
 
     /// The user asks for other cameras; `focal` is the focal depth of the profile.
@@ -88,7 +103,7 @@ impl Comfort {
             }
             _ => false,
         };
-        self.on = config.views > 1 && (measured || config.report.is_some());
+        self.readers.cameras = config.views > 1 && (measured || config.report.is_some());
     }
 
     /// The depths of the frames before say nothing of this one.
@@ -185,6 +200,7 @@ impl Layer {
                     .map_or(0.0, |shear| shear.separation(1.0) * self.half_width()),
                 mappings,
                 clear,
+                area: framebuffer.is_zero().then_some(self.known.depths.area),
             });
         }
     }
@@ -205,7 +221,7 @@ impl Layer {
 
     /// At the end of a frame: reads the depths of the previous one, and takes those of this one. Changes the framebuffer bindings.
     pub(super) fn track_depths(&mut self, gl: &Gl, neutral: &Neutral) {
-        if !self.cameras.comfort.on {
+        if !self.cameras.comfort.looks() {
             return;
         }
         if self.known.depths.pending && !self.known.depths.overwritten {
@@ -217,6 +233,9 @@ impl Layer {
         self.cameras.comfort.sent = std::mem::take(&mut self.cameras.comfort.taken);
         let without_depths = self.cameras.comfort.sent.is_empty();
         self.targets.atlas.send_depths(gl);
+        if without_depths {
+            self.follow_nothing();
+        }
         let measured = matches!(self.session.live.camera, Camera::Measured(_));
         if measured && !self.cameras.comfort.has_found() {
             // No cameras were found yet: it is better to wait for the depths than to show another shallow frame.
@@ -253,13 +272,18 @@ impl Layer {
         }
         let mut all = Distances::default();
         for (picture, taken) in pictures.iter().zip(&sent) {
-            all.join(taken.mappings.distances(picture, taken.clear));
+            all.join(taken.mappings.distances(&picture.depths, taken.clear));
         }
-        let most = |taken: &&Taken| taken.mappings.most().map(DepthMapping::draws);
-        if let Some(taken) = sent.iter().max_by_key(most)
-            && let (Some(way), Some(scene)) = (taken.mappings.most(), all.scene())
+        let most = |(_, taken): &(_, &Taken)| taken.mappings.most().map(DepthMapping::draws);
+        if let Some((picture, taken)) = pictures.iter().zip(&sent).max_by_key(most)
+            && let Some(way) = taken.mappings.most()
         {
-            self.judge(taken, &way.projection, scene, &all);
+            if let Some(scene) = all.scene() {
+                self.judge(taken, &way.projection, scene, &all);
+            }
+            if self.cameras.comfort.readers.draws {
+                self.follow(taken, picture, &way.projection);
+            }
         }
     }
 
@@ -313,7 +337,7 @@ impl Layer {
 
     /// Separation and convergence of a scene with this projection, as for distances 1/w; for an orthographic scene, whose distances are parts of
     /// the way from the far plane to the near one, those that give the same disparities.
-    fn cameras_in_force(&self, p: &[f32; 16]) -> Option<(f64, f64)> {
+    pub(super) fn cameras_in_force(&self, p: &[f32; 16]) -> Option<(f64, f64)> {
         if !parallax::flat(p) {
             return numbers(self.known.rig.shear(p));
         }

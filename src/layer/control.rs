@@ -1,7 +1,7 @@
 //! Requests to the running program: values in force, and pictures of the next frame.
 
 use super::Layer;
-use crate::config::{Action, Camera, Capture, CaptureWhat, Live, OptionId, Output};
+use crate::config::{Action, Camera, Capture, CaptureWhat, FlatDepth, Live, OptionId, Output};
 use crate::control::{Answer, ControlError, LAYER, Order, ProfileRequest, Ramp, VIEWS, keys};
 use crate::display::LensPart;
 use crate::gl::Gl;
@@ -93,6 +93,7 @@ impl Layer {
         self.session.adopt(live);
         self.known.rig.change(live.camera, live.flat);
         self.cameras.classifier.change_hud_depth(live.hud_depth);
+        self.cameras.follow(self.session.config.views);
     }
 
     /// The output in force; the own view alone while all cameras stand where the program's own does.
@@ -224,7 +225,11 @@ impl Layer {
             OptionId::Output,
             self.session.live.output.to_string().into(),
         );
-        put(OptionId::HudDepth, self.session.live.hud_depth.into());
+        let hud = match self.session.live.hud_depth {
+            FlatDepth::At(depth) => depth.into(),
+            follows => follows.to_string().into(),
+        };
+        put(OptionId::HudDepth, hud);
         let measured = matches!(self.session.live.camera, Camera::Measured(_));
         put(OptionId::AutoDepth, u8::from(measured).into());
         let cameras = self.session.live.cameras(self.known.rig.latched());

@@ -44,7 +44,7 @@ pub(super) struct Explained {
 
 impl Layer {
     /// The request for an explanation, if it is of the frame that is being drawn. One to the running program goes first.
-    fn explains(&self) -> Option<Explain> {
+    pub(super) fn explains(&self) -> Option<Explain> {
         let frame = self.diagnostics.report.frames() + 1;
         if self.state.list.is_some() {
             return None;
@@ -92,9 +92,6 @@ impl Layer {
 
     /// Adds a draw that is about to be made to the list.
     pub(super) fn explain_this(&mut self, facts: &Traits, classed: &Classed) {
-        if self.explains().is_none() {
-            return;
-        }
         if let Some(explained) = &mut self.diagnostics.explained {
             let clear = matches!(facts.kind, Kind::Clear { .. } | Kind::Accum);
             if !clear {

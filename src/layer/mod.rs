@@ -23,6 +23,7 @@ mod explain;
 mod eyes;
 mod feedback;
 mod fit;
+mod follow;
 mod frame;
 mod framebuffer;
 mod frames;

@@ -2,7 +2,7 @@
 
 use super::Layer;
 use crate::config::{
-    Camera, Kept, Live, OptionId, Profile, profile, profile_text, program, replace,
+    Camera, FlatDepth, Kept, Live, OptionId, Profile, profile, profile_text, program, replace,
 };
 use crate::control::{Answer, ControlError};
 use std::path::PathBuf;
@@ -21,9 +21,10 @@ impl Layer {
         self.cameras
             .classifier
             .change_rules(&profile, program.as_deref());
+        self.cameras.follow(self.session.config.views);
         if profile.hud_depth != before.hud_depth && self.session.config.hud_depth.is_none() {
             self.adopt(Live {
-                hud_depth: profile.hud_depth.unwrap_or(0.0),
+                hud_depth: profile.hud_depth.unwrap_or_default(),
                 ..self.session.live
             });
         }
@@ -83,12 +84,18 @@ impl Layer {
             | Camera::Measured(Some(Kept::FocalDepth(focal_depth))) => Some(focal_depth),
             _ => None,
         };
-        let hud = (live.hud_depth != self.session.profile.hud_depth.unwrap_or(0.0))
-            .then_some(live.hud_depth);
+        let hud =
+            (live.hud_depth != self.session.profile.hud_depth.unwrap_or_default()).then(|| {
+                match live.hud_depth {
+                    FlatDepth::At(depth) => depth.to_string(),
+                    follows => format!("\"{follows}\""),
+                }
+            });
+        let focal = focal.map(|depth| depth.to_string());
         let values = [("hud-depth", hud), ("focal-depth", focal)];
         let values = values
-            .into_iter()
-            .filter_map(|(key, value)| Some((key, value?)))
+            .iter()
+            .filter_map(|(key, value)| Some((*key, value.as_deref()?)))
             .collect::<Vec<_>>();
         let text = profile_text::with_values(&text, &values);
         let written = Profile::parse(&text, &path).map_err(ControlError::Profile)?;

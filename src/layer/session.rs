@@ -26,6 +26,8 @@ pub(super) struct Session {
     /// Position of the window; none where the window system does not report it.
     pub(super) on_screen: Option<OnScreen>,
     pub(super) panel: Panel,
+    /// Where the pointer is, in pixels of the window from its left and lower edge, once something asks for it.
+    pub(super) pointer: Option<[i32; 2]>,
     /// The display with other numbers of its lens sheet, once they have been changed.
     fitted: Option<Display>,
     pub(super) auto: Option<auto::Auto>,
@@ -60,6 +62,7 @@ impl Session {
             profile: Arc::new(config.profile.clone()),
             on_screen: None,
             panel: Panel::default(),
+            pointer: None,
             fitted: None,
             auto,
         }

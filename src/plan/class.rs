@@ -4,7 +4,9 @@
 //! sky that keeps a little.
 
 use super::{Kind, camera, parallax};
-use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport};
+use crate::config::{
+    Class, DepthRange, DepthState, FlatDepth, Profile, Projection, Rule, Viewport,
+};
 use crate::gl::{FramebufferName, ListName, TextureName};
 use crate::state::{State, Touch};
 
@@ -182,12 +184,22 @@ impl Classed {
     }
 }
 
+/// Where the scene stands at two places of the window: 0 on the panel, 1 infinitely far, below 0 before the panel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SceneDepths {
+    /// In the middle.
+    pub middle: f64,
+    /// Under the pointer.
+    pub pointer: f64,
+}
+
 /// Classifies the draws of one program.
 #[derive(Clone, Debug)]
 pub struct Classifier {
     /// The rules for this program, with their numbers in the file.
     rules: Vec<(usize, Rule)>,
-    hud_depth: f64,
+    hud_depth: FlatDepth,
+    scene: SceneDepths,
     explains: bool,
 }
 
@@ -195,13 +207,14 @@ impl Classifier {
     /// For a program, by the name of its executable. `explains`: all traits are wanted, whether a rule asks for them or not.
     pub fn new(
         profile: &Profile,
-        hud_depth: Option<f64>,
+        hud_depth: Option<FlatDepth>,
         program: Option<&str>,
         explains: bool,
     ) -> Self {
         Classifier {
             rules: numbered(profile, program),
-            hud_depth: hud_depth.or(profile.hud_depth).unwrap_or(0.0),
+            hud_depth: hud_depth.or(profile.hud_depth).unwrap_or_default(),
+            scene: SceneDepths::default(),
             explains,
         }
     }
@@ -217,8 +230,32 @@ impl Classifier {
     }
 
     /// Sets another depth for flat draws that no rule places.
-    pub fn change_hud_depth(&mut self, depth: f64) {
+    pub fn change_hud_depth(&mut self, depth: FlatDepth) {
         self.hud_depth = depth;
+    }
+
+    /// What flat draws follow: those without a rule, and those of the rules.
+    pub fn follows(&self, depth: FlatDepth) -> bool {
+        let mut rules = self.rules.iter();
+        self.hud_depth == depth || rules.any(|(_, rule)| rule.depth == Some(depth))
+    }
+
+    /// Sets where the scene stands that flat draws follow.
+    pub fn change_scene(&mut self, scene: SceneDepths) {
+        self.scene = scene;
+    }
+
+    /// Where the scene stands that flat draws follow.
+    pub fn scene(&self) -> SceneDepths {
+        self.scene
+    }
+
+    fn depth(&self, depth: FlatDepth) -> f64 {
+        match depth {
+            FlatDepth::At(depth) => depth,
+            FlatDepth::Crosshair => self.scene.middle,
+            FlatDepth::Cursor => self.scene.pointer,
+        }
     }
 
     /// The groups of state that a draw's class may depend on, beside those that every draw needs. `before`: nothing in perspective has written depth,
@@ -298,7 +335,7 @@ impl Classifier {
         }
         if let Some((number, rule)) = rule() {
             return Classed {
-                depth: rule.depth.unwrap_or(self.hud_depth),
+                depth: self.depth(rule.depth.unwrap_or(self.hud_depth)),
                 focal: rule.focal_depth,
                 ..classed(rule.class, Why::Rule(*number))
             };
@@ -307,7 +344,7 @@ impl Classifier {
             return match facts.raster {
                 Projection::Perspective => classed(Class::Scene, Why::Raster),
                 Projection::Orthographic => Classed {
-                    depth: self.hud_depth,
+                    depth: self.depth(self.hud_depth),
                     ..classed(Class::Flat, Why::Raster)
                 },
                 Projection::None => classed(Class::Flat, Why::Raster),
@@ -316,7 +353,7 @@ impl Classifier {
         match facts.projection {
             _ if facts.slants => classed(Class::Scene, Why::Slanted),
             Projection::Orthographic => Classed {
-                depth: self.hud_depth,
+                depth: self.depth(self.hud_depth),
                 ..classed(Class::Flat, Why::Orthographic)
             },
             // Vertices in clip space are mostly those of quads over the whole window; a shift would show their edges.

@@ -15,7 +15,7 @@ pub mod parallax;
 pub mod reason;
 pub mod trial;
 
-pub use class::{Classed, Classifier, Traits};
+pub use class::{Classed, Classifier, SceneDepths, Traits};
 pub use comfort::Comfort;
 pub use cut::{Cuts, Pose};
 pub use decide::{Decision, Facts, Flat, Known, Method, Plan, Preparation, Settings, decide};

@@ -7,8 +7,7 @@
 
 use super::orthographic::{Planes, Slant, row_length};
 use super::{camera, comfort};
-use crate::config::profile::FARTHEST;
-use crate::config::{Camera, Kept};
+use crate::config::{Camera, FlatDepth, Kept};
 use crate::view::ViewIndex;
 
 /// The cameras of all views.
@@ -75,7 +74,7 @@ impl Rig {
             reach: None,
             a: None,
             slant: None,
-            farthest: FARTHEST,
+            farthest: FlatDepth::FARTHEST,
             flat: false,
         }
     }
@@ -83,7 +82,7 @@ impl Rig {
     /// Sets other cameras; with `flat`, all of them stand where the program's own does.
     pub fn change(&mut self, camera: Camera, flat: bool) {
         if camera != self.camera {
-            self.farthest = FARTHEST;
+            self.farthest = FlatDepth::FARTHEST;
             self.foreground = None;
             self.slant = None;
         }
@@ -120,7 +119,7 @@ impl Rig {
     pub fn forget_measured(&mut self) {
         self.latched = None;
         self.foreground = None;
-        self.farthest = FARTHEST;
+        self.farthest = FlatDepth::FARTHEST;
     }
 
     /// The shift of a sky.

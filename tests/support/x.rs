@@ -76,18 +76,25 @@ impl User {
         sent.expect("sent").check().expect("XTEST");
     }
 
+    /// Moves the pointer to a place of the screen.
+    pub(crate) fn point(&self, at: [i16; 2]) {
+        self.mouse(MOTION_NOTIFY_EVENT, 0, at);
+        self.connection.sync().expect("a server");
+    }
+
+    fn mouse(&self, kind: u8, detail: u8, [x, y]: [i16; 2]) {
+        let sent = self
+            .connection
+            .xtest_fake_input(kind, detail, 0, self.root, x, y, 0);
+        sent.expect("sent").check().expect("XTEST");
+    }
+
     /// Moves the mouse from one place of the screen to another with its left button down.
     pub(crate) fn drag(&self, from: [i16; 2], to: [i16; 2]) {
-        let send = |kind, detail, [x, y]: [i16; 2]| {
-            let sent = self
-                .connection
-                .xtest_fake_input(kind, detail, 0, self.root, x, y, 0);
-            sent.expect("sent").check().expect("XTEST");
-        };
-        send(MOTION_NOTIFY_EVENT, 0, from);
-        send(BUTTON_PRESS_EVENT, 1, from);
-        send(MOTION_NOTIFY_EVENT, 0, to);
-        send(BUTTON_RELEASE_EVENT, 1, to);
+        self.mouse(MOTION_NOTIFY_EVENT, 0, from);
+        self.mouse(BUTTON_PRESS_EVENT, 1, from);
+        self.mouse(MOTION_NOTIFY_EVENT, 0, to);
+        self.mouse(BUTTON_RELEASE_EVENT, 1, to);
         self.connection.sync().expect("a server");
     }
 

@@ -10,8 +10,25 @@ use crate::plan::{Facts, Method, Plan};
 impl Layer {
     /// Reports a draw that is decided and about to be made.
     pub(super) fn observe_decision(&mut self, gl: &Gl, facts: &Facts, plan: &Plan) {
+        if self.explains().is_some() {
+            self.explain_this(&facts.traits, &self.told(facts, plan));
+        }
+        self.prove_this(gl, &facts.traits, plan);
+        if plan.method == Method::Once {
+            self.queries.drawn();
+        } else {
+            self.frame.draws();
+        }
+        // An amplified draw is counted when it is known that it can be made.
+        if matches!(plan.method, Method::Once | Method::Replay) {
+            self.count_draw(plan.method, plan);
+        }
+    }
+
+    /// The class of a draw as an explanation tells it, with what its plan adds to the reason.
+    fn told(&self, facts: &Facts, plan: &Plan) -> Classed {
         let program = self.state.in_use.program;
-        let told = match facts.classed.why {
+        match facts.classed.why {
             Why::Rule(_) => facts.classed,
             _ if plan.variant && self.is_by_clip_form(program) && plan.class == Class::Scene => {
                 Classed {
@@ -31,17 +48,6 @@ impl Layer {
                 ..facts.classed
             },
             _ => facts.classed,
-        };
-        self.explain_this(&facts.traits, &told);
-        self.prove_this(gl, &facts.traits, plan);
-        if plan.method == Method::Once {
-            self.queries.drawn();
-        } else {
-            self.frame.draws();
-        }
-        // An amplified draw is counted when it is known that it can be made.
-        if matches!(plan.method, Method::Once | Method::Replay) {
-            self.count_draw(plan.method, plan);
         }
     }
 

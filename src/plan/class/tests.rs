@@ -551,7 +551,7 @@ fn the_depth_of_the_display_changes_what_no_rule_places() {
         ..facts()
     };
     for depth in [0.0, 0.25, -0.5] {
-        c.change_hud_depth(depth);
+        c.change_hud_depth(FlatDepth::At(depth));
         assert_eq!(c.class(&flat).depth, depth);
         assert_eq!(c.class(&position).depth, depth);
         assert_eq!(c.class(&ruled).depth, 0.5);
