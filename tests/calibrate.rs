@@ -13,7 +13,7 @@ mod support;
 
 use camera::{Exposure, Sheet, expose};
 use image::RgbImage;
-use manyview::calibrate::{CalibrateError, Fit, Guess, Photo, Setup, Sighting, fit, pattern};
+use manyview::calibrate::{CalibrateError, Fit, Guess, Mask, Photo, Setup, Sighting, fit, pattern};
 use manyview::display::{Display, Kind};
 use random::Random;
 use scene::Scene;
@@ -23,19 +23,42 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 const QUALITY: u8 = 70;
 
+/// The phase that a fit has the mask of a panel of this size made for, at a point in pixels from the top left corner, in lenses.
+fn claimed(found: &Fit, (width, height): (u32, u32)) -> impl Fn(f64, f64) -> f64 + use<> {
+    let Mask {
+        pitch,
+        slant,
+        offset,
+        map,
+        ..
+    } = found.mask.clone();
+    move |x, y| {
+        let plane = 3.0 * x - 0.5 + slant * (y - 0.5) + offset;
+        let bias = map.as_ref().map_or(0.0, |map| {
+            let cell = |at: f64, size: u32, cells: f64| {
+                let at = (at / f64::from(size) * cells).clamp(0.0, cells - 1e-6);
+                (at as usize, at.fract())
+            };
+            let ((i, u), (j, v)) = (cell(x, width, 8.0), cell(y, height, 4.0));
+            let row = |j: usize| map[9 * j + i] * (1.0 - u) + map[9 * j + i + 1] * u;
+            row(j) * (1.0 - v) + row(j + 1) * v
+        });
+        (plane + bias) / pitch
+    }
+}
+
 /// Per cent of the subpixels whose phase is off by more than half a view.
 fn wrong(sheet: &Sheet, found: &Fit) -> f64 {
-    let mut claimed = sheet.clone();
-    (claimed.pitch, claimed.slant, claimed.offset) = (found.pitch, found.slant, found.offset);
-    claimed.bias = found.bias.unwrap_or_default();
-    claimed.colours = found.colours.map_or([0.0; 3], |(colours, _)| colours);
+    let claim = claimed(found, sheet.size);
+    let colours = found.colours.map_or([0.0; 3], |(colours, _)| colours);
     let (mut off, mut all) = (0, 0);
     for row in (0..sheet.size.1).step_by(7) {
         for subpixel in 0..3 * sheet.size.0 {
             let (x, y) = ((f64::from(subpixel) + 0.5) / 3.0, f64::from(row) + 0.5);
             let colour = (subpixel % 3) as usize;
-            let phase = |sheet: &Sheet| sheet.phase(x, y) + sheet.colours[colour] / sheet.pitch;
-            let apart = phase(&claimed) - phase(sheet);
+            let apart = claim(x, y) + colours[colour] / found.mask.pitch
+                - sheet.phase(x, y)
+                - sheet.colours[colour] / sheet.pitch;
             let apart = (apart - apart.round()).abs() * f64::from(sheet.views);
             off += u32::from(apart > 0.5);
             all += 1;
@@ -151,12 +174,10 @@ fn a_mask_for_viewers_shows_them_the_middle_view_everywhere() {
     asked.viewer = Some(distance);
     let claims = [&scene.setup, &asked].map(|setup| {
         let found = fit(setup, &sightings).expect("a fit");
-        let mut claimed = sheet.clone();
-        (claimed.pitch, claimed.slant, claimed.offset) = (found.pitch, found.slant, found.offset);
-        claimed
+        claimed(&found, sheet.size)
     });
     // The view farthest from the middle one, in views, that an eye straight before the panel sees.
-    let [plain, matched] = claims.map(|claimed| {
+    let [plain, matched] = claims.map(|claim| {
         let mut farthest = 0.0f64;
         for (x, y) in [
             (5.0, 5.0),
@@ -168,7 +189,7 @@ fn a_mask_for_viewers_shows_them_the_middle_view_everywhere() {
             // A point on the axis of a lens; then the pixel that the eye sees under it.
             let x = x + (0.5 - sheet.phase(x, y).rem_euclid(1.0)) * sheet.pitch / 3.0;
             let lean = sheet.gap() / camera::PIXEL / distance;
-            let seen = claimed.phase(x + (x - width / 2.0) * lean, y + (y - height / 2.0) * lean);
+            let seen = claim(x + (x - width / 2.0) * lean, y + (y - height / 2.0) * lean);
             farthest = farthest.max((seen.rem_euclid(1.0) - 0.5).abs() * f64::from(sheet.views));
         }
         farthest
@@ -344,7 +365,10 @@ fn the_command_makes_the_pattern_and_fits_photos() {
         panic!("a slanted sheet");
     };
     let (pitch, slant) = (lens.pitch.to_f64(), lens.slant.to_f64());
-    assert!((pitch / scene.sheet.pitch - 1.0).abs() < 1e-4, "{pitch}");
+    // Without --viewer the mask is for an eye where the first photo was taken, which sees the lenses over pixels that are further apart.
+    let [.., distance] = scene.shots[0].eye;
+    let expected = scene.sheet.pitch / (1.0 - scene.sheet.gap() / distance);
+    assert!((pitch / expected - 1.0).abs() < 1e-4, "{pitch} {expected}");
     assert!((slant - scene.sheet.slant).abs() < 1e-2, "{slant}");
     assert!(lens.inverted, "lenses before the pixels");
 }

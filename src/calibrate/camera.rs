@@ -31,11 +31,39 @@ pub(super) struct Pose {
     pub eye: DVec3,
 }
 
+/// Orders of the polynomials of [`Shake`].
+pub(super) const ORDERS: usize = 4;
+
+/// The movement of the picture while the sensor read it row by row: an unsteady hand, or a lens that makes up for one.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Shake {
+    /// Picture pixels in x and y, of the Legendre polynomials of order 1 to 4 over the rows.
+    pub by_order: [DVec2; ORDERS],
+}
+
+impl Shake {
+    /// How far the picture had moved when the row was read that is this part of half of the diagonal below the middle.
+    fn at(&self, part: f64) -> DVec2 {
+        // The rows of a picture of 4:3 end at 0.6 of half of the diagonal.
+        let t = (part / 0.6).clamp(-1.2, 1.2);
+        let (mut before, mut now) = (1.0, t);
+        let mut sum = DVec2::ZERO;
+        for (order, moved) in (1..).zip(&self.by_order) {
+            sum += *moved * now;
+            let n = f64::from(order);
+            let next = ((2.0 * n + 1.0) * t * now - n * before) / (n + 1.0);
+            (before, now) = (now, next);
+        }
+        sum
+    }
+}
+
 /// A photo's camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     pub optics: Optics,
     pub pose: Pose,
+    pub shake: Shake,
 }
 
 impl View {
@@ -48,7 +76,8 @@ impl View {
             centre,
             half,
         } = self.optics;
-        let bent = (pixel - centre) / half;
+        let still = pixel - self.shake.at((pixel.y - centre.y) / half);
+        let bent = (still - centre) / half;
         let square = bent.length_squared();
         let straight = bent * (1.0 + square * (k1 + k2 * square)) * half / focal;
         let ray = self.pose.rotation.inverse() * straight.extend(1.0);
@@ -75,7 +104,9 @@ impl View {
             let square = bent.length_squared();
             straight / (1.0 + square * (k1 + k2 * square))
         });
-        Some(centre + bent * half)
+        let still = centre + bent * half;
+        // The row where a point ends up is nearly that where it would be in a steady hand.
+        Some(still + self.shake.at((still.y - centre.y) / half))
     }
 }
 
@@ -138,6 +169,7 @@ mod tests {
                 rotation: DQuat::from_rotation_y(0.2) * DQuat::from_rotation_x(-0.1),
                 eye: DVec3::new(300.0, 400.0, -2000.0),
             },
+            shake: Shake::default(),
         }
     }
 

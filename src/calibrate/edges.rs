@@ -6,7 +6,7 @@ use super::pattern::{FRAME, Layout};
 use glam::DVec2;
 
 /// Places along each line.
-const ALONG: usize = 40;
+pub(super) const ALONG: usize = 40;
 /// Samples over an edge.
 const ACROSS: usize = 23;
 /// Half of the length over which an edge is looked for, in bands; the frame is one band thick.

@@ -16,6 +16,22 @@ pub enum CalibrateError {
         /// The bounds.
         expected: &'static str,
     },
+    /// No pitch.
+    #[error(
+        "--pitch is '{text}'; give subpixels from lens to lens along a row such as 8.7 or 16/3, or with --dpi or --screen-mm the 0.286mm or 60lpi of a data sheet"
+    )]
+    Pitch {
+        /// As given.
+        text: String,
+    },
+    /// No slant.
+    #[error(
+        "--slant is '{text}'; give subpixels per row downwards such as 0.66 or 2/3, or the angle to the columns of pixels such as 12.5deg"
+    )]
+    Slant {
+        /// As given.
+        text: String,
+    },
     /// Not a panel that can be measured.
     #[error("{reason}")]
     Display {
@@ -104,6 +120,26 @@ pub enum CalibrateError {
         seen: u16,
         /// Of the setup.
         expected: u16,
+    },
+    /// The picture was resampled on its way to the pixels.
+    #[error(
+        "photo `{photo}`: the pattern was shown scaled, its finest rows are blurred; show it with `manyview calibrate show`, or full screen at 100 %, at the panel's own \
+         resolution and without a scaled desk"
+    )]
+    Scaled {
+        /// The file.
+        photo: String,
+    },
+    /// The picture does not begin at the first pixel.
+    #[error(
+        "photo `{photo}`: the outermost pixels at the {side} are not those of the pattern, which was shown beside its place; show it full screen, without a border or a panel \
+         of the desk, or take the photo straight from the front if the bezel hides them"
+    )]
+    Moved {
+        /// The file.
+        photo: String,
+        /// A side of the panel.
+        side: &'static str,
     },
     /// Too few camera pixels.
     #[error(

@@ -1,42 +1,31 @@
 //! The result, with its residuals and its uncertainty.
 #![forbid(unsafe_code)]
 
-use super::fringes::BLOCKS;
+use super::certainty::{Certainty, PhaseError, UNSURE_PART};
+use super::mask::{Mask, Viewers};
 use super::pattern::Layout;
-use super::solve::{NODES, Problem, Sheet, Solution, weights};
+use super::sheet::NODES;
+use super::solve::{Problem, Solution};
 use super::{CalibrateError, Setup, Sighting};
-use glam::DVec2;
+use crate::display::SubpixelOrder;
 
-/// The panel counts as known when this many standard deviations stay within half a view: in simulated photos one fit in
-/// some hundreds is off by nearly four...
-const SURE: f64 = 4.0;
-/// ...on all but this part of it.
-const UNSURE_PART: f64 = 0.05;
 /// Root mean square of the residuals, turns, above which the model does not describe the photo.
 const LARGEST_RESIDUAL: f64 = 0.08;
 
-/// How well the phase of the mask is known, as standard deviations in views.
-#[derive(Clone, Copy, Debug)]
-pub struct PhaseError {
-    /// The mean over the panel.
-    pub mean: f64,
-    /// At the worst place of the panel.
-    pub worst: f64,
-    /// The part of the panel that may be off by more than half a view, at four standard deviations, 0 to 1.
-    pub unsure: f64,
-}
+/// How much better one order of the colours has to agree than the other, from 0 to 1, for it to count as measured.
+const LEAST_ORDER: f64 = 0.1;
 
 /// A lens sheet measured.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// Subpixels from lens to lens along a row; for the viewers' distance where the setup has one.
-    pub pitch: f64,
-    /// Subpixels per row.
-    pub slant: f64,
-    /// Subpixels, 0 to the pitch.
-    pub offset: f64,
+    /// The mask.
+    pub mask: Mask,
     /// From pixels to lenses, in effective air, panel pixels.
     pub gap: f64,
+    /// Which colour is leftmost in a pixel: as measured, or as given where the photos do not tell.
+    pub order: SubpixelOrder,
+    /// The order was measured.
+    pub order_measured: bool,
     /// Subpixels to add to the phase of red, green and blue, and the standard deviation of each.
     pub colours: Option<([f64; 3], [f64; 3])>,
     /// Subpixels to add to the phase, at 3x3 places over the screen, rows from the top.
@@ -126,15 +115,6 @@ impl Answer<'_> {
         let views = f64::from(self.setup.views);
         let sheet = self.problem.sheet(&self.solution.minimum.at)?;
         let size = self.layout.size;
-        // Turns per pixel to the right and down, of the sheet; then of the mask.
-        let growth =
-            DVec2::new(3.0, self.setup.slant) / self.setup.pitch + sheet.slope * 2.0 / size;
-        let growth = growth * (1.0 - self.lean(&sheet));
-        let pitch = 3.0 / growth.x;
-        let slant = growth.y * pitch;
-        let middle = size / 2.0;
-        let phase = self.layout.nominal(middle) + sheet.phase;
-        let offset = phase * pitch - (3.0 * middle.x - 0.5) - slant * (middle.y - 0.5);
         let mut misses = Vec::new();
         let mut cameras = Vec::new();
         for (photo, sighting) in self.sightings.iter().enumerate() {
@@ -148,81 +128,55 @@ impl Answer<'_> {
                 .eye;
             cameras.push(Camera {
                 name: sighting.name.clone(),
-                eye: [eye.x - middle.x, eye.y - middle.y, -eye.z],
+                eye: [eye.x - size.x / 2.0, eye.y - size.y / 2.0, -eye.z],
                 contrast: sighting.fringes.contrast,
             });
         }
+        let distance = match self.setup.viewer {
+            // Seen from the face of the panel, the pixels are as deep in effective air as the gap is. The cameras' distances have that already.
+            Some(distance) => distance + sheet.gap,
+            None => cameras.first()?.eye[2],
+        };
+        let viewers = Viewers {
+            layout: self.layout,
+            setup: self.setup,
+            distance,
+        };
+        let mask = viewers.mask(&sheet);
         let all: Vec<f64> = misses.iter().flatten().map(|(_, miss)| *miss).collect();
         let residuals = Residuals::of(&all);
-        let phase = self.phase_error(&sheet, &misses)?;
+        let (order, order_measured) = self.order();
+        let certainty = Certainty::new(&viewers, self.problem, self.solution, &misses)?;
         let mut fit = Fit {
-            pitch,
-            slant,
-            offset: offset.rem_euclid(pitch),
             gap: sheet.gap,
-            colours: self.setup.colours.then(|| self.colours(pitch)),
+            order,
+            order_measured,
+            colours: self.setup.colours.then(|| self.colours(mask.pitch)),
             bias: self.setup.bias.then_some(sheet.bias),
+            mask,
             cameras,
             residuals,
-            phase,
+            phase: certainty.phase(),
             doubts: Vec::new(),
             misses,
         };
-        fit.doubts = self.doubts(&fit);
+        fit.doubts = self.doubts(&fit, &certainty);
         Some(fit)
     }
 
-    /// By how much the phase of the mask grows slower than that of the sheet, for viewers at a finite distance.
-    fn lean(&self, sheet: &Sheet) -> f64 {
-        let viewer = self.setup.viewer;
-        viewer.map_or(0.0, |distance| sheet.gap / (distance + sheet.gap))
-    }
-
-    /// How well the phase of the mask is known over the panel, in views.
-    fn phase_error(
-        &self,
-        sheet: &Sheet,
-        misses: &[Vec<((usize, usize), f64)>],
-    ) -> Option<PhaseError> {
-        let covariance = &self.solution.minimum.covariance;
-        let first = self.problem.sheet_at();
-        let views = f64::from(self.setup.views);
-        let lean = self.lean(sheet);
-        let smooth = smoothed(misses);
-        let (mut mean, mut worst, mut unsure) = (0.0, 0.0f64, 0.0);
-        for (column, row) in (0..BLOCKS).flat_map(|row| (0..BLOCKS).map(move |c| (c, row))) {
-            let part = DVec2::new(column as f64, row as f64) / (BLOCKS - 1) as f64;
-            let place = part * 2.0 - 1.0;
-            let p = part * self.layout.size;
-            let over = self.layout.nominal(p) - self.layout.nominal(self.layout.size / 2.0)
-                + place.dot(sheet.slope);
-            let mut slopes = vec![
-                place.x * (1.0 - lean),
-                place.y * (1.0 - lean),
-                1.0,
-                -over * lean * (1.0 - lean),
-            ];
-            if self.setup.bias {
-                slopes.extend(weights(part).map(|weight| weight / self.setup.pitch));
-            }
-            let mut variance = 0.0;
-            for (i, a) in slopes.iter().enumerate() {
-                for (j, b) in slopes.iter().enumerate() {
-                    variance += a * b * covariance.get((first + i, first + j))?;
-                }
-            }
-            let deviation = views * variance.max(0.0).sqrt();
-            mean += deviation;
-            worst = worst.max(deviation);
-            let shape = smooth.get(row)?.get(column)?.abs();
-            unsure += f64::from(u8::from(SURE * deviation + shape > 0.5));
+    /// The order of the colours, and whether the photos tell it.
+    fn order(&self) -> (SubpixelOrder, bool) {
+        let sum: f64 = self.sightings.iter().map(|s| s.fringes.swapped).sum();
+        let swapped = sum / self.sightings.len() as f64;
+        let order = match (self.setup.order, swapped > 0.0) {
+            (given, false) => given,
+            (SubpixelOrder::Rgb, true) => SubpixelOrder::Bgr,
+            (SubpixelOrder::Bgr, true) => SubpixelOrder::Rgb,
+        };
+        match swapped.abs() > LEAST_ORDER {
+            true => (order, true),
+            false => (self.setup.order, false),
         }
-        let count = (BLOCKS * BLOCKS) as f64;
-        Some(PhaseError {
-            mean: mean / count,
-            worst,
-            unsure: unsure / count,
-        })
     }
 
     /// Where the colours lie, from their fringes against those of all colours together, subpixels.
@@ -242,17 +196,15 @@ impl Answer<'_> {
         )
     }
 
-    fn doubts(&self, fit: &Fit) -> Vec<String> {
+    fn doubts(&self, fit: &Fit, certainty: &Certainty) -> Vec<String> {
         let mut doubts = Vec::new();
         if fit.phase.unsure > UNSURE_PART {
-            let remedy = if self.sightings.len() == 1 {
-                "take another photo from 10 degrees to the side and another distance, or give --cone and --focal"
-            } else {
-                "take another photo, straight from the front, and give --focal if the photos do not say it"
-            };
+            let focal = self.sightings.iter().map(|s| s.bench.focal_spread);
+            let focal = focal.fold(f64::INFINITY, f64::min);
             doubts.push(format!(
-                "{:.0} % of the panel may be off by more than half a view; {remedy}",
-                100.0 * fit.phase.unsure
+                "{:.0} % of the panel may be off by more than half a view; {}",
+                100.0 * fit.phase.unsure,
+                certainty.remedy(self.sightings.len(), focal)
             ));
         }
         if self.solution.ambiguous {
@@ -276,21 +228,4 @@ impl Answer<'_> {
         }
         doubts
     }
-}
-
-/// Residuals that neighbours and photos have in common: the mean over photos and 3x3 blocks.
-fn smoothed(misses: &[Vec<((usize, usize), f64)>]) -> [[f64; BLOCKS]; BLOCKS] {
-    let mut smooth = [[0.0; BLOCKS]; BLOCKS];
-    for (row, values) in smooth.iter_mut().enumerate() {
-        for (column, value) in values.iter_mut().enumerate() {
-            let near: Vec<f64> = misses
-                .iter()
-                .flatten()
-                .filter(|((x, y), _)| x.abs_diff(column) <= 1 && y.abs_diff(row) <= 1)
-                .map(|(_, miss)| *miss)
-                .collect();
-            *value = near.iter().sum::<f64>() / near.len().max(1) as f64;
-        }
-    }
-    smooth
 }

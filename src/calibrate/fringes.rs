@@ -41,11 +41,13 @@ pub(super) struct Fringes {
     pub blocks: Vec<Block>,
     /// Contrast as a part of that of the panel, 0 to 1.
     pub contrast: f64,
+    /// How much better the fringes of the colours agree when red and blue change places, from -1 to 1.
+    pub swapped: f64,
 }
 
-/// The field, sampled evenly: R, G, B and their mean, each with black at 0 and white at 1.
+/// The field, sampled evenly: R, G and B, each with black at 0 and white at 1.
 struct Field {
-    values: Vec<[f32; 4]>,
+    values: Vec<[f32; 3]>,
     /// Samples.
     width: usize,
     height: usize,
@@ -112,10 +114,17 @@ pub(super) fn measure(
         let waves = field.demodulated(frequency / s, centre);
         found.push((centre, waves, (column, row)));
     }
-    let mut sizes: Vec<f64> = found
-        .iter()
-        .map(|(_, waves, _)| waves[3].length())
-        .collect();
+    let swapped = swapped(found.iter().map(|(_, waves, _)| *waves), layout.across);
+    // Where each colour really is, so that all add up.
+    let red = turn(if swapped > 0.0 { layout.across } else { 0.0 });
+    let blue = conjugate(red);
+    let found = found.into_iter().map(|(centre, [r, g, b], place)| {
+        let waves = [r.rotate(red), g, b.rotate(blue)];
+        let all = waves.into_iter().sum::<Complex>() / 3.0;
+        (centre, waves, all, place)
+    });
+    let mut found: Vec<_> = found.collect();
+    let mut sizes: Vec<f64> = found.iter().map(|(_, _, all, _)| all.length()).collect();
     sizes.sort_by(f64::total_cmp);
     let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
     let contrast = 2.0 * median / SWING;
@@ -125,19 +134,19 @@ pub(super) fn measure(
             percent: 100.0 * contrast,
         });
     }
-    let all = found.len() as f64;
-    found.retain(|(_, waves, _)| waves[3].length() > 0.35 * median);
-    if (found.len() as f64) < 0.7 * all {
+    let count = found.len() as f64;
+    found.retain(|(_, _, all, _)| all.length() > 0.35 * median);
+    if (found.len() as f64) < 0.7 * count {
         return Err(CalibrateError::Glare {
             photo: name(),
-            percent: 100.0 * (1.0 - found.len() as f64 / all),
+            percent: 100.0 * (1.0 - found.len() as f64 / count),
         });
     }
-    let total: Complex = found.iter().map(|(_, waves, _)| waves[3]).sum();
+    let total: Complex = found.iter().map(|(_, _, all, _)| *all).sum();
     let blocks = found
         .into_iter()
-        .filter_map(|(centre, waves, place)| {
-            let phase = argument(waves[3]);
+        .filter_map(|(centre, waves, all, place)| {
+            let phase = argument(all);
             Some(Block {
                 pixel: view.to_picture(centre)?,
                 phase: (frequency / s).dot(centre)
@@ -148,7 +157,29 @@ pub(super) fn measure(
             })
         })
         .collect();
-    Ok(Fringes { blocks, contrast })
+    Ok(Fringes {
+        blocks,
+        contrast,
+        swapped,
+    })
+}
+
+/// How much better the waves of red and blue agree with green when the two change places, from -1 to 1; `across` turns lie between their subpixels.
+///
+/// What a pattern has for a colour on the left appears on the right of a panel with the other order, so its fringes are `across` turns behind.
+fn swapped(waves: impl Iterator<Item = [Complex; 3]>, across: f64) -> f64 {
+    let (mut red, mut blue, mut size) = (DVec2::ZERO, DVec2::ZERO, 0.0);
+    for [r, g, b] in waves {
+        red += conjugate(g).rotate(r);
+        blue += conjugate(g).rotate(b);
+        size += g.length() * (r.length() + b.length());
+    }
+    let agree = |turns: f64| red.rotate(turn(turns)).x + blue.rotate(turn(-turns)).x;
+    (agree(across) - agree(0.0)) / f64::max(size, 1e-30)
+}
+
+fn conjugate(z: Complex) -> Complex {
+    DVec2::new(z.x, -z.y)
 }
 
 fn block_centre(field: &Field, column: usize, row: usize) -> DVec2 {
@@ -205,7 +236,7 @@ fn sample(
         let rgb = photo.at(pixel).ok_or_else(unclear)?;
         clipped += photo.clipped(pixel);
         let [r, g, b] = [0, 1, 2].map(|c: usize| (rgb[c] - black[c]) / (white[c] - black[c]));
-        values.push([r, g, b, (r + g + b) / 3.0]);
+        values.push([r, g, b]);
     }
     let part = clipped / (width * height) as f64;
     if part > MOST_CLIPPED {
@@ -225,7 +256,7 @@ fn sample(
 
 impl Field {
     /// Amplitude and phase of a frequency (turns per panel pixel) around a place, of each channel, in a Hann window.
-    fn demodulated(&self, frequency: DVec2, centre: DVec2) -> [Complex; 4] {
+    fn demodulated(&self, frequency: DVec2, centre: DVec2) -> [Complex; 3] {
         let (w, h) = (self.width as f64, self.height as f64);
         let size = DVec2::new(w, h);
         let middle = (centre - self.origin) / self.extent * size;
@@ -243,7 +274,7 @@ impl Field {
         let columns: Vec<(usize, f64, Complex)> = window(middle.x, half.x, self.width)
             .map(|(x, weight)| (x, weight, turn(-step.x * x as f64)))
             .collect();
-        let (mut waves, mut sums) = ([DVec2::ZERO; 4], [0.0; 4]);
+        let (mut waves, mut sums) = ([DVec2::ZERO; 3], [0.0; 3]);
         let (mut carrier, mut total) = (DVec2::ZERO, 0.0);
         for (y, weight_y) in window(middle.y, half.y, self.height) {
             let row = turn(-start - step.y * y as f64);
@@ -262,12 +293,12 @@ impl Field {
             }
         }
         // The window does not hold whole fringes: what the mean leaks is taken out.
-        [0, 1, 2, 3].map(|c| (waves[c] - carrier * (sums[c] / total)) / total)
+        [0, 1, 2].map(|c| (waves[c] - carrier * (sums[c] / total)) / total)
     }
 }
 
 /// The strongest frequency near the carrier, in turns over the width and height of the panel, and how many times
-/// stronger it is than any other that is not beside it.
+/// stronger it is than any other that is not beside it. By green, which is in the middle of a pixel whatever the order of the colours.
 fn peak(field: &Field, layout: &Layout) -> (DVec2, f64) {
     const STEP: f64 = 0.25;
     let pool = (field.width / 240).max(1).min((field.height / 160).max(1));
@@ -285,7 +316,7 @@ fn peak(field: &Field, layout: &Layout) -> (DVec2, f64) {
                 .skip(row * field.width + x * pool)
                 .take(pool)
         });
-        let value: f32 = cells.map(|values| values[3]).sum();
+        let value: f32 = cells.map(|values| values[1]).sum();
         small[y * width + x] = f64::from(value) / (pool * pool) as f64;
         let weight = hann(x, width) * hann(y, height);
         sum += weight * small[y * width + x];
@@ -332,12 +363,11 @@ fn refined(field: &Field, layout: &Layout, frequency: DVec2) -> DVec2 {
     (0..2).fold(frequency, |frequency, _| {
         // The mean turn from a block to the next, over columns and over rows.
         let wave = |column, row| {
-            field.demodulated(frequency / layout.size, block_centre(field, column, row))[3]
+            field.demodulated(frequency / layout.size, block_centre(field, column, row))[1]
         };
         let waves: Vec<Vec<Complex>> = (0..BLOCKS)
             .map(|row| (0..BLOCKS).map(|column| wave(column, row)).collect())
             .collect();
-        let conjugate = |z: Complex| DVec2::new(z.x, -z.y);
         let (mut right, mut down) = (DVec2::ZERO, DVec2::ZERO);
         for row in &waves {
             for pair in row.windows(2) {
@@ -369,7 +399,7 @@ mod tests {
                 / DVec2::new(width as f64, height as f64);
             let phase = ((from + extent * part) / layout.size).dot(turns) + start;
             let value = 0.5 + 0.2 * part.x + 0.1 * (TAU * phase).cos();
-            [value as f32; 4]
+            [value as f32; 3]
         });
         Field {
             values: values.collect(),
@@ -391,7 +421,7 @@ mod tests {
             let found = refined(&field, &layout, found);
             assert!(found.distance(DVec2::new(x, y)) < 0.01, "{found}");
             let centre = block_centre(&field, 3, 7);
-            let wave = field.demodulated(found / layout.size, centre)[3];
+            let wave = field.demodulated(found / layout.size, centre)[1];
             assert!(wrap(argument(wave) - start).abs() < 0.01);
             assert!((wave.length() - 0.05).abs() < 0.002);
         }

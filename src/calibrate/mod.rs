@@ -3,7 +3,7 @@
 //! # The fringes in a photo
 //!
 //! The sheet lies a gap `g` above the pixels, in effective air. A ray from the eye `E`, at distance `Z`, to the point `p`
-//! of the pixels crosses the sheet at `q = p + (E − p)·g/Z`. The lens there shows, over its whole width, the pixels that
+//! of the pixels crosses the sheet at `q = p + (E − p)·g·c(θ)/Z`, where `c` is 1 for a gap of air and follows Snell's law in glass (`sheet.rs`). The lens there shows, over its whole width, the pixels that
 //! lie under it in the direction of the ray. With `ψ` the phase of the pattern and `Φ` that of the lenses, as
 //! [`crate::display::Slanted`] counts it (a lens begins where it is whole, so its axis is at one half), the fringes seen
 //! have the phase
@@ -42,24 +42,31 @@
 
 mod by_eye;
 mod camera;
+mod certainty;
 mod edges;
 mod error;
 mod find;
 mod fit;
 mod fringes;
 mod least_squares;
+mod mask;
 mod pattern;
 mod photo;
 mod picture;
 mod setup;
+mod sheet;
+mod shown;
 mod sighting;
 mod solve;
+pub mod units;
 mod written;
 
 pub use by_eye::{Action, ByEye, KEYS, action};
+pub use certainty::PhaseError;
 pub use error::CalibrateError;
 pub use fit::{Camera, Fit, Residuals, fit};
 pub(crate) use least_squares::{minimise, soft};
+pub use mask::Mask;
 pub use photo::Photo;
 pub(crate) use photo::{linear, upright};
 pub use setup::{Guess, Setup};

@@ -41,6 +41,16 @@ const MARK: Range<f64> = 0.12..0.20;
 /// Where the code lies along the lower side.
 const CODE: Range<f64> = 0.24..0.76;
 const CODE_BITS: u16 = 12;
+/// Changes with what the picture has, so that photos of an older one are known.
+const VERSION: u64 = 2;
+/// Rows of single pixels, white and black in turn, in the ring at the left and the right side, which are grey where the picture is scaled: along the
+/// side, and their middle in bands.
+pub(super) const ROWS: Range<f64> = 0.32..0.68;
+pub(super) const IN_MARKS: f64 = (MARKS.start + MARKS.end) / 2.0;
+/// Marks on the outermost pixels, near the corners, of which some are missing where the picture is moved; along each side.
+pub(super) const EDGES: [Range<f64>; 2] = [0.02..0.06, 0.94..0.98];
+/// The least thickness of these, pixels.
+const EDGE: f64 = 3.0;
 
 /// Where everything lies in the picture.
 #[derive(Clone, Debug)]
@@ -55,6 +65,10 @@ pub(super) struct Layout {
     pub reach: DVec2,
     /// Says which panel the pattern was made for.
     pub code: u16,
+    /// Thickness of the marks on the outermost pixels, pixels: a lens or more, so that they are seen from everywhere.
+    pub edge: f64,
+    /// Turns of the phase from the subpixel of red to that of blue.
+    pub across: f64,
     pitch: f64,
     slant: f64,
 }
@@ -87,6 +101,11 @@ impl Layout {
             carrier: (2.0 * reach.y).ceil().max(24.0),
             reach,
             code: code(setup),
+            edge: EDGE.max((setup.pitch / 3.0).ceil()),
+            across: match setup.order {
+                SubpixelOrder::Rgb => 2.0 / setup.pitch,
+                SubpixelOrder::Bgr => -2.0 / setup.pitch,
+            },
             pitch: setup.pitch,
             slant: setup.slant,
         }
@@ -138,15 +157,23 @@ impl Layout {
 
     /// Light of a subpixel, 0 to 1.
     fn light(&self, p: DVec2) -> f64 {
-        let depth = p.min(self.size - p).min_element() / self.band;
+        let sides = p.min(self.size - p);
+        let depth = sides.min_element() / self.band;
+        let part = p / self.size;
+        let marked = |part: f64| EDGES.iter().any(|range| range.contains(&part));
+        if sides.y < self.edge && marked(part.x) || sides.x < self.edge && marked(part.y) {
+            return 1.0;
+        }
         if depth < RING {
             return f64::from(u8::from(depth >= FRAME));
         }
         if depth >= FIELD {
             return 0.5 + SWING * (std::f64::consts::TAU * self.phase(p)).cos();
         }
-        let part = p / self.size;
         let inside = |y: f64| MARKS.contains(&(y / self.band));
+        if inside(sides.x) && ROWS.contains(&part.y) {
+            return f64::from(u8::from(p.y.rem_euclid(2.0) < 1.0));
+        }
         let mark = inside(p.y) && MARK.contains(&part.x);
         let bit = (part.x - CODE.start) / (CODE.end - CODE.start) * f64::from(CODE_BITS);
         let coded = inside(self.size.y - p.y)
@@ -169,6 +196,7 @@ fn cell(range: Range<f64>) -> impl Iterator<Item = (f64, f64)> {
 fn code(setup: &Setup) -> u16 {
     let order = u64::from(setup.order == SubpixelOrder::Bgr);
     let words = [
+        VERSION,
         setup.pitch.to_bits(),
         setup.slant.to_bits(),
         u64::from(setup.width),

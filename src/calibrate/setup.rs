@@ -35,7 +35,7 @@ pub struct Setup {
     pub cone: Guess,
     /// Distance of the camera from the panel in the first photo, panel pixels.
     pub distance: Option<Guess>,
-    /// Distance of the viewers, panel pixels, for which the pitch is written; None for the pitch of the sheet itself.
+    /// Distance of the viewers from the face of the panel, panel pixels, for which the mask is written; None for that of the first photo, infinite for the sheet itself.
     pub viewer: Option<f64>,
     /// Measure where red, green and blue lie under the lenses.
     pub colours: bool,

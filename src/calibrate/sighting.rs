@@ -1,13 +1,13 @@
 //! One photo, measured on its own: the camera roughly, the edges, the fringes.
 #![forbid(unsafe_code)]
 
-use super::camera::{Optics, Pose, View, mapped, pose};
+use super::camera::{ORDERS, Optics, Pose, Shake, View, mapped, pose};
 use super::edges::{EdgePoint, POINTS, edges};
 use super::fringes::{Fringes, measure};
 use super::least_squares::{minimise, soft};
 use super::pattern::{IN_FRAME, IN_RING, Layout};
 use super::setup::Guess;
-use super::{CalibrateError, Photo, Setup, find};
+use super::{CalibrateError, Photo, Setup, find, shown};
 use glam::{DQuat, DVec2, DVec3};
 
 /// The assumed focal length where the photo has none, in parts of the longer side.
@@ -20,11 +20,15 @@ const FOCAL_SPREAD: f64 = 0.03;
 /// Standard deviations of the unknowns of a camera: k1, k2, and the optical axis in halves of the diagonal.
 const DISTORTION_SPREAD: [f64; 2] = [0.05, 0.01];
 const CENTRE_SPREAD: f64 = 0.01;
+/// Of the slowest movement of the hand during a photo, in thousandths of half of the diagonal: a pixel of a photo of 12 Mpx is 0.4.
+const SHAKE_SPREAD: f64 = 0.5;
 /// Of an edge point, before its scatter is known, panel pixels.
 const EDGE: f64 = 0.4;
 /// Parameters of [`Bench::optics`] and of [`Bench::pose`].
 pub(super) const OPTICS: usize = 5;
 pub(super) const POSE: usize = 6;
+/// And of [`Bench::shake`], which follow those of the pose.
+pub(super) const SHAKE: usize = 2 * ORDERS;
 
 /// The measurements of one photo, ready for [`super::fit`].
 #[derive(Clone, Debug)]
@@ -41,7 +45,8 @@ pub struct Sighting {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bench {
     optics: Optics,
-    focal_spread: f64,
+    /// Standard deviation of the logarithm of the focal length.
+    pub(super) focal_spread: f64,
 }
 
 impl Bench {
@@ -88,6 +93,27 @@ impl Bench {
         [0, 1, 2, 3, 4].map(|i| p[i] / spreads[i])
     }
 
+    /// The movement during a photo that parameters mean, in thousandths of half of the diagonal.
+    pub(super) fn shake(&self, p: [f64; SHAKE]) -> Shake {
+        let unit = self.optics.half / 1000.0;
+        let mut shake = Shake::default();
+        let pairs = p.as_chunks::<2>().0;
+        for (moved, [x, y]) in shake.by_order.iter_mut().zip(pairs) {
+            *moved = DVec2::new(*x, *y) * unit;
+        }
+        shake
+    }
+
+    /// How unlikely such a movement is, in standard deviations: fast movements are smaller than slow ones.
+    pub(super) fn steady(p: [f64; SHAKE]) -> [f64; SHAKE] {
+        let mut all = p;
+        for (order, pair) in (1..).zip(all.as_chunks_mut::<2>().0) {
+            pair.iter_mut()
+                .for_each(|moved| *moved *= f64::from(order) / SHAKE_SPREAD);
+        }
+        all
+    }
+
     /// The pose that six parameters mean near another: a turn in radians, then a way in distances.
     pub(super) fn pose(start: Pose, p: [f64; POSE]) -> Pose {
         let turn = DQuat::from_scaled_axis(DVec3::new(p[0], p[1], p[2]));
@@ -115,6 +141,7 @@ impl Sighting {
         let mut view = View {
             optics: bench.optics,
             pose: pose(map, bench.optics).ok_or_else(unclear)?,
+            shake: Shake::default(),
         };
         let mut points = edges(photo, &layout, |p| Some(mapped(map, p)));
         for _ in 0..3 {
@@ -132,13 +159,17 @@ impl Sighting {
                 expected: layout.code,
             });
         }
+        let fringes = measure(photo, &layout, view);
+        if !matches!(fringes, Err(CalibrateError::TooSmall { .. })) {
+            shown::check(photo, &layout, view)?;
+        }
         Ok(Self {
             name: photo.name.clone(),
             size: (photo.width, photo.height),
             bench,
             start: view,
             edges: points,
-            fringes: measure(photo, &layout, view)?,
+            fringes: fringes?,
         })
     }
 
@@ -167,6 +198,7 @@ fn camera(layout: &Layout, bench: &Bench, start: View, points: &[EdgePoint]) -> 
         Some(View {
             optics: bench.optics(*optics),
             pose: Bench::pose(start.pose, *pose.first_chunk()?),
+            shake: Shake::default(),
         })
     };
     let from = [&bench.parameters(start.optics)[..], &[0.0; POSE]].concat();

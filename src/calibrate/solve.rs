@@ -2,17 +2,21 @@
 #![forbid(unsafe_code)]
 
 use super::camera::View;
+use super::edges::ALONG;
 use super::fringes::{BLOCKS, wrap};
 use super::least_squares::{Minimum, minimise, soft};
 use super::pattern::Layout;
 use super::setup::Guess;
-use super::sighting::{Bench, OPTICS, OPTICS_STEPS, POSE, POSE_STEPS, Sighting};
+use super::sheet::{NODES, Sheet};
+use super::sighting::{Bench, OPTICS, OPTICS_STEPS, POSE, POSE_STEPS, SHAKE, Sighting};
 use super::{CalibrateError, Setup};
 use glam::{DVec2, DVec3};
 use nalgebra::{DMatrix, DVector};
 
-/// Nodes of the bias map, along each axis.
-pub(super) const NODES: usize = 3;
+/// 1/n² of the plate between lenses and pixels, n its index of refraction, and the standard deviation of that: glass and acrylic have 0.40 to 0.46,
+/// a sheet with air below it up to 1.
+const REFRACTION: f64 = 0.45;
+const REFRACTION_SPREAD: f64 = 0.15;
 /// Standard deviation of a node of the bias map before it is measured, subpixels.
 const BIAS: f64 = 1.0;
 /// Of an edge point (panel pixels) and of a block's phase (turns) before their scatter is known.
@@ -21,7 +25,7 @@ const PHASE: f64 = 0.02;
 /// Lower bound of every scatter. For the phase this is what windows and vignetting do to all blocks
 /// alike: with less, the carrier would pass for a ruler of a hundredth of a pixel and decide the focal length.
 const LEAST_EDGE: f64 = 0.03;
-const LEAST_PHASE: f64 = 0.002;
+const LEAST_PHASE: f64 = 0.0003;
 /// The common error of all points of an edge, which their scatter does not show, panel pixels; and as a part of the scatter,
 /// as noise that is cut off at black moves a blurred edge.
 const COMMON: f64 = 0.04;
@@ -30,20 +34,8 @@ const COMMON_PART: f64 = 0.25;
 const GAPS: i32 = 40;
 const GAP_REACH: f64 = 3.0;
 
-/// The sheet: the correction of the nominal phase, and the gap.
-#[derive(Clone, Debug)]
-pub(super) struct Sheet {
-    /// Turns by which the phase grows from the middle to the right edge, and to the lower edge.
-    pub slope: DVec2,
-    /// Turns, in the middle.
-    pub phase: f64,
-    /// Panel pixels.
-    pub gap: f64,
-    /// Subpixels; rows from the top.
-    pub bias: [f64; NODES * NODES],
-}
-
-/// The problem, and how its parameters are laid out: optics, slope, phase, logarithm of the gap, bias, poses.
+/// The problem, and how its parameters are laid out: optics, slope, phase, logarithm of the gap, refraction, bias, and of each
+/// photo its pose and the shake.
 pub(super) struct Problem<'a> {
     pub layout: &'a Layout,
     setup: &'a Setup,
@@ -51,9 +43,11 @@ pub(super) struct Problem<'a> {
     gap: Guess,
 }
 
+/// Parameters of each photo alone.
+const OWN: usize = POSE + SHAKE;
 /// Where the parameters of the sheet begin, and those of the poses without a bias map.
 const SHEET: usize = OPTICS;
-const AFTER_SHEET: usize = SHEET + 4;
+const AFTER_SHEET: usize = SHEET + 5;
 
 /// An edge of the frame in a photo.
 struct Line {
@@ -107,9 +101,24 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Where the sheet begins in the covariance: slope, phase, logarithm of the gap, bias.
-    pub(super) fn sheet_at(&self) -> usize {
-        SHEET
+    /// Where the parameters of the sheet are.
+    pub(super) fn sheet_at(&self) -> std::ops::Range<usize> {
+        SHEET..AFTER_SHEET + self.nodes()
+    }
+
+    /// Where the logarithm of the focal length is.
+    pub(super) fn focal_at(&self) -> usize {
+        0
+    }
+
+    /// Where the logarithm of the gap is.
+    pub(super) fn gap_at(&self) -> usize {
+        SHEET + 3
+    }
+
+    /// Where the distance of the first photo is, relative to that at the start.
+    pub(super) fn distance_at(&self) -> usize {
+        AFTER_SHEET + self.nodes() + 5
     }
 
     fn nodes(&self) -> usize {
@@ -117,7 +126,7 @@ impl<'a> Problem<'a> {
     }
 
     pub(super) fn sheet(&self, p: &[f64]) -> Option<Sheet> {
-        let [x, y, phase, gap] = *p.get(SHEET..)?.first_chunk()?;
+        let [x, y, phase, gap, refraction] = *p.get(SHEET..)?.first_chunk()?;
         let mut bias = [0.0; NODES * NODES];
         let nodes = p.get(AFTER_SHEET..AFTER_SHEET + self.nodes())?;
         bias.iter_mut().zip(nodes).for_each(|(b, p)| *b = *p);
@@ -125,36 +134,25 @@ impl<'a> Problem<'a> {
             slope: DVec2::new(x, y),
             phase,
             gap: self.gap.value * gap.exp(),
+            refraction: REFRACTION + refraction,
             bias,
         })
     }
 
     pub(super) fn view(&self, p: &[f64], photo: usize) -> Option<View> {
         let sighting = self.sightings.get(photo)?;
-        let pose = p.get(AFTER_SHEET + self.nodes() + POSE * photo..)?;
+        let own = p.get(AFTER_SHEET + self.nodes() + OWN * photo..)?;
         Some(View {
             optics: sighting.bench.optics(*p.first_chunk()?),
-            pose: Bench::pose(sighting.start.pose, *pose.first_chunk()?),
+            pose: Bench::pose(sighting.start.pose, *own.first_chunk()?),
+            shake: sighting.bench.shake(*own.get(POSE..)?.first_chunk()?),
         })
-    }
-
-    /// Phase of the sheet over that of the nominal lens at a point, turns.
-    fn added(&self, sheet: &Sheet, p: DVec2) -> f64 {
-        let place = p / self.layout.size * 2.0 - 1.0;
-        let bias = if self.setup.bias {
-            let weights = weights(p / self.layout.size);
-            weights.iter().zip(sheet.bias).map(|(w, b)| w * b).sum()
-        } else {
-            0.0
-        };
-        place.dot(sheet.slope) + sheet.phase + bias / self.setup.pitch
     }
 
     /// Phase of the fringes seen at a point of the panel, turns: that of the pattern less that of the lens that the
     /// ray goes through, whose axis is half a turn.
     fn fringe(&self, sheet: &Sheet, eye: DVec3, p: DVec2) -> f64 {
-        let lens = through(sheet.gap, eye, p);
-        self.layout.phase(p) - self.layout.nominal(lens) - self.added(sheet, lens) + 0.5
+        self.layout.phase(p) - sheet.seen(self.layout, self.setup, eye, p) + 0.5
     }
 
     /// Measured less expected phase of each block of a photo, turns.
@@ -171,7 +169,7 @@ impl<'a> Problem<'a> {
         let blocks = &self.sightings.get(photo)?.fringes.blocks;
         let turns = turns.get(photo)?;
         let miss = |block: &super::fringes::Block| {
-            let at = view.to_panel(block.pixel)?;
+            let at = sheet.under(view.pose.eye, view.to_panel(block.pixel)?);
             Some((
                 block.place,
                 block.phase + turns - self.fringe(&sheet, view.pose.eye, at),
@@ -182,10 +180,11 @@ impl<'a> Problem<'a> {
 
     /// How far the edge points of each line of a photo are off, panel pixels.
     fn edges(&self, p: &[f64], photo: usize) -> Option<Vec<Line>> {
-        let view = self.view(p, photo)?;
+        let (sheet, view) = (self.sheet(p)?, self.view(p, photo)?);
         let mut lines: Vec<Line> = Vec::with_capacity(8);
         for point in &self.sightings.get(photo)?.edges {
-            let miss = point.miss(self.layout, view.to_panel(point.pixel)?);
+            let at = sheet.under(view.pose.eye, view.to_panel(point.pixel)?);
+            let miss = point.miss(self.layout, at);
             let name = (point.side, point.line);
             match lines.last_mut() {
                 Some(line) if line.name == name => line.misses.push((point.place, miss)),
@@ -217,6 +216,7 @@ impl<'a> Problem<'a> {
         let first = self.sightings.first()?;
         let mut all = first.bench.prior(*p.first_chunk()?).to_vec();
         all.push(p.get(SHEET + 3)? / self.gap.spread);
+        all.push(p.get(SHEET + 4)? / REFRACTION_SPREAD);
         let nodes = p.get(AFTER_SHEET..AFTER_SHEET + self.nodes())?;
         all.extend(nodes.iter().map(|node| node / BIAS));
         if let Some(distance) = self.setup.distance {
@@ -224,6 +224,8 @@ impl<'a> Problem<'a> {
             all.push((seen / distance.value).ln() / distance.spread);
         }
         for photo in 0..self.sightings.len() {
+            let shake = p.get(AFTER_SHEET + self.nodes() + OWN * photo + POSE..)?;
+            all.extend(Bench::steady(*shake.first_chunk()?));
             for line in self.edges(p, photo)? {
                 all.extend(
                     line.whitened(scatter.edge, self.shift(&line, scatter.edge))
@@ -237,8 +239,9 @@ impl<'a> Problem<'a> {
     }
 
     fn minimum(&self, start: &[f64], turns: &[f64], scatter: Scatter) -> Option<Minimum> {
-        let poses = POSE_STEPS.repeat(self.sightings.len());
-        let sheet = [0.3, 0.3, 0.1, 0.2];
+        let own = [&POSE_STEPS[..], &[0.2; SHAKE]].concat();
+        let poses = own.repeat(self.sightings.len());
+        let sheet = [0.3, 0.3, 0.1, 0.2, 0.1];
         let steps = [&OPTICS_STEPS[..], &sheet, &vec![BIAS; self.nodes()], &poses].concat();
         minimise(start, &steps, |p| self.residuals(p, turns, scatter))
     }
@@ -294,7 +297,7 @@ impl<'a> Problem<'a> {
                 turns.push(apart.round());
                 cost += (wrap(apart) / PHASE).powi(2);
             }
-            let mut p = vec![0.0; AFTER_SHEET + self.nodes() + POSE * count];
+            let mut p = vec![0.0; AFTER_SHEET + self.nodes() + OWN * count];
             let optics = self
                 .sightings
                 .iter()
@@ -302,7 +305,7 @@ impl<'a> Problem<'a> {
             for (i, value) in optics.flat_map(|optics| optics.into_iter().enumerate()) {
                 *p.get_mut(i)? += value / count as f64;
             }
-            let sheet = [fit[0], fit[1], fit[2], log];
+            let sheet = [fit[0], fit[1], fit[2], log, 0.0];
             p.get_mut(SHEET..AFTER_SHEET)?.copy_from_slice(&sheet);
             match found.iter_mut().find(|other| other.2 == turns) {
                 Some(other) if other.0 <= cost => {}
@@ -320,12 +323,19 @@ impl<'a> Problem<'a> {
     fn plane(&self, gap: f64) -> Option<(DVector<f64>, f64)> {
         let n = 2 + self.sightings.len();
         let (mut normal, mut right) = (DMatrix::zeros(n, n), DVector::zeros(n));
+        let sheet = Sheet {
+            slope: DVec2::ZERO,
+            phase: 0.0,
+            gap,
+            refraction: REFRACTION,
+            bias: [0.0; NODES * NODES],
+        };
         let mut rows = Vec::new();
         for (photo, sighting) in self.sightings.iter().enumerate() {
             let view = sighting.start;
             for block in &sighting.fringes.blocks {
                 let p = view.to_panel(block.pixel)?;
-                let lens = through(gap, view.pose.eye, p);
+                let lens = sheet.through(view.pose.eye, p);
                 let added = self.layout.phase(p) - self.layout.nominal(lens) + 0.5 - block.phase;
                 let place = lens / self.layout.size * 2.0 - 1.0;
                 let row = [(0, place.x), (1, place.y), (2 + photo, 1.0)];
@@ -373,24 +383,11 @@ impl<'a> Problem<'a> {
             }
             phases.extend(found.into_iter().map(|(_, miss)| miss));
         }
-        let edge = deviation(&edges).max(LEAST_EDGE) * excess(&edge_pairs).sqrt();
-        let common = (excess(&across) * excess(&down)).sqrt();
+        let edge = deviation(&edges).max(LEAST_EDGE) * excess(&edge_pairs, ALONG).sqrt();
+        let common = (excess(&across, BLOCKS) * excess(&down, BLOCKS)).sqrt();
         let phase = deviation(&phases).max(LEAST_PHASE) * common;
         Some(Scatter { edge, phase })
     }
-}
-
-/// Where the ray from an eye to a point of the panel goes through the sheet, panel pixels.
-fn through(gap: f64, eye: DVec3, p: DVec2) -> DVec2 {
-    p + (eye.truncate() - p) * (gap / -eye.z)
-}
-
-/// Weights of the nodes of the bias map at a place from (0, 0) to (1, 1).
-pub(super) fn weights(place: DVec2) -> [f64; NODES * NODES] {
-    let last = (NODES - 1) as f64;
-    let hat =
-        |at: f64, node: usize| (1.0 - (at.clamp(0.0, 1.0) * last - node as f64).abs()).max(0.0);
-    std::array::from_fn(|i| hat(place.x, i % NODES) * hat(place.y, i / NODES))
 }
 
 /// Standard deviation from the median of the sizes, which outliers do not move.
@@ -400,10 +397,15 @@ fn deviation(values: &[f64]) -> f64 {
     1.4826 * sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// By how much the variance of a mean grows when neighbours have this much in common (a first-order process).
-fn excess(pairs: &[(f64, f64)]) -> f64 {
+/// By how much the variance of a mean over `count` values in a line grows when neighbours have this much in common (a first-order process).
+fn excess(pairs: &[(f64, f64)], count: usize) -> f64 {
     let product: f64 = pairs.iter().map(|(a, b)| a * b).sum();
     let square: f64 = pairs.iter().map(|(a, b)| (a * a + b * b) / 2.0).sum();
     let common = (product / square.max(1e-30)).clamp(0.0, 0.95);
-    (1.0 + common) / (1.0 - common)
+    let (mut sum, mut power) = (1.0, 1.0);
+    for apart in 1..count {
+        power *= common;
+        sum += 2.0 * power * (1.0 - apart as f64 / count as f64);
+    }
+    sum
 }

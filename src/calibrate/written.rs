@@ -1,6 +1,7 @@
 //! The display file.
 #![forbid(unsafe_code)]
 
+use super::mask::{COLUMNS, ROWS};
 use super::{CalibrateError, Fit, Setup};
 use crate::display::{Bias, Display, Kind, Number, Slanted};
 use std::path::Path;
@@ -10,18 +11,18 @@ impl Fit {
     #[must_use]
     pub fn display(&self, setup: &Setup, name: &str) -> Display {
         let sheet = Slanted {
-            pitch: rounded(self.pitch, 8),
-            slant: rounded(self.slant, 8),
-            offset: rounded(self.offset, 5),
+            pitch: rounded(self.mask.pitch, 8),
+            slant: rounded(self.mask.slant, 8),
+            offset: rounded(self.mask.offset, 5),
             colours: match &self.colours {
                 Some((colours, _)) => colours.map(|colour| rounded(colour, 4)),
                 None => [Number::whole(0); 3],
             },
-            bias: self.bias.as_ref().and_then(|bias| {
-                let values = bias.iter().map(|value| rounded(*value, 4).to_f64());
-                Bias::new(3, 3, values.collect())
+            bias: self.mask.map.as_ref().and_then(|map| {
+                let values = map.iter().map(|value| rounded(*value, 4));
+                Bias::new(COLUMNS, ROWS, values.collect())
             }),
-            order: setup.order,
+            order: self.order,
             inverted: setup.inverted,
         };
         Display::new(name, setup.views, Kind::Slanted(sheet))

@@ -7,12 +7,12 @@ use super::{Outcome, mask, print, show, tell};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::calibrate::{self, CalibrateError, Fit, Guess, Photo, Setup, Sighting};
+use manyview::display::SubpixelOrder;
 use manyview::launch::writable;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-const MM_PER_INCH: f64 = 25.4;
 /// Relative error of a distance that was measured with a tape.
 const TAPE: f64 = 0.01;
 /// Relative error of a cone from a data sheet.
@@ -84,16 +84,10 @@ struct FitArguments {
 // Measurements beside the photos.
 #[derive(Args)]
 struct SetupArguments {
-    /// Width and height of the lit part of the panel in mm
-    #[arg(long, value_name = "WxH", conflicts_with = "dpi")]
-    screen_mm: Option<String>,
-    /// Pixels per inch of the panel
-    #[arg(long, value_name = "N")]
-    dpi: Option<f64>,
     /// Distance of the camera from the panel in the first photo, in mm, if it was measured
     #[arg(long, value_name = "MM")]
     distance: Option<f64>,
-    /// Write the pitch for viewers at this distance in mm, in place of that of the lens sheet
+    /// Write the mask for viewers at this distance in mm [default: where the first photo was taken]
     #[arg(long, value_name = "MM")]
     viewer: Option<f64>,
     /// Angle over which the views are seen once, in degrees, from the data sheet [default: about 40]
@@ -123,7 +117,8 @@ fn pattern(arguments: &PatternArguments) -> Outcome {
 
 fn fit(arguments: &FitArguments) -> Outcome {
     let mut setup = arguments.panel.setup()?;
-    let pixel = arguments.pixel_mm(&setup)?;
+    let size = (setup.width, setup.height);
+    let pixel = arguments.panel.sheet.pixel_mm(size)?;
     let pixels = |option: &'static str, mm: Option<f64>| {
         let Some(mm) = mm else { return Ok(None) };
         let pixel = pixel.ok_or(CalibrateError::NoScreenSize { option })?;
@@ -182,46 +177,15 @@ impl PanelArguments {
     }
 }
 
-impl FitArguments {
-    /// Side of a pixel in mm, where it is known.
-    fn pixel_mm(&self, setup: &Setup) -> Result<Option<f64>, CommandError> {
-        let Some(text) = &self.setup.screen_mm else {
-            return Ok(self
-                .setup
-                .dpi
-                .filter(|dpi| *dpi > 0.0)
-                .map(|dpi| MM_PER_INCH / dpi));
-        };
-        let sides = text.split_once('x').and_then(|(width, height)| {
-            let side = |text: &str| {
-                text.parse()
-                    .ok()
-                    .filter(|mm: &f64| (10.0..20000.0).contains(mm))
-            };
-            Some((side(width)?, side(height)?))
-        });
-        let (width, height) =
-            sides.ok_or_else(|| CalibrateError::ScreenSize { text: text.clone() })?;
-        let (across, down) = (
-            width / f64::from(setup.width),
-            height / f64::from(setup.height),
-        );
-        if (across / down).ln().abs() > 0.02 {
-            return Err(CalibrateError::ScreenSize { text: text.clone() }.into());
-        }
-        Ok(Some((across + down) / 2.0))
-    }
-}
-
 /// The measurement as text.
 fn report(fit: &Fit, setup: &Setup, pixel: Option<f64>) -> String {
     let (scale, unit) = pixel.map_or((1.0, "px"), |pixel| (pixel, "mm"));
     let mut text = format!(
         "pitch      {:.6} subpixels\nslant      {:.6} subpixels per row\noffset     {:.4} subpixels\n\
          gap        {:.3} {unit}\n",
-        fit.pitch,
-        fit.slant,
-        fit.offset,
+        fit.mask.pitch,
+        fit.mask.slant,
+        fit.mask.offset,
         fit.gap * scale
     );
     // Writing to a String cannot fail.
@@ -239,6 +203,22 @@ fn report(fit: &Fit, setup: &Setup, pixel: Option<f64>) -> String {
             let _ = writeln!(text, "{title:<10} {} subpixels", row.join(" "));
         }
     }
+    let order = match fit.order {
+        SubpixelOrder::Rgb => "rgb",
+        SubpixelOrder::Bgr => "bgr",
+    };
+    let told = match (fit.order_measured, fit.order == setup.order) {
+        (true, true) => "as measured",
+        (true, false) => "as measured, and not as given",
+        (false, _) => "as given: photos of lenses that are so upright do not tell",
+    };
+    let _ = writeln!(text, "colours    {order}, {told}");
+    let _ = writeln!(
+        text,
+        "viewers    {:.0} {unit} before the panel, {:.2} of its width",
+        fit.mask.viewer * scale,
+        fit.mask.viewer / f64::from(setup.width)
+    );
     for camera in &fit.cameras {
         let [x, y, z] = camera.eye.map(|way| way * scale);
         let contrast = 100.0 * camera.contrast;

@@ -3,7 +3,7 @@
 
 use super::error::CommandError;
 use clap::Args;
-use manyview::calibrate::{CalibrateError, Setup};
+use manyview::calibrate::{CalibrateError, Setup, units};
 use manyview::config::panel;
 use manyview::display::{Display, Kind};
 
@@ -12,22 +12,37 @@ pub(super) struct SheetArguments {
     /// Panel as it is thought to be: a built-in name or a file of kind "slanted", with a pitch right to 1 %
     #[arg(long, value_name = "NAME|FILE", required_unless_present = "pitch")]
     display: Option<String>,
-    /// In place of --display: subpixels from lens to lens, right to 1 %
-    #[arg(long, value_name = "P", conflicts_with = "display", requires = "views")]
-    pitch: Option<f64>,
-    /// With --pitch: subpixels per row downwards
+    /// In place of --display: subpixels from lens to lens along a row, right to 1 %, or with --dpi or --screen-mm the 0.286mm or 60lpi of a data
+    /// sheet
+    #[arg(
+        long,
+        value_name = "P",
+        allow_hyphen_values = true,
+        conflicts_with = "display",
+        requires = "views"
+    )]
+    pitch: Option<String>,
+    /// With --pitch: subpixels per row downwards, or the angle of the lenses such as 12.5deg
     #[arg(
         long,
         value_name = "S",
-        default_value_t = 0.0,
+        default_value = "0",
         allow_hyphen_values = true,
         conflicts_with = "display"
     )]
-    slant: f64,
+    slant: String,
     /// With --pitch: number of views
     #[arg(long, value_name = "N", conflicts_with = "display")]
     views: Option<u32>,
+    /// Width and height of the lit part of the panel in mm
+    #[arg(long, value_name = "WxH", conflicts_with = "dpi")]
+    screen_mm: Option<String>,
+    /// Pixels per inch of the panel
+    #[arg(long, value_name = "N")]
+    dpi: Option<f64>,
 }
+
+const MM_PER_INCH: f64 = 25.4;
 
 impl SheetArguments {
     /// The sheet before calibration; none where only numbers are given.
@@ -52,13 +67,41 @@ impl SheetArguments {
             ..
         }) = self.display()?
         else {
-            let (pitch, views) = (self.pitch.unwrap_or(0.0), self.views.unwrap_or(0));
-            return Ok(Setup::new(width, height, views, pitch, self.slant));
+            let slant = units::slant(&self.slant)?;
+            let text = self.pitch.as_deref().unwrap_or_default();
+            let pitch = units::pitch(text, slant, self.pixel_mm((width, height))?)?;
+            let views = self.views.unwrap_or(0);
+            return Ok(Setup::new(width, height, views, pitch, slant));
         };
         let (pitch, slant) = (lens.pitch.to_f64(), lens.slant.to_f64());
         let mut setup = Setup::new(width, height, views, pitch, slant);
         setup.order = lens.order;
         setup.inverted = lens.inverted;
         Ok(setup)
+    }
+
+    /// Side of a pixel of a panel of this size in pixels, in mm, where it is known.
+    pub(super) fn pixel_mm(&self, size: (u32, u32)) -> Result<Option<f64>, CalibrateError> {
+        let Some(text) = &self.screen_mm else {
+            return Ok(self
+                .dpi
+                .filter(|dpi| *dpi > 0.0)
+                .map(|dpi| MM_PER_INCH / dpi));
+        };
+        let sides = text.split_once('x').and_then(|(width, height)| {
+            let side = |text: &str| {
+                text.parse()
+                    .ok()
+                    .filter(|mm: &f64| (10.0..20000.0).contains(mm))
+            };
+            Some((side(width)?, side(height)?))
+        });
+        let wrong = || CalibrateError::ScreenSize { text: text.clone() };
+        let (width, height) = sides.ok_or_else(wrong)?;
+        let (across, down) = (width / f64::from(size.0), height / f64::from(size.1));
+        if (across / down).ln().abs() > 0.02 {
+            return Err(wrong());
+        }
+        Ok(Some((across + down) / 2.0))
     }
 }

@@ -168,8 +168,11 @@ impl Reader<'_> {
         let Some(value) = self.get("CellPatternMode") else {
             return Ok(CellPattern::One);
         };
-        let mode = value.as_u64().and_then(|mode| usize::try_from(mode).ok());
-        mode.and_then(|mode| CellPattern::ALL.get(mode).copied())
+        // Devices write whole numbers with a point.
+        let mode = value
+            .as_f64()
+            .filter(|mode| mode.fract() == 0.0 && *mode >= 0.0);
+        mode.and_then(|mode| CellPattern::ALL.get(mode as usize).copied())
             .ok_or_else(|| self.wrong("CellPatternMode", "0, 1, 2, 3 or 4", value))
     }
 }

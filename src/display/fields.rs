@@ -303,7 +303,7 @@ pub(super) fn bias(value: &Value) -> Option<Bias> {
         return None;
     }
     let side = |key| usize::try_from(table.get(key)?.as_integer()?).ok();
-    let values = table.get("values")?.as_array()?.iter().map(float);
+    let values = table.get("values")?.as_array()?.iter().map(number);
     Bias::new(
         side("columns")?,
         side("rows")?,

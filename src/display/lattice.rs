@@ -52,23 +52,21 @@ impl Lattice {
         self.fill_wide(self.starts(first, row), views, out);
     }
 
-    /// As [`Lattice::fill`], with phases that something measured is added to, in turns: `bias(i)` for the i-th pixel of `out`.
+    /// As [`Lattice::fill`], with something added to the phases: `bias(i)` units for the i-th pixel of `out`.
     pub(super) fn fill_biased(
         &self,
         first: i64,
         row: &Row,
         views: u32,
-        bias: impl Fn(usize) -> f64,
+        bias: impl Fn(usize) -> i128,
         out: &mut [[u16; 3]],
     ) {
         let starts = self.starts(first, row);
         for (i, out) in out.iter_mut().enumerate() {
             let at = starts[i % 2];
-            // Nothing measured has digits below 2^-32 turns.
-            let bias = (bias(i) * (1u64 << 32) as f64).round() as i128;
-            let units = (self.turn * bias.rem_euclid(1 << 32)) >> 32;
+            let bias = bias(i);
             *out = at.map(|phase| {
-                let phase = phase + i as i128 * self.step + units;
+                let phase = phase + i as i128 * self.step + bias;
                 self.view(phase.rem_euclid(self.turn), views)
             });
         }

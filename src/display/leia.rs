@@ -56,7 +56,7 @@ impl Leia {
             self.colour_slant,
             self.offset,
         ];
-        let (unit, [across, up, slant, offset]) = in_units(numbers);
+        let (unit, [across, up, slant, offset], _) = in_units(numbers, &[]);
         let Some(lattice) = Lattice::new(i128::from(native) * unit, across, Direction::Up) else {
             return Err(MaskError::Pitch);
         };

@@ -107,18 +107,27 @@ fn decimal(text: &str) -> Option<Number> {
     Number::ratio(format!("{whole}{fraction}").parse().ok()?, denominator)
 }
 
-/// Numbers as multiples of one unit: how many of it are 1, and how many each number is. Denominators without a common one of a
+/// Numbers as multiples of one unit, and more of them in the same unit: how many of it are 1, and how many each number is. Denominators without a common one of a
 /// modest size come from fractions nobody has measured; then all numbers are rounded to a multiple of 2^-60.
-pub(super) fn in_units<const N: usize>(numbers: [Number; N]) -> (i128, [i128; N]) {
-    let exact = numbers.map(Number::fraction);
-    let (unit, fractions) = match common_denominator(&exact) {
-        Some(unit) => (unit, exact),
-        None => (
-            1 << 60,
-            numbers.map(|n| Number::Float(n.to_f64()).fraction()),
-        ),
+pub(super) fn in_units<const N: usize>(
+    numbers: [Number; N],
+    more: &[Number],
+) -> (i128, [i128; N], Vec<i128>) {
+    let all = numbers.iter().chain(more).copied().map(Number::fraction);
+    let common = common_denominator(&all.collect::<Vec<_>>());
+    let unit = common.unwrap_or(1 << 60);
+    let whole = |number: Number| {
+        let (n, d) = match common {
+            Some(_) => number.fraction(),
+            None => Number::Float(number.to_f64()).fraction(),
+        };
+        n * (unit / d)
     };
-    (unit, fractions.map(|(n, d)| n * (unit / d)))
+    (
+        unit,
+        numbers.map(whole),
+        more.iter().copied().map(whole).collect(),
+    )
 }
 
 /// Whether [`in_units`] rounds nothing.

@@ -4,6 +4,7 @@
 //! the place of the subpixel in its pixel. An inverted one has −φ for the phase φ.
 #![forbid(unsafe_code)]
 
+use super::bias::Whole;
 use super::lattice::{Direction, Lattice, Row, by_colour};
 use super::lens_phase::Phase;
 use super::number::{are_exact, in_units};
@@ -68,7 +69,14 @@ impl Slanted {
     }
 
     pub(super) fn mask(&self, placement: &Placement, views: u32) -> Result<Mask, MaskError> {
-        let (unit, [pitch, slant, offset, r, g, b]) = in_units(self.numbers());
+        let map = self.bias.as_ref();
+        let numbers = map.map_or(&[][..], |bias| bias.grid().2);
+        let (unit, [pitch, slant, offset, r, g, b], bias) = in_units(self.numbers(), numbers);
+        let map = map.map(|map| map.over(placement, &bias, pitch));
+        // With a map, everything is in its finer units.
+        let finer = map.as_ref().map_or(1, Whole::finer);
+        let [unit, pitch, slant, offset, r, g, b] =
+            [unit, pitch, slant, offset, r, g, b].map(|number| number * finer);
         // Descending views are ascending ones of the phase that falls.
         let sign = if self.inverted { -1 } else { 1 };
         let Some(lattice) = Lattice::new(pitch, sign * 3 * unit, Direction::Up) else {
@@ -80,11 +88,11 @@ impl Slanted {
         Mask::by_rows(placement, |first, row, out| {
             let start = sign * (offset + i128::from(row) * slant);
             let line = Row { start, colours };
-            match &self.bias {
+            match &map {
                 None => lattice.fill(first, &line, views, out),
-                Some(bias) => {
-                    let (at, pitch) = (bias.row(placement, row), self.pitch.to_f64());
-                    let bias = |i: usize| sign as f64 * at.at(first + i as i64) / pitch;
+                Some(map) => {
+                    let biased = map.row(row);
+                    let bias = |i: usize| sign * biased.at(first + i as i64);
                     lattice.fill_biased(first, &line, views, bias, out);
                 }
             }

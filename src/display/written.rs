@@ -56,7 +56,7 @@ impl Display {
         }
         if let Some(bias) = &sheet.bias {
             let (columns, rows, values) = bias.grid();
-            let values: Vec<_> = values.iter().map(|value| float(*value)).collect();
+            let values: Vec<_> = values.iter().map(|value| number(*value)).collect();
             let _ = write!(
                 text,
                 "\n[bias]\ncolumns = {columns}\nrows = {rows}\nvalues = [{}]\n",

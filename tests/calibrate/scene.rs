@@ -40,7 +40,9 @@ impl Scene {
         };
         let nominal = sheet.pitch * random.between(0.992, 1.008);
         let tilt = sheet.slant + random.between(-0.01, 0.01);
-        let setup = Setup::new(PANEL.0, PANEL.1, sheet.views, nominal, tilt);
+        let mut setup = Setup::new(PANEL.0, PANEL.1, sheet.views, nominal, tilt);
+        // The phase of the sheet itself is compared.
+        setup.viewer = Some(f64::INFINITY);
         let side = if random.unit() < 0.5 { -1.0 } else { 1.0 };
         let focal = f64::from(PHOTO.0) * random.between(0.72, 1.15);
         let k1 = random.between(-0.02, 0.02);

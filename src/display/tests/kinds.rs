@@ -281,6 +281,52 @@ fn colours_and_bias_move_the_phase() {
     }
 }
 
+/// Every number of these sheets is a fraction, so that views change exactly at subpixels, and each phase is one fraction of whole numbers.
+#[test]
+fn a_bias_of_fractions_is_exact() {
+    let (width, height, views) = (96i128, 40i128, 9u32);
+    // In 240ths of a subpixel, rows from the top.
+    let bias = [[60i128, -80, 5], [0, 48, 240]];
+    for inverted in [false, true] {
+        let text = format!(
+            "kind = \"slanted\"\nviews = {views}\npitch = \"16/3\"\nslant = \"2/3\"\noffset = 0.5\ninverted = {inverted}\n\
+             bias = {{ columns = 3, rows = 2, values = [0.25, \"-1/3\", \"1/48\", 0, 0.2, 1] }}"
+        );
+        let mask = mask(&load(&text), 96, 40, views);
+        for (row, pixels) in (0..height).zip(mask.rows()) {
+            for (x, pixel) in (0..width).zip(pixels) {
+                for (c, &got) in (0..3i128).zip(pixel) {
+                    // In parts of 240 · 2w · 2h, the place between two columns and two rows of the map.
+                    let (along, down) = (2 * (2 * x + 1), 2 * row + 1);
+                    let (left, across) = (along / (2 * width), along % (2 * width));
+                    let line = |values: [i128; 3]| {
+                        let at = |column: i128| values[column as usize];
+                        at(left) * (2 * width - across) + at(left + 1) * across
+                    };
+                    let moved = line(bias[0]) * (2 * height - down) + line(bias[1]) * down;
+                    let parts = 240 * 4 * width * height;
+                    let phase = parts * (9 * x + 3 * c + 2 * row) / 3 + parts / 2 + moved;
+                    let phase = if inverted { -phase } else { phase };
+                    let want = view(phase, parts * 16 / 3, views, false);
+                    assert_eq!(got, want, "{x} {row} {c}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_constant_bias_is_an_offset() {
+    let sheet = |offset: &str, bias: &str| {
+        let text = format!(
+            "kind = \"slanted\"\nviews = 9\npitch = \"16/3\"\nslant = \"2/3\"\noffset = {offset}\n{bias}"
+        );
+        mask(&load(&text), 960, 540, 9)
+    };
+    let even = "bias = { columns = 2, rows = 2, values = [0.25, 0.25, 0.25, 0.25] }";
+    assert!(sheet("0.5", even).data() == sheet("0.75", "").data());
+}
+
 #[test]
 fn inverted_sheets_have_the_views_in_the_other_order() {
     let text = "kind = \"slanted\"\nviews = 8\npitch = \"16/3\"\nslant = \"2/3\"\noffset = 1\ninverted = true";
@@ -393,6 +439,9 @@ fn cell_patterns_and_mirrored_rows() {
         (4, |_, y| y % 2),
     ] {
         for flip in [0, 1] {
+            // Devices write numbers in one of two ways.
+            let mode = [format!("{mode}"), format!(r#"{{"value": {mode}.0}}"#)];
+            let mode = &mode[flip];
             let more = format!(
                 r#", "CellPatternMode": {mode}, "flipImageY": {flip}, "subpixelCells": [{}]"#,
                 cells.join(",")

@@ -12,7 +12,7 @@ fn numbers() -> impl Strategy<Value = Number> {
 
 fn sheets() -> impl Strategy<Value = Slanted> {
     let bias = (2usize..5, 2usize..5, -10.0..10.0f64).prop_map(|(columns, rows, scale)| {
-        let values = (0..columns * rows).map(|i| scale / (i + 1) as f64);
+        let values = (0..columns * rows).map(|i| Number::from_f64(scale / (i + 1) as f64).unwrap());
         Bias::new(columns, rows, values.collect()).unwrap()
     });
     (

@@ -1,0 +1,197 @@
+//! How well the mask is known over the panel, and what would make it known better.
+#![forbid(unsafe_code)]
+
+use super::Setup;
+use super::fringes::BLOCKS;
+use super::mask::Viewers;
+use super::sheet::Sheet;
+use super::solve::{Problem, Solution};
+use glam::DVec2;
+use nalgebra::DMatrix;
+
+/// The panel counts as known when this many standard deviations stay within half a view: in simulated photos one fit in
+/// some hundreds is off by nearly four...
+const SURE: f64 = 4.0;
+/// ...on all but this part of it.
+pub(super) const UNSURE_PART: f64 = 0.05;
+/// Standard deviations of what a person can tell: the logarithms of a focal length, of a distance measured with a tape and of the gap by the cone
+/// of a data sheet. What is known to a tenth counts as told.
+const FOCAL: f64 = 0.03;
+const TAPE: f64 = 0.01;
+const CONE: f64 = 0.05;
+const TOLD: f64 = 0.1;
+
+/// How well the phase of the mask is known, as standard deviations in views.
+#[derive(Clone, Copy, Debug)]
+pub struct PhaseError {
+    /// The mean over the panel.
+    pub mean: f64,
+    /// At the worst place of the panel.
+    pub worst: f64,
+    /// The part of the panel that may be off by more than half a view, at four standard deviations and with the bend, 0 to 1.
+    pub unsure: f64,
+    /// The same without the bend.
+    pub unknown: f64,
+    /// By how much the fringes of all photos bend together away from the fit, at most, in views.
+    pub bend: f64,
+}
+
+/// The phase of a mask and what it depends on.
+pub(super) struct Certainty<'a> {
+    setup: &'a Setup,
+    problem: &'a Problem<'a>,
+    solution: &'a Solution,
+    /// By how much each parameter of the sheet moves the phase, at each block, in views.
+    slopes: Vec<Vec<f64>>,
+    bend: Vec<f64>,
+}
+
+impl<'a> Certainty<'a> {
+    /// `misses` has the residuals of each photo's blocks, in views.
+    pub(super) fn new(
+        viewers: &Viewers<'a>,
+        problem: &'a Problem,
+        solution: &'a Solution,
+        misses: &[Vec<((usize, usize), f64)>],
+    ) -> Option<Self> {
+        const STEP: f64 = 1e-4;
+        let moved = |index: usize, step: f64| {
+            let mut at = solution.minimum.at.clone();
+            *at.get_mut(index)? += step;
+            problem.sheet(&at)
+        };
+        let sheets: Option<Vec<[Sheet; 2]>> = problem
+            .sheet_at()
+            .map(|index| Some([moved(index, STEP)?, moved(index, -STEP)?]))
+            .collect();
+        let sheets = sheets?;
+        let views = f64::from(viewers.setup.views);
+        let blocks = (0..BLOCKS).flat_map(|row| (0..BLOCKS).map(move |column| (column, row)));
+        let slopes = blocks.map(|(column, row)| {
+            let part = DVec2::new(column as f64, row as f64) / (BLOCKS - 1) as f64;
+            let p = part * viewers.layout.size;
+            let slope = |[above, below]: &[Sheet; 2]| {
+                views * (viewers.phase(above, p) - viewers.phase(below, p)) / (2.0 * STEP)
+            };
+            sheets.iter().map(slope).collect()
+        });
+        Some(Self {
+            setup: viewers.setup,
+            problem,
+            solution,
+            slopes: slopes.collect(),
+            bend: bend(misses),
+        })
+    }
+
+    /// As the photos tell it.
+    pub(super) fn phase(&self) -> PhaseError {
+        self.with(&self.solution.minimum.covariance)
+    }
+
+    fn with(&self, covariance: &DMatrix<f64>) -> PhaseError {
+        let first = self.problem.sheet_at().start;
+        let deviations = self.slopes.iter().map(|slopes| {
+            let mut variance = 0.0;
+            for (i, a) in slopes.iter().enumerate() {
+                for (j, b) in slopes.iter().enumerate() {
+                    variance += a * b * covariance[(first + i, first + j)];
+                }
+            }
+            variance.max(0.0).sqrt()
+        });
+        let deviations: Vec<f64> = deviations.collect();
+        let count = deviations.len() as f64;
+        let off = |bend: f64| {
+            let unsure = deviations.iter().zip(&self.bend);
+            let unsure = unsure.filter(|(d, shape)| SURE * **d + bend * shape.abs() > 0.5);
+            unsure.count() as f64 / count
+        };
+        PhaseError {
+            mean: deviations.iter().sum::<f64>() / count,
+            worst: deviations.iter().fold(0.0, |worst, d| worst.max(*d)),
+            unsure: off(1.0),
+            unknown: off(0.0),
+            bend: self
+                .bend
+                .iter()
+                .fold(0.0, |most, bend| most.max(bend.abs())),
+        }
+    }
+
+    /// The part of the panel that would be unsure if a parameter were told with this standard deviation.
+    fn told(&self, parameter: usize, deviation: f64) -> f64 {
+        let covariance = &self.solution.minimum.covariance;
+        let column = covariance.column(parameter);
+        let gain = deviation * deviation + covariance[(parameter, parameter)];
+        self.with(&(covariance - column * column.transpose() / gain))
+            .unsure
+    }
+
+    /// What would make the mask known: something to tell where that is enough, else more photos. `photos` were given, `focal` is the deviation of the
+    /// logarithm of the focal length that they come with.
+    pub(super) fn remedy(&self, photos: usize, focal: f64) -> String {
+        let phase = self.phase();
+        if phase.unknown <= UNSURE_PART {
+            return match self.setup.bias {
+                false => format!(
+                    "the fringes bend by up to {:.1} views, as over a bowed sheet; measure that as well, with --bias",
+                    phase.bend
+                ),
+                true => "the fringes bend in a way that --bias does not follow; take the photos anew, without reflections and sharper"
+                    .to_owned(),
+            };
+        }
+        let distance = self.setup.distance.is_some();
+        let cone = self.setup.cone.spread <= TOLD;
+        let tellable = [
+            (
+                focal <= TOLD,
+                self.problem.focal_at(),
+                FOCAL,
+                "give --focal, the focal length of the camera as for 35 mm film",
+            ),
+            (
+                distance,
+                self.problem.distance_at(),
+                TAPE,
+                "measure how far the camera was from the panel in the first photo, and give --distance with --dpi or --screen-mm",
+            ),
+            (
+                cone,
+                self.problem.gap_at(),
+                CONE,
+                "give --cone from the data sheet",
+            ),
+        ];
+        let enough = tellable
+            .into_iter()
+            .find(|(told, at, deviation, _)| !told && self.told(*at, *deviation) <= UNSURE_PART);
+        let remedy = match (enough, photos) {
+            (Some((.., remedy)), _) => remedy,
+            (None, 1) => {
+                "take two more photos, from about 10 degrees to the left and to the right, and from other distances"
+            }
+            (None, _) => {
+                "take another photo, from a direction and a distance that the others have not"
+            }
+        };
+        remedy.to_owned()
+    }
+}
+
+/// Residuals that neighbours and photos have in common, by rows: the mean over photos and 3x3 blocks.
+fn bend(misses: &[Vec<((usize, usize), f64)>]) -> Vec<f64> {
+    let blocks = (0..BLOCKS).flat_map(|row| (0..BLOCKS).map(move |column| (column, row)));
+    let smooth = blocks.map(|(column, row)| {
+        let near = misses
+            .iter()
+            .flatten()
+            .filter(|((x, y), _)| x.abs_diff(column) <= 1 && y.abs_diff(row) <= 1);
+        let (sum, count) = near.fold((0.0, 0.0), |(sum, count), (_, miss)| {
+            (sum + miss, count + 1.0)
+        });
+        sum / f64::max(count, 1.0)
+    });
+    smooth.collect()
+}
