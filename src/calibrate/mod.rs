@@ -34,6 +34,10 @@
 //! gap) are solved together with priors for the values that are known beforehand, so that the covariance has the uncertainty.
 //! Distances, in here, are panel pixels: nothing but a distance given in mm needs the panel's size in mm.
 //!
+//! The carrier turns an error of place into one of phase, a hundredth of a turn for each pixel down. A hand that is not steady while the sensor is read moves rows
+//! by a pixel or so, which without a term of its own pulls the focal length by per cents, and with it the gap and the pitch. So each photo has a movement
+//! over its rows among its unknowns (`camera.rs`); edges and fringes fix it together.
+//!
 //! # Limits
 //!
 //! A sheet whose views run from right to left looks the same with the cone turned inside out; the sheet here is one whose
