@@ -159,8 +159,7 @@ impl Atlas {
         fence.is_some_and(|fence| gl.passed(fence))
     }
 
-    /// The pictures since the last read, in the order in which they were taken: No pack buffer may be
-    /// bound.
+    /// The pictures since the last read, in the order in which they were taken. No pack buffer may be bound.
     pub fn read_depths(&mut self, gl: &Gl) -> Vec<DepthPicture> {
         let Some(depths) = &mut self.depths else {
             return Vec::new();

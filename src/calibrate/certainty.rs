@@ -5,6 +5,7 @@ use super::Setup;
 use super::fringes::BLOCKS;
 use super::mask::Viewers;
 use super::sheet::Sheet;
+use super::sighting::FOCAL_SPREAD;
 use super::solve::{Problem, Solution};
 use glam::DVec2;
 use nalgebra::DMatrix;
@@ -14,12 +15,8 @@ use nalgebra::DMatrix;
 const SURE: f64 = 4.0;
 /// ...on all but this part of it.
 pub(super) const UNSURE_PART: f64 = 0.05;
-/// Standard deviations of what a person can tell: the logarithms of a focal length, of a distance measured with a tape and of the gap by the cone
-/// of a data sheet. What is known to a tenth counts as told.
-const FOCAL: f64 = 0.03;
-const TAPE: f64 = 0.01;
-const CONE: f64 = 0.05;
-const TOLD: f64 = 0.1;
+/// What is known to this part counts as told.
+pub(super) const TOLD: f64 = 0.1;
 
 /// How well the phase of the mask is known, as standard deviations in views.
 #[derive(Clone, Copy, Debug)]
@@ -148,19 +145,19 @@ impl<'a> Certainty<'a> {
             (
                 focal <= TOLD,
                 self.problem.focal_at(),
-                FOCAL,
+                FOCAL_SPREAD,
                 "give --focal, the focal length of the camera as for 35 mm film",
             ),
             (
                 distance,
                 self.problem.distance_at(),
-                TAPE,
+                Setup::TAPE,
                 "measure how far the camera was from the panel in the first photo, and give --distance with --dpi or --screen-mm",
             ),
             (
                 cone,
                 self.problem.gap_at(),
-                CONE,
+                Setup::DATA_SHEET,
                 "give --cone from the data sheet",
             ),
         ];

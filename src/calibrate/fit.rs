@@ -1,7 +1,7 @@
 //! The result, with its residuals and its uncertainty.
 #![forbid(unsafe_code)]
 
-use super::certainty::{Certainty, PhaseError, UNSURE_PART};
+use super::certainty::{Certainty, PhaseError, TOLD, UNSURE_PART};
 use super::mask::{Mask, Viewers};
 use super::pattern::Layout;
 use super::sheet::NODES;
@@ -208,10 +208,11 @@ impl Answer<'_> {
             ));
         }
         if self.solution.ambiguous {
-            doubts.push(
-                "two gaps fit as well; give --cone, or take another photo nearer to the front"
-                    .into(),
-            );
+            let told = self.setup.cone.spread <= TOLD;
+            let cone = if told { "" } else { "give --cone, or " };
+            doubts.push(format!(
+                "two gaps fit as well; {cone}take another photo nearer to the front"
+            ));
         }
         if fit.residuals.rms > LARGEST_RESIDUAL * f64::from(self.setup.views) {
             doubts.push(

@@ -44,6 +44,11 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// Relative error of a distance that was measured with a tape.
+    pub const TAPE: f64 = 0.01;
+    /// Relative error of a cone from a data sheet.
+    pub const DATA_SHEET: f64 = 0.05;
+
     /// The assumed angle over which the views are seen: 40 degrees to a factor of about 1.4.
     pub const CONE: Guess = Guess {
         value: 40.0,

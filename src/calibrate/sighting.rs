@@ -16,7 +16,7 @@ const FOCAL: Guess = Guess {
     spread: 0.35,
 };
 /// How well EXIF's focal length is believed; it is rounded to 1 mm, and focusing changes it.
-const FOCAL_SPREAD: f64 = 0.03;
+pub(super) const FOCAL_SPREAD: f64 = 0.03;
 /// Standard deviations of the unknowns of a camera: k1, k2, and the optical axis in halves of the diagonal.
 const DISTORTION_SPREAD: [f64; 2] = [0.05, 0.01];
 const CENTRE_SPREAD: f64 = 0.01;

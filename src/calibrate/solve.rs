@@ -23,7 +23,7 @@ const BIAS: f64 = 1.0;
 const EDGE: f64 = 0.4;
 const PHASE: f64 = 0.02;
 /// Lower bound of every scatter. For the phase this is what windows and vignetting do to all blocks
-/// alike: with less, the carrier would pass for a ruler of a hundredth of a pixel and decide the focal length.
+/// alike; the carrier turns some hundredths of a pixel into as much.
 const LEAST_EDGE: f64 = 0.03;
 const LEAST_PHASE: f64 = 0.0003;
 /// The common error of all points of an edge, which their scatter does not show, panel pixels; and as a part of the scatter,

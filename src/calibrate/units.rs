@@ -2,9 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::CalibrateError;
-use crate::display::Number;
-
-const MM_PER_INCH: f64 = 25.4;
+use crate::display::{MM_PER_INCH, Number};
 
 /// The slant in subpixels per row: a number or fraction of them, or the angle between the lenses and the columns of pixels, such as `9.46deg`.
 pub fn slant(text: &str) -> Result<f64, CalibrateError> {

@@ -13,11 +13,6 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Relative error of a distance that was measured with a tape.
-const TAPE: f64 = 0.01;
-/// Relative error of a cone from a data sheet.
-const DATA_SHEET: f64 = 0.05;
-
 #[derive(Args)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
@@ -126,12 +121,12 @@ fn fit(arguments: &FitArguments) -> Outcome {
     };
     setup.distance = pixels("--distance", arguments.setup.distance)?.map(|value| Guess {
         value,
-        spread: TAPE,
+        spread: Setup::TAPE,
     });
     setup.viewer = pixels("--viewer", arguments.setup.viewer)?;
     setup.cone = arguments.setup.cone.map_or(Setup::CONE, |value| Guess {
         value,
-        spread: DATA_SHEET,
+        spread: Setup::DATA_SHEET,
     });
     (setup.colours, setup.bias) = (arguments.colours, arguments.bias);
     writable("the display file", &arguments.out)?;

@@ -5,7 +5,7 @@ use super::error::CommandError;
 use clap::Args;
 use manyview::calibrate::{CalibrateError, Setup, units};
 use manyview::config::panel;
-use manyview::display::{Display, Kind};
+use manyview::display::{Display, Kind, MM_PER_INCH};
 
 #[derive(Args)]
 pub(super) struct SheetArguments {
@@ -41,8 +41,6 @@ pub(super) struct SheetArguments {
     #[arg(long, value_name = "N")]
     dpi: Option<f64>,
 }
-
-const MM_PER_INCH: f64 = 25.4;
 
 impl SheetArguments {
     /// The sheet before calibration; none where only numbers are given.

@@ -6,7 +6,7 @@ use clap::Args;
 use image::{DynamicImage, ImageFormat, RgbImage};
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::config::{Config, OptionId, Settings};
-use manyview::display::Facts;
+use manyview::display::{Facts, MM_PER_INCH};
 use manyview::launch::writable;
 use manyview::simulate::{Eye, Optics, Setup, SimulateError, see, strip};
 use std::ops::RangeInclusive;
@@ -20,8 +20,6 @@ const CONE: f64 = 40.0;
 
 /// Crosstalk of a good lens sheet.
 const CROSSTALK: f64 = 0.05;
-
-const MM_PER_INCH: f64 = 25.4;
 
 /// Largest distance of an eye, mm: larger than any room.
 const FARTHEST: f64 = 1e6;

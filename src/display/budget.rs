@@ -3,7 +3,8 @@
 
 use super::{Display, Facts};
 
-const MM_PER_INCH: f64 = 25.4;
+/// Millimetres of an inch.
+pub const MM_PER_INCH: f64 = 25.4;
 /// Of two eyes that look at one picture, before and behind the panel: a part of its width. Players and converters give two
 /// percent to the whole depth of a scene.
 const TWO_EYES: f64 = 0.01;

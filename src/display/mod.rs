@@ -41,7 +41,7 @@ mod wall_file;
 mod written;
 
 pub use bias::Bias;
-pub use budget::Budget;
+pub use budget::{Budget, MM_PER_INCH};
 pub use builtin::{Builtin, builtins};
 pub use cameras::{Cameras, Spacing};
 pub use error::{DisplayError, MaskError};

@@ -66,7 +66,11 @@ impl Layer {
         let around = picture.around(place, REACH);
         let seen = taken.mappings.distances(&around, taken.clear);
         let infinity = self.known.rig.at_depth(p, 1.0)?.separation(1.0);
-        let disparity = match seen.scene.get(seen.scene.len() / 2) {
+        let elsewhere = seen.scene.len() + seen.foreground.len() + seen.others.len();
+        let beyond = around.len().saturating_sub(elsewhere);
+        // What most samples show: beside a thin pole it is the sky.
+        let middle = seen.scene.get(seen.scene.len() / 2);
+        let disparity = match middle.filter(|_| seen.scene.len() >= beyond) {
             Some(inverse) => {
                 let (separation, convergence) = self.cameras_in_force(p)?;
                 separation * (1.0 - convergence * inverse)
