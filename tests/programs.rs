@@ -34,7 +34,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::sync::Mutex;
 use std::time::Instant;
-use support::{has, own_screen, scratch};
+use support::{has, own_screen, scratch, sized_screen};
 use table::Program;
 
 /// A variable by which a person chooses what runs.
@@ -79,11 +79,11 @@ fn run(programs: Vec<&Program>, table: &[Program]) {
     std::thread::scope(|scope| {
         for _ in 0..jobs {
             scope.spawn(|| {
-                // A screen for each program: windows that cover each other have undefined pixels.
-                let screen = own_screen();
                 loop {
                     let next = queue.lock().expect("the queue").next();
                     let Some((at, program)) = next else { break };
+                    // A screen for each program: windows that cover each other have undefined pixels.
+                    let screen = program.screen.map_or_else(own_screen, sized_screen);
                     let start = Instant::now();
                     let folder = scratch("programs").join(&program.name);
                     fs::create_dir_all(&folder).expect("a folder");

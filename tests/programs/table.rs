@@ -31,6 +31,8 @@ pub(crate) struct Program {
     /// Variables of its environment.
     #[serde(default)]
     pub(crate) env: BTreeMap<String, String>,
+    /// Width and height of its screen in pixels, where that has to be the mode that the program asks for.
+    pub(crate) screen: Option<(u16, u16)>,
     /// Whether the compared frames show a scene with depth, so that the views have to differ.
     #[serde(default)]
     pub(crate) parallax: bool,
