@@ -92,7 +92,7 @@ library-32: rust
 
 release: rust ## build what runs on systems with glibc 2.28 and later (needs cargo-zigbuild and zig); target/release-2.28
 	@sh scripts/release.sh $(GLIBC) $(RELEASE)
-	MANYVIEW_RELEASE=$(RELEASE) $(CARGO) test --release --test release -- --include-ignored
+	MANYVIEW_RELEASE=$(RELEASE) $(CARGO) test --release --test all -- release:: --include-ignored
 
 demos: packages ## build the demo programs
 	$(MAKE) -C examples OUT=$(DEMOS)
@@ -123,8 +123,8 @@ pictures: packages build demos ## make the picture of the README
 
 gallery: packages build demos ## make the pictures of docs/gallery.md
 	@sh scripts/packages.sh $(PICTURE_PACKAGES)
-	$(CARGO) test --release --test calibrate gallery_photos -- --ignored
-	$(CARGO) test --release --test wall gallery_wall -- --ignored
+	$(CARGO) test --release --test all -- gallery_photos --ignored
+	$(CARGO) test --release --test all -- gallery_wall --ignored
 	@sh scripts/gallery.sh $(BIN) $(DEMOS)/mirror docs/gallery $(TARGET)/gallery
 
 test: packages build demos ## run the tests
@@ -137,7 +137,7 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then MANYVIEW_TESTS_ALL=1 $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|full|looks|programs|release|soak|both|wine)_/)'; \
+	then MANYVIEW_TESTS_ALL=1 $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not (binary(all) & test(/^[a-z_]+::(drivers|full|looks|programs|release|soak|both|wine)_/))'; \
 	else MANYVIEW_TESTS_ALL=1 $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip full_ --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_ --skip wine_; fi
 	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
@@ -152,26 +152,26 @@ demos-32: packages-32 ## build the demo programs of 32 bits
 	$(MAKE) -C examples OUT=$(DEMOS_32) CC="gcc -m32"
 
 test-32: build-32 demos-32 ## run the tests that preload the layer in programs of 32 bits (installs i386 packages)
-	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast $(TESTS_32:%=--test %) -- $(NOT_32:%=--skip %)
+	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast --test all -- $(TESTS_32:%=%::) $(NOT_32:%=--skip %)
 
 test-both: build-32 demos demos-32 ## run the tests of programs of both classes under one command (installs i386 packages)
-	$(CARGO) test --release --no-fail-fast --test both -- --ignored
+	$(CARGO) test --release --no-fail-fast --test all -- both:: --ignored
 
 test-launch: packages-32 build-32 ## start programs in containers and under Wayland (installs packages of both classes, and makes another /usr of 600 MB)
 	@sh scripts/packages.sh $(PACKAGES_LAUNCH)
 	@sh scripts/other-usr.sh $(TARGET)/launch/trixie
-	$(CARGO) test --release --no-fail-fast --test launch_ways -- --ignored --test-threads 1 --nocapture
+	$(CARGO) test --release --no-fail-fast --test all -- launch_ways:: --ignored --test-threads 1 --nocapture
 
 test-wine: build-32 ## run programs for Windows under Wine (installs it, and i386 packages)
 	@sh scripts/packages.sh $(PACKAGES_WINE)
 	$(MAKE) -C examples/windows OUT=$(TARGET)/windows
-	$(CARGO) test --release --no-fail-fast --test windows -- --ignored --test-threads 1
+	$(CARGO) test --release --no-fail-fast --test all -- windows:: --ignored --test-threads 1
 
 test-full: packages build demos ## run all tests but those of programs, also all of piglit's, valgrind and fuzz (three hours)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then MANYVIEW_TESTS_ALL=1 $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not test(/^(drivers|looks|programs|release|soak|both|wine)_/)'; \
+	then MANYVIEW_TESTS_ALL=1 $(CARGO) nextest run --release --no-fail-fast --no-tests=warn $(CRATES) $(FAKE_DRIVER) --run-ignored all -E 'not (binary(all) & test(/^[a-z_]+::(drivers|looks|programs|release|soak|both|wine)_/))'; \
 	else MANYVIEW_TESTS_ALL=1 $(CARGO) test --release --no-fail-fast $(CRATES) $(FAKE_DRIVER) --lib --bins --tests -- --include-ignored --skip drivers_are_as_good --skip looks_ --skip programs_ --skip release_ --skip soak_ --skip both_ --skip wine_; fi
 	$(CARGO) test --release $(VIEWER) --lib --bins --tests -- --include-ignored
 	$(CARGO) test --release -p manyview --doc
@@ -182,33 +182,33 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@if sh scripts/packages.sh $(PACKAGES_32); then $(MAKE) test-32 test-both test-wine test-launch; else echo "32-bit programs are not tested: i386 is not to be had here" >&2; fi
 
 random: packages build ## make ten thousand sequences of random calls with and without the layer (an hour)
-	$(CARGO) test --release --no-fail-fast --test random full_ten -- --ignored --nocapture
+	$(CARGO) test --release --no-fail-fast --test all -- random::full_ten --ignored --nocapture
 
 random-32: packages build-32 ## the same in programs of 32 bits (installs i386 packages)
-	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast --test random full_ten -- --ignored --nocapture
+	MANYVIEW_TESTS_BITS=32 $(CARGO) test --release --no-fail-fast --test all -- random::full_ten --ignored --nocapture
 
 check-shadow: packages build demos ## run tests with a library that compares the state it keeps with the driver's
 	$(CARGO) build --release --target-dir $(TARGET)/check-shadow -p manyview-shim --features check-shadow
-	MANYVIEW_TESTS_LIBRARY=$(TARGET)/check-shadow/release/libmanyview.so $(CARGO) test --release --no-fail-fast $(TESTS_SHADOW:%=--test %) -- --skip full_
+	MANYVIEW_TESTS_LIBRARY=$(TARGET)/check-shadow/release/libmanyview.so $(CARGO) test --release --no-fail-fast --test all -- $(TESTS_SHADOW:%=%::) --skip full_
 
 test-drivers: packages build demos ## run the main tests on old versions and other drivers; writes docs/drivers.md (half an hour)
 	@sh scripts/packages.sh --optional $(DRIVER_PACKAGES)
-	$(CARGO) test --release --test drivers drivers_ -- --ignored --nocapture
+	$(CARGO) test --release --test all -- drivers::drivers_ --ignored --nocapture
 
 programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (two hours)
-	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture --test-threads=1
+	$(CARGO) test --release --test all -- programs::programs_ --ignored --nocapture --test-threads=1
 
 looks: packages build ## play games as a new user launches them, without an option; writes docs/looks.md with pictures (an hour)
-	$(CARGO) test --release --test looks looks_of_games -- --ignored --nocapture
+	$(CARGO) test --release --test all -- looks::looks_of_games --ignored --nocapture
 
 looks-strategies: packages build ## play them under each strategy, the only option; writes docs/looks-strategies.md (two hours)
-	$(CARGO) test --release --test looks looks_are_right -- --ignored --nocapture
+	$(CARGO) test --release --test all -- looks::looks_are_right --ignored --nocapture
 
 calibration: ## fit photos of simulated displays and compare with the truth; writes docs/calibrated.md (an hour)
-	$(CARGO) test --release --test calibrate_glass full_ -- --ignored --nocapture --test-threads 1
+	$(CARGO) test --release --test all -- calibrate_glass::full_ --ignored --nocapture --test-threads 1
 
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak
-	$(CARGO) test --release --test soak soak_ -- --ignored --nocapture
+	$(CARGO) test --release --test all -- soak::soak_ --ignored --nocapture
 
 openarena: packages build ## play OpenArena's timedemo with and without the layer; prints the frame rates (423 MB, half an hour)
 	@sh scripts/packages.sh $(OPENARENA_PACKAGES)
@@ -245,7 +245,7 @@ fuzz: rust ## feed random files, requests and shaders to what reads them, each k
 
 shaders: packages build ## rewrite real shaders, of programs and of piglit, and compile them before and after (140 MB, ten minutes)
 	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
-	$(CARGO) test --release --test shaders full_ -- --ignored --nocapture
+	$(CARGO) test --release --test all -- shaders::full_ --ignored --nocapture
 
 panel-cost: build demos ## what the panel's window and the on-screen display cost
 	@sh scripts/panel-cost.sh $(BIN) $(DEMOS)
@@ -254,7 +254,7 @@ points-cost: build ## the time of splats drawn once for all views, beside one vi
 	@EGL_PLATFORM=surfaceless $(BIN)/manyview-probe points-cost
 
 points-large: build ## show a point cloud of a hundred million points (three minutes, a file of 560 MB)
-	$(CARGO) test --release --test viewer full_ -- --ignored --nocapture
+	$(CARGO) test --release --test all -- viewer::full_ --ignored --nocapture
 
 overhead: packages build demos ## measure the layer where it does nothing: switched off, and with one view (ten minutes)
 	@sh scripts/overhead.sh $(BIN) $(TARGET)/overhead $(DEMOS)
@@ -263,13 +263,13 @@ overhead-ways: packages-32 build-32 demos ## the same under Wine and in a contai
 	@sh scripts/packages.sh $(PACKAGES_WINE) $(PACKAGES_LAUNCH)
 	@sh scripts/other-usr.sh $(TARGET)/launch/trixie
 	$(MAKE) -C examples/windows OUT=$(TARGET)/windows
-	$(CARGO) test --release --test overhead_ways -- --ignored --nocapture
+	$(CARGO) test --release --test all -- overhead_ways:: --ignored --nocapture
 
 man: build ## write the manual pages to target/man
 	$(BIN)/manyview man --out $(TARGET)/man
 
 notices: rust ## write THIRD-PARTY-NOTICES.txt from the sources of the crates
-	BLESS=1 $(CARGO) test --release --test notices every_crate
+	BLESS=1 $(CARGO) test --release --test all notices::every_crate
 
 book: ## build the manual as HTML in target/book (needs mdbook)
 	@command -v mdbook >/dev/null 2>&1 || \

@@ -57,8 +57,8 @@ for test in "$@"; do
 	# random calls run without a watch on memcpy, and memory is not filled.
 	test "$kind$test" != addressrandom || watched=$options:replace_intrin=0:max_malloc_fill_size=0
 	MANYVIEW_TESTS_LIBRARY=$folder/build/$target/release/libmanyview.so MANYVIEW_TESTS_RUNTIME=$runtime:$folder/early.so \
-		$start env "$variable=$watched" cargo test --release --workspace --exclude manyview-viewer --features manyview-shim/fake-driver --no-fail-fast --test "$test" -- \
-		--skip full_ --skip $skipped || failed=1
+		$start env "$variable=$watched" cargo test --release --workspace --exclude manyview-viewer --features manyview-shim/fake-driver --no-fail-fast --test all -- \
+		"$test::" --skip full_ --skip $skipped || failed=1
 done
 for report in "$folder"/report.*; do
 	test -f "$report" || continue

@@ -1,18 +1,16 @@
 //! Programs ask for state and results and use rare commands: all answers are those without the layer, and what is drawn is in every
 //! view. (The programs lie in tests/answers; their heads list the modes.)
-#![forbid(unsafe_code)]
 
-#[path = "answers/lists.rs"]
 mod lists;
-#[path = "support/share.rs"]
-mod share;
-mod support;
 
+use crate::support::share;
+use crate::support::views::{REPLAYED, VIEWS, Views, extents};
+use crate::support::{
+    Compiled, bare, built, extent, layered, lines, preloaded, rgb, window_picture,
+};
 use image::{RgbImage, imageops};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::views::{REPLAYED, VIEWS, Views, extents};
-use support::{Compiled, bare, built, extent, layered, lines, preloaded, rgb, window_picture};
 
 const ATLASES: [&str; 2] = ["side-by-side", "layers"];
 

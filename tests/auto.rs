@@ -1,11 +1,8 @@
 //! `--strategy auto`: the report names the outcome, the next run takes it from the cache, and the search changes no picture.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{demo, layered, manyview, rgb, screen, succeed};
 use serde_json::Value;
 use std::path::Path;
-use support::{demo, layered, manyview, rgb, screen, succeed};
 
 /// Enough frames to find an outcome (12 before the search, then four turns of four frames by each of three strategies), and for the report,
 /// which is written ten times a second, to contain it.

@@ -1,13 +1,11 @@
 //! `manyview bench`: its outputs, and its messages about bad input. No test depends on speed, except by a wide margin.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{demo, library, manyview, refused, run, screen, succeed};
 use manyview::bench::{Bench, PRESETS, PictureError, Row, SCENES, Spread, chart};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
-use support::{demo, library, manyview, refused, run, screen, succeed};
 
 fn json(path: &Path) -> Value {
     let text = std::fs::read_to_string(path).expect("written");

@@ -1,12 +1,9 @@
 //! Programs of 64 and of 32 bits under one `manyview`: `make test-both`, which installs i386 packages. (The layer in 32-bit programs: `make test-32`.)
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{manyview, rgb, run, screen, succeed, target_folder};
 use manyview::metric::{Comparison, Gate};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{manyview, rgb, run, screen, succeed, target_folder};
 use tempfile::tempdir;
 
 /// A demo program of each class.

@@ -2,16 +2,12 @@
 //! thread of its own has to catch up at each.
 //!
 //! tests/budget/counts.c counts them between two late swaps, behind the layer, and in the program alone; the difference is the layer's.
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support::share;
+use crate::support::{Compiled, Screen, bare, built, demo, layered, library, own_screen, succeed};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{Compiled, Screen, bare, built, demo, layered, library, own_screen, succeed};
 
 /// The most calls for each swap, whatever is drawn.
 const FOR_A_SWAP: f64 = 8.0;

@@ -1,15 +1,9 @@
 //! Round trips: a display, simulated photos of it, and the description that `manyview calibrate` finds from them.
-#![forbid(unsafe_code)]
 
-#[path = "calibrate/camera.rs"]
 mod camera;
-#[path = "calibrate/gallery.rs"]
 mod gallery;
-#[path = "calibrate/random.rs"]
-mod random;
-#[path = "calibrate/scene.rs"]
+pub(crate) mod random;
 mod scene;
-mod support;
 
 use camera::{Exposure, Sheet, expose};
 use image::RgbImage;

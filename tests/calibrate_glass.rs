@@ -1,25 +1,15 @@
 //! Calibration against an optical simulator that shares nothing with the fit: rays through sheets of glass, a phone's camera, files as they come.
 //!
 //! `make calibration` takes the whole table; the ordinary run a few displays.
-#![forbid(unsafe_code)]
 
-#[path = "optics/mod.rs"]
-#[allow(
-    dead_code,
-    unreachable_pub,
-    missing_docs,
-    reason = "it is a simulator of its own, of which a test uses a part"
-)]
-mod optics;
-
+use crate::optics::compare::{Sampling, compare};
+use crate::optics::displays::{Display, display};
+use crate::optics::eye::Truth;
+use crate::optics::photograph_jpeg;
+use crate::optics::scenario::{ALL, Scenario, Taking, scenario};
 use image::RgbImage;
 use manyview::calibrate::{Fit, Photo, Setup, Sighting, fit, pattern};
 use manyview::display::SubpixelOrder;
-use optics::compare::{Sampling, compare};
-use optics::displays::{Display, display};
-use optics::eye::Truth;
-use optics::photograph_jpeg;
-use optics::scenario::{ALL, Scenario, Taking, scenario};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,9 +1,6 @@
 //! Small cases that once came out differently under the layer: all that a program can read back is the same with it.
-#![forbid(unsafe_code)]
 
-mod support;
-
-use support::{Compiled, bare, compiled, layered, succeed};
+use crate::support::{Compiled, bare, compiled, layered, succeed};
 
 #[test]
 fn small_cases_are_the_same() {

@@ -1,11 +1,9 @@
 //! Classes of draws: rules of a profile change them, flat draws stand at the depth that the demo gives itself, and one frame is explained.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{Picture, capture, dump, library, manyview, rgb, screen, succeed};
 use image::RgbImage;
 use std::path::{Path, PathBuf};
-use support::{Picture, capture, dump, library, manyview, rgb, screen, succeed};
 
 const SIZE: [&str; 2] = ["--size", "300x220"];
 const WIDTH: u32 = 300;

@@ -1,13 +1,11 @@
 //! The command from its user's side: exit statuses, messages, environment. No OpenGL here.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{manyview, refused, run};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use support::{manyview, refused, run};
 use tempfile::tempdir;
 
 #[test]

@@ -1,11 +1,8 @@
 //! Programs that have no matrix for their camera: their views are shifted by the w of their vertices.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{bare, demo, manyview, rgb, screen, succeed};
 use image::imageops;
 use manyview::metric::{Comparison, Gate};
-use support::{bare, demo, manyview, rgb, screen, succeed};
 use tempfile::tempdir;
 
 const VIEWS: u32 = 5;

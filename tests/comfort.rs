@@ -1,13 +1,11 @@
 //! Cameras by depth: the budget that `--auto-depth` keeps and the distances that `--report` tells, against distances that the test knows by
 //! itself: the walls of tests/support/c/depths.c, and for the demos every pixel of the captured depths with the planes of their
 //! projections.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{Compiled, compiled, demo, layered, manyview, screen, succeed};
 use serde_json::Value;
 use std::path::Path;
-use support::{Compiled, compiled, demo, layered, manyview, screen, succeed};
 
 /// Window width of tests/support/c/depths.c, pixels.
 const WIDTH: f64 = 64.0;

@@ -1,9 +1,6 @@
 //! Conditional rendering depends on all samples that a query has counted, however the layer splits the draws.
-#![forbid(unsafe_code)]
 
-mod support;
-
-use support::{Compiled, bare, compiled, layered, rgb, succeed};
+use crate::support::{Compiled, bare, compiled, layered, rgb, succeed};
 
 #[test]
 fn draws_depend_on_all_that_a_query_has_counted() {

@@ -1,14 +1,12 @@
 //! `manyview ctl` and the socket behind it, with programs that draw until they are told to stop.
-#![forbid(unsafe_code)]
 
-#[path = "control/explained.rs"]
 mod explained;
-#[path = "control/profiles.rs"]
 mod profiles;
-#[path = "control/running.rs"]
-mod running;
-mod support;
+pub(crate) mod running;
 
+use crate::support::{
+    Compiled, Screen, bare, compiled, extent, layered, own_screen, preloaded, rgb, run,
+};
 use image::RgbImage;
 use running::{LIMIT, Running, ctl, same, stays, until};
 use std::io::{BufRead, BufReader, Read, Write};
@@ -16,7 +14,6 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::time::Duration;
-use support::{Compiled, Screen, bare, compiled, extent, layered, own_screen, preloaded, rgb, run};
 
 /// Cameras far enough apart for a visible disparity in 96 pixels.
 const CAMERAS: [(&str, &str); 2] = [("SEPARATION", "0.03"), ("CONVERGENCE", "8")];

@@ -1,14 +1,12 @@
 //! The documents agree with the code: commands run, options exist, blocks of TOML are accepted, links lead somewhere.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::manyview;
 use manyview::config::{Config, OPTIONS, OptionSpec, PathKind, Profile, Scope, Settings};
 use manyview::display::{Display, Placement};
 use manyview::volume::{RotatingScreen, Volume};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use support::manyview;
 
 /// Stands in for every program that a document starts.
 const NO_PROGRAM: &str = "/no/such/program";
@@ -95,7 +93,7 @@ fn every_page_is_in_the_summary() {
 
 /// The table of docs/options.md stands between these lines.
 const TABLE: [&str; 2] = [
-    "<!-- generated: BLESS=1 cargo test --test docs -->\n\n",
+    "<!-- generated: BLESS=1 cargo test --test all docs:: -->\n\n",
     "\n<!-- end of what is generated -->",
 ];
 
@@ -178,7 +176,7 @@ fn the_table_of_options_is_that_of_the_code() {
     let same = now == table;
     assert!(
         same,
-        "docs/options.md is not what src/config/options.rs says: run BLESS=1 cargo test --test docs, and commit the page"
+        "docs/options.md is not what src/config/options.rs says: run BLESS=1 cargo test --test all docs::, and commit the page"
     );
 }
 

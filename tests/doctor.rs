@@ -1,11 +1,9 @@
 //! `manyview doctor` tells what a program would find, from contexts that it really creates.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{Screen, library, manyview, target_folder};
 use serde_json::Value;
 use std::process::Command;
-use support::{Screen, library, manyview, target_folder};
 
 fn doctor(arguments: &[&str], variables: &[(&str, &str)]) -> (Option<i32>, String, String) {
     library();

@@ -1,13 +1,10 @@
 //! Windows, pixmaps, pbuffers and surfaces, several of them in one program: each has its own picture, whichever context draws to it,
 //! whatever is current when it is shown, and whatever shows it. A program prints what it reads back and what X has in its windows. The
 //! layer shows the view that the program itself would draw, or another one of a flat picture, so that all lines are as without the layer.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{Compiled, Screen, bare, built, layered, own_screen, preloaded, succeed};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{Compiled, Screen, bare, built, layered, own_screen, preloaded, succeed};
 
 fn source(name: &str) -> PathBuf {
     Path::new("tests/drawables").join(name).with_extension("c")

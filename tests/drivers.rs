@@ -2,15 +2,11 @@
 //!
 //! The layer's own passes are compiled in every version, and make the same pictures in an old one. `make test-drivers` runs the main tests on each
 //! of the drivers as well, and writes docs/drivers.md.
-#![forbid(unsafe_code)]
 
-mod support;
-
-#[path = "drivers/pictures.rs"]
 mod pictures;
-#[path = "drivers/table.rs"]
 mod table;
 
+use crate::support;
 use manyview::interleave::shader::{GlslVersion, Pass, Stage, translate};
 use pictures::{Shown, shown};
 use std::process::Command;

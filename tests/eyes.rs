@@ -1,9 +1,6 @@
 //! Programs that draw a picture for each eye themselves: they get a stereo window on every driver, and their eyes are what the views show.
-#![forbid(unsafe_code)]
 
-mod support;
-
-use support::{Compiled, bare, compiled, layered, own_screen, rgb, succeed};
+use crate::support::{Compiled, bare, compiled, layered, own_screen, rgb, succeed};
 use tempfile::tempdir;
 
 #[test]

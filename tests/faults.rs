@@ -2,14 +2,11 @@
 //! on with its own picture, and nothing is said twice.
 //!
 //! tests/faults/fails.c is the driver. The program makes no objects but display lists, which it gets, so all that fails is the layer's.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{Compiled, Screen, bare, built, demo, layered, own_screen, preloaded, rgb};
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{Compiled, Screen, bare, built, demo, layered, own_screen, preloaded, rgb};
 
 /// More objects than any strategy makes.
 const MOST: u32 = 400;

@@ -2,19 +2,10 @@
 //!
 //! `tests/fixed/ffcheck.c` draws each case both ways: this file writes the cases and the shaders, and judges the pictures.
 
-#[path = "fixed/check.rs"]
-mod check;
-#[path = "fixed/fragments.rs"]
-mod fragments;
-#[path = "fixed/matrices.rs"]
-mod matrices;
-#[path = "fixed/random.rs"]
-mod random;
-#[path = "support/share.rs"]
-mod share;
-
-use check::Difference;
-use fragments::{Fragments, case, discarding, floor};
+use crate::fixed::check;
+use crate::fixed::check::Difference;
+use crate::fixed::fragments::{Fragments, case, discarding, floor};
+use crate::support::share;
 use manyview::fixed::{Limits, Unsupported, VertexLayer, generate, generate_fragment};
 use std::path::{Path, PathBuf};
 

@@ -2,19 +2,10 @@
 //!
 //! `tests/fixed/ffcheck.c` draws each case both ways: this file writes the cases and the shaders, and judges the pictures.
 
-#[path = "fixed/cases.rs"]
-mod cases;
-#[path = "fixed/check.rs"]
-mod check;
-#[path = "fixed/matrices.rs"]
-mod matrices;
-#[path = "fixed/random.rs"]
-mod random;
-#[path = "support/share.rs"]
-mod share;
-
-use cases::{Case, case};
-use check::Difference;
+use crate::fixed::cases::{Case, case};
+use crate::fixed::check;
+use crate::fixed::check::Difference;
+use crate::support::share;
 use manyview::fixed::{Limits, Primitive, VertexLayer, generate};
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,13 +1,8 @@
 //! Flat draws that follow the scene: a crosshair stands where the demo itself draws it when it is told how far away the scene is there.
-#![forbid(unsafe_code)]
 
-mod support;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::support::x::User;
+use crate::support::{Screen, demo, dump, extent, manyview, own_screen, rgb, succeed};
 use image::RgbImage;
-use support::{Screen, demo, dump, extent, manyview, own_screen, rgb, succeed};
-use x::User;
 
 const SIZE: [u32; 2] = [320, 240];
 const VIEWS: u32 = 5;

@@ -1,9 +1,6 @@
 //! A picture drawn to the front buffer is visible after a flush, without a swap.
-#![forbid(unsafe_code)]
 
-mod support;
-
-use support::{Compiled, bare, compiled, layered, own_screen, succeed};
+use crate::support::{Compiled, bare, compiled, layered, own_screen, succeed};
 
 #[test]
 fn the_front_buffer_is_shown_at_a_flush() {

@@ -1,16 +1,13 @@
 //! The hard cases: `manyview bench --hard` measures them, and every bound holds but for those of `MISSES`, whose reasons are known.
 //!
 //! A case that meets its bound again has to leave that list.
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support;
+use crate::support::share;
+use crate::support::{demo, library, manyview, refused, run};
 use manyview::bench::hard::{CASES, MISSES, Subject, configurations};
 use serde_json::Value;
 use std::collections::BTreeSet;
-use support::{demo, library, manyview, refused, run};
 
 /// Runs cases under some configurations, a third of them in the ordinary run, and compares the misses with the known ones.
 #[track_caller]

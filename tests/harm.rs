@@ -1,16 +1,13 @@
 //! A program that runs without the layer runs under it: whatever its callbacks, threads, descriptors, libraries and files are. Each program
 //! prints what it can see, and that is the same with the layer as without it.
-#![forbid(unsafe_code)]
 
-mod support;
-
-use std::os::unix::fs::symlink;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use support::{
+use crate::support::{
     Compiled, Screen, bare, built, demo, layered, manyview, own_screen, programs_folder, screen,
     succeed,
 };
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 use tempfile::tempdir;
 
 /// What a program has written, and how it has ended.

@@ -1,12 +1,9 @@
 //! Programs get OpenGL in many ways, on several threads and windows: each of their frames reads back as without the layer, and each is
 //! drawn in several views.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{Compiled, bare, built, layered, own_screen, succeed};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{Compiled, bare, built, layered, own_screen, succeed};
 
 fn sources(names: &[&str]) -> Vec<PathBuf> {
     let path = |name| Path::new("tests/hosts").join(name).with_extension("c");

@@ -1,19 +1,16 @@
 //! The picture of 8 views reaches the screen by every way of loading the layer: the command, variables only, programs that load GL at run
 //! time, and glretrace. Each picture is compared bit by bit with the CPU reference, which interleaves the atlas of the same frame of a
 //! second run through [`Display::mask`].
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support;
+use crate::support::share;
+use crate::support::{bare, demo, has, layered, manyview, record, rgb, run_until, screen, succeed};
 use image::{RgbImage, imageops};
 use manyview::display::{Display, Placement};
 use manyview::interleave::{Layout, reference};
 use manyview::metric::pixels_over;
 use std::path::Path;
 use std::process::Command;
-use support::{bare, demo, has, layered, manyview, record, rgb, run_until, screen, succeed};
 
 const VIEWS: u32 = 8;
 const FRAME: &str = "30";

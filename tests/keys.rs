@@ -1,16 +1,9 @@
 //! `--keys`: keys that change the views of a running program, which receives them as well.
-#![forbid(unsafe_code)]
 
-#[path = "control/running.rs"]
-mod running;
-mod support;
-#[path = "support/x.rs"]
-mod x;
-
-use running::{Running, same, until};
+use crate::control::running::{Running, same, until};
+use crate::support::x::{ALT, CONTROL, User};
+use crate::support::{Screen, own_screen, rgb};
 use std::path::PathBuf;
-use support::{Screen, own_screen, rgb};
-use x::{ALT, CONTROL, User};
 
 const PAGE_UP: u32 = 0xff55;
 const PAGE_DOWN: u32 = 0xff56;

@@ -1,16 +1,9 @@
 //! `--keys` in a program of Wayland: one more keyboard of the program's own connection gets what the program gets.
-#![forbid(unsafe_code)]
 
-mod support;
-#[path = "support/wayland.rs"]
-mod wayland;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::support::wayland::{Compositor, Monitor, has_sway};
+use crate::support::{has, library, manyview};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-use support::{has, library, manyview};
-use wayland::{Compositor, Monitor, has_sway};
 
 const MONITOR: Monitor = Monitor {
     size: (640, 480),

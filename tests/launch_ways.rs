@@ -1,19 +1,12 @@
 //! Ways to start a program under the layer: {64, 32 bits} × {as it is, a container with another `/usr`, one that is closed as Flatpak's are} × {X11, XWayland, Wayland}.
 //! `make test-launch`, which installs packages and makes the other `/usr`.
-#![forbid(unsafe_code)]
 
-mod support;
-#[path = "support/wayland.rs"]
-mod wayland;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::support::wayland::{Compositor, Monitor};
+use crate::support::{Screen, library, manyview, own_screen, rgb, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use support::{Screen, library, manyview, own_screen, rgb, target_folder};
 use tempfile::TempDir;
-use wayland::{Compositor, Monitor};
 
 const LIMIT: Duration = Duration::from_secs(60);
 const MONITOR: Monitor = Monitor {

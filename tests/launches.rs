@@ -1,13 +1,10 @@
 //! Several programs of one launch write what the user asks for: each to files of its own, and the last one, or the one that began to write while
 //! no other did, to the path that he has named.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{demo, layered, library, manyview, own_screen, screen, succeed};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
-use support::{demo, layered, library, manyview, own_screen, screen, succeed};
 use tempfile::tempdir;
 
 /// A program that waits for `>&3` to draw, another one that comes and goes meanwhile, and the end of the first one. `wait` is for its first file.

@@ -1,5 +1,4 @@
 //! Limits on the size of the source's parts, and no circular imports between files. Tests and generated files are left out.
-#![forbid(unsafe_code)]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

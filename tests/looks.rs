@@ -3,31 +3,20 @@
 //! `make looks` plays all of tests/looks/games.toml and takes about an hour. `MANYVIEW_LOOKS=torcs,neverball` plays only these, `-` none; the
 //! others keep what the page has. Views, report and log of each are kept in target/looks; with `MANYVIEW_LOOKS_KEPT=1` these are judged again and
 //! nothing is played, which helps to name parts. `make looks-strategies` plays them once more under each strategy; docs/looks-strategies.md.
-#![forbid(unsafe_code)]
 
-mod support;
-
-#[path = "looks/launch.rs"]
 mod launch;
-#[path = "looks/page.rs"]
 mod page;
-#[path = "looks/pictures.rs"]
 mod pictures;
-#[path = "support/play.rs"]
-mod play;
-#[path = "looks/row.rs"]
 mod row;
-#[path = "looks/shift.rs"]
 mod shift;
-#[path = "looks/strategies.rs"]
 mod strategies;
-#[path = "looks/table.rs"]
 mod table;
 
+use crate::support::play;
+use crate::support::scratch;
 use launch::Launched;
 use std::fs;
 use std::path::Path;
-use support::scratch;
 use table::Game;
 
 const PAGE: &str = "docs/looks.md";

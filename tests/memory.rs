@@ -3,18 +3,13 @@
 //!
 //! Only our own findings count: a report of valgrind's with a frame of `libmanyview.so` in a stack, unless the driver gives the same one
 //! without the layer. The reports are in `target/memory`.
-#![forbid(unsafe_code)]
 
-mod support;
-
-#[path = "random/build.rs"]
-mod build;
-
+use crate::random::build;
+use crate::support::{Compiled, bare, compiled, demo, has, layered, lines, scratch};
 use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use support::{Compiled, bare, compiled, demo, has, layered, lines, scratch};
 
 const OURS: &str = "libmanyview.so";
 

@@ -1,14 +1,10 @@
 //! Frames that are the same in all views are drawn once: the panel shows the same picture as if all views had been drawn.
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support::share;
+use crate::support::{demo, manyview, rgb, screen, succeed};
 use image::RgbImage;
 use serde_json::Value;
 use std::path::Path;
-use support::{demo, manyview, rgb, screen, succeed};
 
 /// The first frames of a demo, and how many of all its frames were drawn once.
 fn frames(demonstration: &[&str], options: &[&str], count: u32) -> (Vec<RgbImage>, u64) {

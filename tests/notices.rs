@@ -1,6 +1,5 @@
 //! Notices of the crates that the products contain, without which those may not be passed on. `make notices` writes THIRD-PARTY-NOTICES.txt from the
 //! sources of the crates; the test fails when the file is not what comes out.
-#![forbid(unsafe_code)]
 
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};

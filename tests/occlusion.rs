@@ -1,21 +1,17 @@
 //! Occlusion cameras (`--strategy occlusion`): the reference image equals that of the CPU reference, disoccluded surfaces are filled from
 //! it, and the program's own view is untouched.
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support::near::beyond;
+use crate::support::share;
+use crate::support::views::{REPLAYED, Views};
+use crate::support::{
+    Compiled, bare, built, compiled, demo, layered, lines, manyview, rgb, screen, succeed,
+};
 use image::{GenericImageView, Rgb, RgbImage};
 use manyview::metric::pixels_over;
 use manyview::synthesis::{RowDistortion, RowDistortionMap};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use support::near::beyond;
-use support::views::{REPLAYED, Views};
-use support::{
-    Compiled, bare, built, compiled, demo, layered, lines, manyview, rgb, screen, succeed,
-};
 
 const VIEWS: usize = 5;
 const OWN: usize = 2;

@@ -9,13 +9,11 @@
 //! resolves properly and equals those.
 //!
 //! Figures: one table a test, and `target/oracle/figures.jsonl`. Failures: triptychs in `target/oracle/failures/`.
-#![forbid(unsafe_code)]
 
-mod support;
-
-#[path = "oracle/scenes.rs"]
 mod scenes;
 
+use crate::support;
+use crate::support::{Screen, bare, demo, layered, rgb, scratch, screen};
 use image::{Rgb, RgbImage, imageops};
 use manyview::atlas::{Grid, Limits, Tiles};
 use manyview::config::AtlasLayout;
@@ -26,7 +24,6 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{Screen, bare, demo, layered, rgb, scratch, screen};
 use tempfile::TempDir;
 
 /// A tile: not a multiple of 32 pixels wide, so that tiles do not touch.

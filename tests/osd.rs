@@ -1,18 +1,11 @@
 //! The on-screen display: a program that reads text reads it from every view, and pictures that are captured do not have it.
-#![forbid(unsafe_code)]
 
-#[path = "control/running.rs"]
-mod running;
-mod support;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::control::running::{Running, same, until};
+use crate::support::x::User;
+use crate::support::{Screen, demo, has, layered, sized_screen};
 use image::imageops::{FilterType, crop_imm, resize};
 use image::{DynamicImage, RgbImage};
-use running::{Running, same, until};
 use std::process::{Command, Stdio};
-use support::{Screen, demo, has, layered, sized_screen};
-use x::User;
 
 /// The window, and columns and rows of its quilt.
 const WINDOW: (u16, u16) = (1280, 960);

@@ -1,14 +1,12 @@
 //! Outputs that depend on the place of the window, and those for two eyes, against pictures that this file puts together from the tiles of
 //! the same frame of a second run.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{Compiled, Screen, compiled, layered, own_screen, rgb, succeed};
 use image::{Rgb, RgbImage, imageops};
 use manyview::config::Filter;
 use manyview::display::{Display, Placement};
 use manyview::interleave::reference;
-use support::{Compiled, Screen, compiled, layered, own_screen, rgb, succeed};
 
 /// Places of the window in tests/support/c/moves.c, and a frame that each is shown in.
 const PLACES: [(i32, i32, usize); 3] = [(7, 5, 2), (8, 5, 4), (8, 6, 6)];

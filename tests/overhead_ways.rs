@@ -1,12 +1,9 @@
 //! What the layer costs under Wine and in a container, where it is switched off and where it draws one view, beside what it costs a program as it is. `make overhead-ways`.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{Screen, demo, library, own_screen, scratch, target_folder};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
-use support::{Screen, demo, library, own_screen, scratch, target_folder};
 
 /// Frames of a short run and of a long one: their difference is free of the start.
 const FRAMES: [u32; 2] = [200, 2200];

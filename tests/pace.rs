@@ -1,21 +1,14 @@
 //! The panel's window holds the program back in no way, and has its newest picture all the same; `--fps-cap` does hold it back.
-#![forbid(unsafe_code)]
 
-#[path = "control/running.rs"]
-mod running;
-mod support;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::control::running::{Running, until};
+use crate::support::x::User;
+use crate::support::{Compiled, Screen, compiled, demo, layered, manyview, refused, sized_screen};
 use image::RgbImage;
-use running::{Running, until};
 use serde_json::Value;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use support::{Compiled, Screen, compiled, demo, layered, manyview, refused, sized_screen};
-use x::User;
 
 const LIMIT: Duration = Duration::from_secs(60);
 const SIZE: (u16, u16) = (400, 300);

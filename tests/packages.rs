@@ -1,15 +1,13 @@
 //! The Debian packages that `make deb` makes, unpacked to a folder as dpkg does to /: everything lies where the command and the loader look for it, for programs
 //! of both classes. The package of i386 is there where `make build-32` has built its library.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{bare, run, screen, target_folder};
 use std::collections::BTreeSet;
 use std::fs;
 use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use support::{bare, run, screen, target_folder};
 use tempfile::TempDir;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");

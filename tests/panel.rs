@@ -1,24 +1,19 @@
 //! The panel's own window: its picture is, subpixel for subpixel, what the CPU interleaves of the same views at the panel's size.
-#![forbid(unsafe_code)]
 
-#[path = "panel/case.rs"]
-mod case;
-#[path = "control/running.rs"]
-mod running;
-mod support;
-#[path = "support/x.rs"]
-mod x;
+pub(crate) mod case;
 
+use crate::control::running;
+use crate::control::running::{Running, until};
+use crate::support;
+use crate::support::x::User;
+use crate::support::{Screen, manyview, refused, sized_screen};
 use case::{CAMERAS, CASE, Case, DISPLAYS, STEP, end, still, word, worst};
 use image::RgbImage;
 use manyview::display::Fit;
-use running::{Running, until};
 use serde_json::Value;
 use std::io::Read;
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
-use support::{Screen, manyview, refused, sized_screen};
-use x::User;
 
 const LIMIT: Duration = Duration::from_secs(60);
 

@@ -1,25 +1,17 @@
 //! The panel's own window beside programs that change their window, have several, or have one of another kind; and captures of it.
-#![forbid(unsafe_code)]
 
-#[path = "panel/case.rs"]
-mod case;
-#[path = "control/running.rs"]
-mod running;
-mod support;
-#[path = "support/x.rs"]
-mod x;
-
-use case::{CAMERAS, CASE, STEP, worst};
+use crate::control::running;
+use crate::control::running::{Running, until};
+use crate::panel::case::{CAMERAS, CASE, STEP, worst};
+use crate::support::x::User;
+use crate::support::{Compiled, Screen, compiled, demo, manyview, rgb, sized_screen, succeed};
 use image::{GenericImageView, RgbImage};
 use manyview::config::panel::load;
 use manyview::display::Fit;
 use manyview::interleave::reference;
-use running::{Running, until};
 use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::Duration;
-use support::{Compiled, Screen, compiled, demo, manyview, rgb, sized_screen, succeed};
-use x::User;
 
 const VIEWS: u32 = 3;
 const DISPLAY: &str = "lenticular-3";

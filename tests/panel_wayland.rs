@@ -1,20 +1,11 @@
 //! The panel's own window under Wayland: on monitors that are turned or scaled, each of their pixels is a pixel of the picture.
-#![forbid(unsafe_code)]
 
-#[path = "panel/case.rs"]
-mod case;
-mod support;
-#[path = "support/wayland.rs"]
-mod wayland;
-#[path = "support/x.rs"]
-mod x;
-
-use case::{CASE, Case, STEP, end, worst};
+use crate::panel::case::{CASE, Case, STEP, end, worst};
+use crate::support::has;
+use crate::support::wayland::{Compositor, Monitor, has_sway};
 use image::RgbImage;
 use image::imageops::{rotate90, rotate270};
 use std::time::{Duration, Instant};
-use support::has;
-use wayland::{Compositor, Monitor, has_sway};
 
 const LIMIT: Duration = Duration::from_secs(60);
 

@@ -1,10 +1,8 @@
 //! What a window within the program would cost, against the copy that another process shows (decision 38).
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{Compiled, built, run, sized_screen};
 use std::path::Path;
-use support::{Compiled, built, run, sized_screen};
 
 /// Of a frame, in ms, the middle of three turns.
 fn median(mut values: Vec<f64>) -> f64 {
@@ -13,7 +11,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 #[test]
-#[ignore = "it measures, for a minute: cargo test --release --test panel_ways -- --ignored --nocapture"]
+#[ignore = "it measures, for a minute: cargo test --release --test all panel_ways:: -- --ignored --nocapture"]
 fn cost_of_the_ways_to_the_panel() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/panel_ways/ways.c");
     let program = built("ways", &[&source], Compiled::Program, &["-lGL", "-lX11"]);

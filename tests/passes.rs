@@ -1,11 +1,8 @@
 //! Programs with framebuffers of their own: their state reads back the same under the layer, passes that are the same in all views are
 //! drawn once, and the others have the parallax of each view. (Pictures of whole scenes: tests/oracle.rs.)
-#![forbid(unsafe_code)]
 
-mod support;
-
-use support::views::{REPLAYED, VIEWS, Views, extents};
-use support::{Compiled, bare, compiled, demo, layered, lines, screen, succeed};
+use crate::support::views::{REPLAYED, VIEWS, Views, extents};
+use crate::support::{Compiled, bare, compiled, demo, layered, lines, screen, succeed};
 
 #[test]
 fn a_program_knows_of_its_framebuffers_what_it_knows_without_the_layer() {

@@ -1,13 +1,9 @@
 //! The layer off, or with one view: pictures and answers are the program's own, and the cost is close to nothing.
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support::share;
+use crate::support::{bare, demo, is_32_bit, layered, screen, succeed};
 use std::path::Path;
 use std::process::Command;
-use support::{bare, demo, is_32_bit, layered, screen, succeed};
 
 const DEMOS: [&str; 13] = [
     "gears",

@@ -3,17 +3,15 @@
 //! Most of its tests draw off screen (`-fbo`), where the layer only has to stay out of the way. So there are runs "in windows" as well:
 //! there every test draws to framebuffer 0, which the layer redirects. A result that differs and is not in `tests/piglit/known.txt` with
 //! its reason is a failure. So is a line of that file that no longer differs, which also shows that the layer was there.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{Screen, bare, has, layered, own_screen};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::IsTerminal;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
-use support::{Screen, bare, has, layered, own_screen};
 
 /// How piglit's tests are run.
 struct Mode {

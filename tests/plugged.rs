@@ -1,19 +1,15 @@
 //! The panel that is plugged in or set up is the one that `manyview run` shows on.
-#![forbid(unsafe_code)]
 
-mod support;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::support;
+use crate::support::x::User;
+use crate::support::{Compiled, Screen, compiled, manyview, run, sized_screen};
 use serde_json::Value;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use support::{Compiled, Screen, compiled, manyview, run, sized_screen};
 use tempfile::TempDir;
-use x::User;
 
 const LIMIT: Duration = Duration::from_secs(60);
 /// Both monitors have the size of the panel, so that only its name tells it.

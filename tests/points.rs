@@ -1,12 +1,9 @@
 //! Splats that the GPU draws once for all views are those of the reference, subpixel by subpixel.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{succeed, target_folder};
 use manyview::points::charts::Chart;
 use serde_json::Value;
 use std::process::Command;
-use support::{succeed, target_folder};
 
 /// A thousand random splats: at grazing angles, behind the viewer, at the near plane, larger than the screen.
 #[test]

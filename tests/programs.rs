@@ -4,37 +4,24 @@
 //! these, `-` none; the others keep the rows that the document has. Traces are kept in target/programs: a program whose folder is deleted is
 //! recorded again. `MANYVIEW_PROGRAMS_JOBS` is how many run at a time, 1 unless given;
 //! `MANYVIEW_PROGRAMS_FRAMES` how many frames at most, for a quick look.
-#![forbid(unsafe_code)]
 
-mod support;
-
-#[path = "programs/cloud.rs"]
 mod cloud;
-#[path = "programs/depth.rs"]
 mod depth;
-#[path = "programs/judge.rs"]
 mod judge;
-#[path = "programs/parallax.rs"]
 mod parallax;
-#[path = "programs/pictures.rs"]
 mod pictures;
-#[path = "support/play.rs"]
-mod play;
-#[path = "programs/repeat.rs"]
 mod repeat;
-#[path = "programs/row.rs"]
 mod row;
-#[path = "programs/table.rs"]
 mod table;
-#[path = "programs/tally.rs"]
 mod tally;
 
+use crate::support::play;
+use crate::support::{has, own_screen, scratch, sized_screen};
 use row::Row;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::sync::Mutex;
 use std::time::Instant;
-use support::{has, own_screen, scratch, sized_screen};
 use table::Program;
 
 /// A variable by which a person chooses what runs.

@@ -1,12 +1,9 @@
 //! `--prove`: equal frames are reported as equal, a difference is reported with the draw that caused it, and the program notices nothing.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{Compiled, compiled, demo, layered, library, manyview, run, screen, succeed};
 use manyview::report::{Culprit, Summary};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use support::{Compiled, compiled, demo, layered, library, manyview, run, screen, succeed};
 
 fn json(path: &Path) -> Value {
     let text = std::fs::read_to_string(path).expect("a report");

@@ -1,17 +1,15 @@
 //! Output `quad`: two eyes in the left and right buffer of a stereo window, and the fallback where the driver has no such window.
 //!
 //! No driver for Xvfb has stereo windows, so tests/support/c/stereo.c stands in for one.
-#![forbid(unsafe_code)]
 
-mod support;
-
-use image::{RgbImage, imageops};
-use std::path::Path;
-use std::process::Command;
-use support::{
+use crate::support;
+use crate::support::{
     Compiled, Screen, bare, compiled, layered, library, own_screen, rgb, succeed, watch_window,
     window_library, window_picture,
 };
+use image::{RgbImage, imageops};
+use std::path::Path;
+use std::process::Command;
 
 const VIEWS: &str = "3";
 /// Far enough apart for a visible disparity in 96 pixels.

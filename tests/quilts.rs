@@ -1,11 +1,8 @@
 //! Quilts: the names of captured quilts, and the way back to a panel.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{demo, library, manyview, own_screen, refused, rgb, run, succeed};
 use image::{Rgb, RgbImage};
 use std::path::Path;
-use support::{demo, library, manyview, own_screen, refused, rgb, run, succeed};
 
 /// Size of the window in the top left corner of the screen, and so of each view.
 const SIZE: &str = "96x72";

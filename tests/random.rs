@@ -3,18 +3,13 @@
 //!
 //! `tests/random` makes them, each from a seed alone. A failure names the seeds and how to repeat one: `--trace` prints its
 //! calls, `--drop` leaves out some of them (the head of `tests/random/main.c`).
-#![forbid(unsafe_code)]
 
-mod support;
+pub(crate) mod build;
 
-#[path = "random/build.rs"]
-mod build;
-#[path = "support/share.rs"]
-mod share;
-
+use crate::support::share;
+use crate::support::{Screen, bare, layered, own_screen};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use support::{Screen, bare, layered, own_screen};
 
 /// Classes of calls that no sequence has together: after a swap the front buffer of a window is partly undefined. There Mesa 22.3 reads the
 /// earlier content, the layer the picture that was shown.

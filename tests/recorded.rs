@@ -2,14 +2,12 @@
 //! program's own, so by replay every frame that is read back has the same bytes.
 //!
 //! The very first frame is left out: it shows an undefined buffer and varies without the layer as well.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{Screen, bare, has, layered, record, rgb, screen, succeed};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Stdio;
-use support::{Screen, bare, has, layered, record, rgb, screen, succeed};
 
 /// A program to record.
 struct Program {

@@ -1,13 +1,10 @@
 //! No machine or program makes the layer end a program: it works, or one line says why not.
-#![forbid(unsafe_code)]
 
-mod support;
-
-use std::path::Path;
-use std::process::{Command, Output};
-use support::{
+use crate::support::{
     Compiled, bare, compiled, demo, has, layered, library, manyview, rgb, screen, succeed,
 };
+use std::path::Path;
+use std::process::{Command, Output};
 use tempfile::{TempDir, tempdir};
 
 /// A command started by another one, with the same arguments and variables.

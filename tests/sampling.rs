@@ -1,15 +1,11 @@
 //! Views with fewer pixels: the picture of a panel against that of views at the size of the window, and programs that a smaller tile cannot
 //! hold.
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support::share;
+use crate::support::{demo, manyview, rgb, screen, succeed};
 use image::RgbImage;
 use manyview::metric::Comparison;
 use serde_json::Value;
-use support::{demo, manyview, rgb, screen, succeed};
 
 /// A frame through a panel, and the notes of the report.
 fn picture(name: &str, scale: &str, options: &[&str]) -> (RgbImage, Vec<String>) {

@@ -1,11 +1,8 @@
 //! Programs with shaders of their own: shaders, uniforms and errors read back the same under the layer, whose variants are linked again
 //! with them, follow the uniforms, and outlive deleted objects as the program does.
-#![forbid(unsafe_code)]
 
-mod support;
-
-use support::views::{REPLAYED, Views, extents};
-use support::{Compiled, bare, compiled, layered, lines};
+use crate::support::views::{REPLAYED, Views, extents};
+use crate::support::{Compiled, bare, compiled, layered, lines};
 
 #[test]
 fn a_program_knows_of_its_shaders_what_it_knows_without_the_layer() {

@@ -2,17 +2,14 @@
 //! same interface.
 //!
 //! `make shaders` unpacks the programs. Their shaders are files of their own, or strings in the executable.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::target_folder;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use support::target_folder;
 
 /// Shaders of programs, as files and strings, that the driver has to compile unchanged.
 const LEAST: usize = 200;

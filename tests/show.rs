@@ -1,10 +1,7 @@
 //! `manyview calibrate show`: the pixels of its window, its keys, its file.
-#![forbid(unsafe_code)]
 
-mod support;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::support::x::{SHIFT, User};
+use crate::support::{Screen, manyview, own_screen, refused, rgb, run};
 use image::{ImageReader, Rgb, RgbImage};
 use manyview::calibrate::{Action, ByEye};
 use manyview::display::{Display, Kind, LensPart, Number, Slanted};
@@ -13,9 +10,7 @@ use std::io::{BufRead, BufReader, Lines};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Stdio};
 use std::time::{Duration, Instant};
-use support::{Screen, manyview, own_screen, refused, rgb, run};
 use tempfile::TempDir;
-use x::{SHIFT, User};
 
 const LIMIT: Duration = Duration::from_secs(60);
 const UP: u32 = 0xff52;

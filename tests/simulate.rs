@@ -1,11 +1,8 @@
 //! `manyview simulate` from its user's side.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{manyview, refused, run};
 use std::fs;
 use std::path::Path;
-use support::{manyview, refused, run};
 use tempfile::tempdir;
 
 /// A folder with the picture of a panel: 5 grey views, the darker the farther left.

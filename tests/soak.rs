@@ -4,22 +4,18 @@
 //! `make soak` plays for `SOAK_MINUTES` (240 unless given). Results are in target/soak, or in `SOAK_FOLDER`: the samples as CSV, a chart,
 //! and one line in result.txt. `SOAK_LIBRARY` is the library to test instead of the one just built, so that the next build does not disturb
 //! a run of hours. `SOAK_PROGRAM` chooses one of [`PROGRAMS`].
-#![forbid(unsafe_code)]
 
-mod support;
-
-#[path = "soak/chart.rs"]
 mod chart;
-#[path = "soak/judge.rs"]
 mod judge;
 
+use crate::support;
+use crate::support::{Screen, bare, layered, own_screen, scratch};
 use judge::{NAMES, Sample};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
-use support::{Screen, bare, layered, own_screen, scratch};
 
 /// A game that plays by itself.
 struct Program {

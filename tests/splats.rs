@@ -4,19 +4,16 @@
 //! The oracle's pictures come from `cloud --view i/N` without the layer. They are put together here, subpixel by subpixel. At most 0.02 % of the subpixels differ:
 //! a point whose edge lies on the border of a rounded place to within the last bit of a float may be a pixel aside. Measured on llvmpipe 22.3: at most 0.004 %
 //! differ by more than 8 steps.
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support;
+use crate::support::share;
+use crate::support::{bare, demo, layered, rgb, run, screen, succeed};
 use image::{RgbImage, imageops};
 use manyview::display::{Display, Placement};
 use manyview::interleave::reference;
 use manyview::metric::{Comparison, Gate, pixels_over};
 use std::path::Path;
 use std::process::Command;
-use support::{bare, demo, layered, rgb, run, screen, succeed};
 
 const WIDTH: u32 = 400;
 const HEIGHT: u32 = 300;

@@ -1,18 +1,15 @@
 //! Synthesised views (`--strategy depth-image`): they equal those of the CPU reference, the panel's picture is interleaved from them, the
 //! program's own view is untouched, and whatever depths cannot describe is drawn in each view.
-#![forbid(unsafe_code)]
 
-#[path = "support/share.rs"]
-mod share;
-mod support;
-
+use crate::support;
+use crate::support::near::beyond;
+use crate::support::share;
+use crate::support::{demo, manyview, rgb, screen, succeed};
 use image::{GenericImageView, Rgb, RgbImage};
 use manyview::metric::{Comparison, pixels_over};
 use manyview::synthesis::{DepthImage, Shift, warp};
 use serde_json::Value;
 use std::path::Path;
-use support::near::beyond;
-use support::{demo, manyview, rgb, screen, succeed};
 
 const VIEWS: u32 = 5;
 const OWN: u32 = 2;

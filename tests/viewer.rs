@@ -1,24 +1,17 @@
 //! `manyview points`: the viewer of point clouds under the layer.
-#![forbid(unsafe_code)]
 
-#[path = "control/running.rs"]
-mod running;
-mod support;
-#[path = "support/wayland.rs"]
-mod wayland;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::control::running::until;
+use crate::support::wayland::{Compositor, Monitor, has_sway};
+use crate::support::x::User;
+use crate::support::{
+    library, manyview, own_screen, rgb, run, scratch, screen, succeed, target_folder,
+};
 use image::RgbImage;
 use manyview::report::Summary;
-use running::until;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
-use support::{library, manyview, own_screen, rgb, run, scratch, screen, succeed, target_folder};
-use wayland::{Compositor, Monitor, has_sway};
-use x::User;
 
 const VIEWER: &str = "manyview-points";
 const LEFT: u32 = 0xff51;

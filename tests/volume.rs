@@ -1,8 +1,6 @@
 //! `manyview volume` from its user's side, and slices of a reference image against those of the geometry.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{demo, geometry, manyview, refused, rgb, run, succeed};
 use image::RgbImage;
 use manyview::bench::disocclusion::Experiment;
 use manyview::model::MODELS;
@@ -11,7 +9,6 @@ use manyview::volume::{
 };
 use std::ffi::OsString;
 use std::fs;
-use support::{demo, geometry, manyview, refused, rgb, run, succeed};
 use tempfile::tempdir;
 
 const SMALL: RotatingScreen = RotatingScreen {

@@ -1,13 +1,10 @@
 //! The cost of slices from the whole geometry and from reference images of it, how far the two are apart, and how they look.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{geometry, target_folder};
 use manyview::bench::disocclusion::Experiment;
 use manyview::model::MODELS;
 use manyview::volume::{Difference, ReferenceImage, RotatingScreen, Sight, Slices, Volume};
 use std::time::Instant;
-use support::{geometry, target_folder};
 
 const SCREEN: RotatingScreen = RotatingScreen::POPESCU;
 

@@ -1,10 +1,8 @@
 //! A wall of panels shows one picture: each window has, subpixel for subpixel, what the CPU makes of the same views by its warp and its own mask.
-#![forbid(unsafe_code)]
 
-mod support;
-#[path = "support/x.rs"]
-mod x;
-
+use crate::support;
+use crate::support::x::User;
+use crate::support::{Compiled, compiled, manyview, refused, rgb, sized_screen, succeed};
 use image::{GenericImageView, RgbImage};
 use manyview::config::panel::load;
 use manyview::display::{Display, Fit, Kind, Placement, Wall};
@@ -15,8 +13,6 @@ use std::path::Path;
 use std::process::Stdio;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use support::{Compiled, compiled, manyview, refused, rgb, sized_screen, succeed};
-use x::User;
 
 const LIMIT: Duration = Duration::from_secs(60);
 const CAMERAS: [&str; 4] = ["--separation", "0.02", "--convergence", "8"];

@@ -1,19 +1,14 @@
 //! A wall that hangs askew is measured from photos of its pattern. The camera shares no code with the library: it follows rays from the sensor through a
 //! distorting lens to the wall, and its photos have the blur, the vignetting, the noise and the compression of those of tests/calibrate.rs.
-#![forbid(unsafe_code)]
 
-#[path = "calibrate/random.rs"]
-mod random;
-mod support;
-
+use crate::calibrate::random::Random;
+use crate::support::{manyview, rgb, run, succeed};
 use image::codecs::jpeg::JpegEncoder;
 use image::{Rgb, RgbImage};
 use manyview::config::panel::load;
 use manyview::display::Kind;
-use random::Random;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
-use support::{manyview, rgb, run, succeed};
 
 /// Pixels of each panel, and mm of one.
 const PANEL: (u32, u32) = (960, 540);

@@ -1,11 +1,9 @@
 //! The cost of the end of a frame: the time of the interleave pass over that of a plain copy of a picture of the same size, in one run.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support;
+use crate::support::{library, target_folder};
 use manyview::interleave::cost::Cost;
 use std::process::Command;
-use support::{library, target_folder};
 
 /// Number of full-size views, and the ratio from which on the pass must have regressed: with branches, 8 views took some 20. This is not
 /// the aim. The aims, 2.5 for 8 views and 6 for 45, are nearly met for 8 views by masks that repeat, and missed by the others

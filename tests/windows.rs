@@ -1,14 +1,13 @@
 //! Programs for Windows under Wine, of both classes: each view is what the program itself draws with that view's projection. `make test-wine`, which installs Wine and a
 //! cross compiler.
-#![forbid(unsafe_code)]
 
-mod support;
-
+use crate::support::{
+    Screen, manyview, own_screen, rgb, scratch, sized_screen, succeed, target_folder,
+};
 use image::{RgbImage, imageops};
 use manyview::metric::{Comparison, Gate};
 use std::path::Path;
 use std::process::Command;
-use support::{Screen, manyview, own_screen, rgb, scratch, sized_screen, succeed, target_folder};
 use tempfile::tempdir;
 
 const VIEWS: u32 = 3;

@@ -1,7 +1,7 @@
 //! Display lists: text, lists within lists, and what they push and pop.
 
-use super::support::{own_screen, succeed};
 use super::{ATLASES, alike, plain, program, under};
+use crate::support::{own_screen, succeed};
 use std::process::Command;
 
 /// Checks that text of an X font is what it is without the layer, as it is read back and in the window, whichever view that shows.

@@ -1,9 +1,10 @@
 //! The panel of docs/gallery.md with a wrong description, and two photos of it.
 
+use super::QUALITY;
 use super::camera::{Sheet, expose};
 use super::random::Random;
 use super::scene::{PANEL, Scene};
-use super::{QUALITY, support};
+use crate::support;
 use manyview::calibrate::{Setup, pattern};
 use std::fs;
 

@@ -2,7 +2,7 @@
 
 use super::CAMERAS;
 use super::running::{Running, same, until};
-use super::support::{own_screen, rgb};
+use crate::support::{own_screen, rgb};
 
 /// The next frame is explained, then the program goes on as before.
 #[test]

@@ -1,9 +1,8 @@
 //! `manyview profile`: rules that are read again, values that are written.
-#![forbid(unsafe_code)]
 
 use super::running::{Running, same, stays, until};
-use super::support::{layered, own_screen};
 use super::{CAMERAS, started};
+use crate::support::{layered, own_screen};
 
 #[test]
 fn rules_are_read_again() {

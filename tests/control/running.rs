@@ -1,8 +1,7 @@
 //! A program that draws until it is told to stop, and the command that talks to it.
-#![forbid(unsafe_code)]
 #![allow(dead_code, reason = "each test file uses its part")]
 
-use super::support::{Compiled, Screen, compiled, layered, manyview, rgb, run, window_picture};
+use crate::support::{Compiled, Screen, compiled, layered, manyview, rgb, run, window_picture};
 use image::RgbImage;
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;

@@ -1,7 +1,7 @@
 //! Random fixed-function state: as a key for the generator, and as text for `ffcheck`.
 
-use crate::matrices::{IDENTITY, Matrix, matrices};
-use crate::random::{Random, floats};
+use super::matrices::{IDENTITY, Matrix, matrices};
+use super::random::{Random, floats};
 use manyview::fixed::{
     Amplifier, Clip, ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, LIGHTS, Light,
     Lighting, MaterialFace, MaterialMode, NormalScaling, PointSize, Primitive, Provoking, Target,

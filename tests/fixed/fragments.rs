@@ -1,7 +1,7 @@
 //! Random state of the fragment stage: as keys for the generators, and as text for `ffcheck`.
 
-use crate::matrices::{IDENTITY, matrices};
-use crate::random::{Random, floats};
+use super::matrices::{IDENTITY, matrices};
+use super::random::{Random, floats};
 use manyview::fixed::{
     Amplifier, Argument, BaseFormat, Clip, Combine, Combiner, Dialect, Environment, FixedKey,
     FogMode, FogSource, FragmentKey, FragmentUnit, Function, Operand, PointSize, Primitive, Source,
@@ -168,9 +168,9 @@ pub(crate) fn floor(number: usize, spacing: u32, filter: &str) -> Fragments {
     (projection[11], projection[14], projection[15]) = (-1.0, -2.05, 0.0);
     // Looks down onto the floor with a small roll, so that the level of detail varies along each row.
     let (down, bank) = (w.random.float(0.25, 0.6), w.random.float(-0.2, 0.2));
-    let modelview = crate::matrices::multiply(
-        &crate::matrices::turn(2, bank),
-        &crate::matrices::turn(0, down),
+    let modelview = super::matrices::multiply(
+        &super::matrices::turn(2, bank),
+        &super::matrices::turn(0, down),
     );
     w.say("projection", floats(&projection));
     w.say("modelview", floats(&modelview));

@@ -1,6 +1,6 @@
 //! Random cameras for the cases.
 
-use crate::random::Random;
+use super::random::Random;
 
 /// Column-major 4×4.
 pub(crate) type Matrix = [f64; 16];

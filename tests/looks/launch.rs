@@ -1,8 +1,8 @@
 //! The first launch of a game, without any option, and what is kept of it.
 
-use crate::play::{mute, play, run};
+use crate::looks::table::Game;
+use crate::support::play::{mute, play, run};
 use crate::support::{library, manyview, rgb, sized_screen};
-use crate::table::Game;
 use image::RgbImage;
 use image::imageops::crop_imm;
 use serde_json::Value;

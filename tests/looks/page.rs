@@ -1,7 +1,7 @@
 //! docs/looks.md: a table of the games, and a section with the pictures of each.
 
-use crate::row::Row;
-use crate::table::{ELEMENTS, Game};
+use crate::looks::row::Row;
+use crate::looks::table::{ELEMENTS, Game};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -168,7 +168,7 @@ pub(crate) fn page(games: &[Game], entries: &BTreeMap<String, Entry>) -> String 
 
 #[test]
 fn elements_are_known_and_their_parts_are_found() {
-    let games = crate::table::read();
+    let games = crate::looks::table::read();
     for part in games.iter().flat_map(|game| &game.part) {
         let element = part.element.as_deref();
         let known = |name| ELEMENTS.iter().any(|(element, _)| *element == name);
@@ -189,7 +189,7 @@ fn elements_are_known_and_their_parts_are_found() {
 
 #[test]
 fn a_page_that_is_read_is_written_as_it_was() {
-    let games = crate::table::read();
+    let games = crate::looks::table::read();
     let row = |failed| Row {
         failed,
         cells: ["-1 to +1".into(), "sky +1.5".into(), "a note".into()],

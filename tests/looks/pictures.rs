@@ -1,6 +1,6 @@
 //! The pictures of a game, as a person looks at them.
 
-use crate::launch::{Launched, VIEWS};
+use crate::looks::launch::{Launched, VIEWS};
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::{FilterType, replace, resize};
 use image::{ExtendedColorType, RgbImage};

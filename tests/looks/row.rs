@@ -1,8 +1,8 @@
 //! The checks of one game, as a row of docs/looks.md.
 
-use crate::launch::{Launched, VIEWS};
-use crate::shift::shifts;
-use crate::table::{Game, Part, Place};
+use crate::looks::launch::{Launched, VIEWS};
+use crate::looks::shift::shifts;
+use crate::looks::table::{Game, Part, Place};
 use serde_json::Value;
 
 /// Largest distance of a part from its place, pixels.

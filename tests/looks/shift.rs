@@ -1,6 +1,6 @@
 //! How far a part of the picture moves from view to view, found by comparing pixels: the report of the layer is not asked.
 
-use crate::launch::VIEWS;
+use crate::looks::launch::VIEWS;
 use image::RgbImage;
 
 /// Largest shift that is looked for, pixels between neighbouring views.

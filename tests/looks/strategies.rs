@@ -1,8 +1,8 @@
 //! docs/looks-strategies.md: whether the parts of the games are in the same place under every strategy.
 
-use crate::launch::Launched;
-use crate::row;
-use crate::table::Game;
+use crate::looks::launch::Launched;
+use crate::looks::row;
+use crate::looks::table::Game;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -99,7 +99,7 @@ pub(crate) fn page(games: &[Game], cells: &Cells) -> String {
 
 #[test]
 fn a_page_of_strategies_that_is_read_is_written_as_it_was() {
-    let games = crate::table::read();
+    let games = crate::looks::table::read();
     let row = |game: &Game| {
         (
             game.name.clone(),

@@ -1,6 +1,6 @@
 //! The games of games.toml.
 
-use crate::play::Input;
+use crate::support::play::Input;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 

@@ -6,7 +6,6 @@
 //! z towards the viewer. The unit is the millimetre. Pixel coordinates are continuous: column 0 is the left edge of the first
 //! pixel, row 0 is the top edge of the first pixel, rows count downwards. Angles are in radians unless a name says degrees.
 //! Colours are numbered 0 red, 1 green, 2 blue. Light is linear: 1 is the mean of a white panel.
-#![forbid(unsafe_code)]
 
 pub mod camera;
 pub mod compare;

@@ -1,8 +1,7 @@
 //! Programs whose picture is in a window of the panel's own, and what has to be there.
-#![forbid(unsafe_code)]
 #![allow(dead_code, reason = "each test file uses its part")]
 
-use super::support::{Compiled, compiled, manyview, rgb, scratch, succeed};
+use crate::support::{Compiled, compiled, manyview, rgb, scratch, succeed};
 use image::{GenericImageView, RgbImage};
 use manyview::config::panel::load;
 use manyview::display::{Display, Fit};

@@ -1,8 +1,8 @@
 //! `--auto-depth` on games: the disparities of every frame, from the report (tests/comfort.rs tests the report).
 
-use crate::repeat::{Repeat, record, repeat};
+use crate::programs::repeat::{Repeat, record, repeat};
+use crate::programs::table::Program;
 use crate::support::{Screen, scratch};
-use crate::table::Program;
 use serde_json::Value;
 use std::fs;
 

@@ -1,11 +1,11 @@
 //! The checks of one program.
 
-use crate::repeat::{Repeat, Repeated, errors, frames, live, record, repeat, trim};
-use crate::row::{Cell, Row};
+use crate::programs::repeat::{Repeat, Repeated, errors, frames, live, record, repeat, trim};
+use crate::programs::row::{Cell, Row};
+use crate::programs::table::Program;
+use crate::programs::tally::cell;
+use crate::programs::variable;
 use crate::support::Screen;
-use crate::table::Program;
-use crate::tally::cell;
-use crate::variable;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,7 +1,7 @@
 //! Checks that the views of a scene differ: a scene that is wrongly the same in all views would pass every comparison.
 
-use crate::row::Cell;
-use crate::tally::{ODD, tile};
+use crate::programs::row::Cell;
+use crate::programs::tally::{ODD, tile};
 use image::RgbImage;
 use manyview::metric::{OUTLIER_LSB, pixels_over};
 

@@ -1,11 +1,11 @@
 //! Comparisons of a program's views: with the program's own picture, between strategies, between views.
 
-use crate::judge::Bench;
-use crate::parallax;
-use crate::repeat::{Repeat, Repeated};
-use crate::row::Cell;
+use crate::programs::judge::Bench;
+use crate::programs::parallax;
+use crate::programs::repeat::{Repeat, Repeated};
+use crate::programs::row::Cell;
+use crate::programs::tally::{ODD, Tally, same_bytes, tile};
 use crate::support::rgb;
-use crate::tally::{ODD, Tally, same_bytes, tile};
 use manyview::metric::Gate;
 use serde_json::Value;
 use std::collections::BTreeMap;

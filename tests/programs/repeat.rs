@@ -1,8 +1,8 @@
 //! Records programs and repeats their traces.
 
-use crate::play::{Ended, mute, play, run};
+use crate::programs::table::Program;
+use crate::support::play::{Ended, mute, play, run};
 use crate::support::{Screen, bare, layered, target_folder};
-use crate::table::Program;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

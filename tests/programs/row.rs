@@ -1,6 +1,6 @@
 //! A row of docs/compatibility.md, and the page.
 
-use crate::table::Program;
+use crate::programs::table::Program;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -202,7 +202,7 @@ pub(crate) fn document(rows: &[(&Program, &Row)]) -> String {
 
 #[test]
 fn rows_are_kept_by_the_document() {
-    let table = crate::table::read();
+    let table = crate::programs::table::read();
     const PARALLAX: usize = 7;
     let program = table.iter().find(|program| program.parallax).expect("one");
     let mut cells: Vec<_> = CHECKS.map(|check| Cell::good(format!("{check} 1"))).into();

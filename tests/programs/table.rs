@@ -1,7 +1,7 @@
 //! The programs of programs.toml.
 
-use crate::cloud;
-use crate::play::Input;
+use crate::programs::cloud;
+use crate::support::play::Input;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ pub(crate) struct Program {
     pub(crate) name: String,
     /// Debian package.
     pub(crate) package: String,
-    /// Program and arguments. `{cloud}` is the path of a point cloud, without its ending (see [`crate::cloud`]).
+    /// Program and arguments. `{cloud}` is the path of a point cloud, without its ending (see [`crate::programs::cloud`]).
     pub(crate) command: Vec<String>,
     #[serde(default)]
     pub(crate) api: Api,

@@ -1,6 +1,6 @@
 //! Comparisons of pictures, summed up in a cell.
 
-use crate::row::Cell;
+use crate::programs::row::Cell;
 use crate::support::scratch;
 use image::RgbImage;
 use manyview::metric::{Comparison, Gate, triptych};

@@ -1,6 +1,6 @@
 //! An SVG of memory over time.
 
-use crate::judge::Sample;
+use crate::soak::judge::Sample;
 use std::fmt::Write;
 
 const WIDTH: f64 = 760.0;

@@ -1,9 +1,11 @@
 //! Shared by the tests: paths of the binaries, a screen, demos bare and under the layer, pictures.
-#![forbid(unsafe_code)]
-#![allow(dead_code, reason = "each test file uses its part")]
 
 pub(crate) mod near;
+pub(crate) mod play;
+pub(crate) mod share;
 pub(crate) mod views;
+pub(crate) mod wayland;
+pub(crate) mod x;
 
 use image::{ImageBuffer, RgbImage, Rgba};
 use manyview::config::OPTIONS;

@@ -1,5 +1,4 @@
 //! Real programs that are run for a time, and their input.
-#![forbid(unsafe_code)]
 
 use crate::support::{Screen, bare};
 use rustix::process::{Pid, Signal, kill_process_group};

@@ -1,5 +1,4 @@
 //! How much of a long list of cases a run takes.
-#![forbid(unsafe_code)]
 
 /// The ordinary run takes every `nth` case; the long ones, for which `make test-long` sets `MANYVIEW_TESTS_ALL`, take each.
 pub(crate) fn every(nth: usize) -> usize {

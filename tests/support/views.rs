@@ -1,5 +1,4 @@
 //! Programs in three views: their output, and the picture of all views of one frame.
-#![forbid(unsafe_code)]
 
 use super::{extent, lines, rgb};
 use image::RgbImage;

@@ -1,9 +1,8 @@
 //! A Wayland compositor for a test, with monitors of its own, and a user who looks at them.
-#![forbid(unsafe_code)]
 #![allow(dead_code, reason = "each test file uses its part")]
 
-use super::support::{Screen, has, sized_screen};
 use super::x::User;
+use super::{Screen, has, sized_screen};
 use image::RgbImage;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
