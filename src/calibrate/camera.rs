@@ -31,13 +31,13 @@ pub(super) struct Pose {
     pub eye: DVec3,
 }
 
-/// Orders of the polynomials of [`Shake`].
-pub(super) const ORDERS: usize = 4;
+/// Polynomials of [`Shake`].
+pub(super) const ORDERS: usize = 5;
 
-/// The movement of the picture while the sensor read it row by row: an unsteady hand, or a lens that makes up for one.
+/// Where the picture lies on the sensor, and its movement while that is read row by row: an unsteady hand, or a lens that makes up for one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Shake {
-    /// Picture pixels in x and y, of the Legendre polynomials of order 1 to 4 over the rows.
+    /// Picture pixels in x and y, of the Legendre polynomials of order 0 to 4 over the rows.
     pub by_order: [DVec2; ORDERS],
 }
 
@@ -46,9 +46,9 @@ impl Shake {
     fn at(&self, part: f64) -> DVec2 {
         // The rows of a picture of 4:3 end at 0.6 of half of the diagonal.
         let t = (part / 0.6).clamp(-1.2, 1.2);
-        let (mut before, mut now) = (1.0, t);
+        let (mut before, mut now) = (0.0, 1.0);
         let mut sum = DVec2::ZERO;
-        for (order, moved) in (1..).zip(&self.by_order) {
+        for (order, moved) in (0..).zip(&self.by_order) {
             sum += *moved * now;
             let n = f64::from(order);
             let next = ((2.0 * n + 1.0) * t * now - n * before) / (n + 1.0);

@@ -146,7 +146,7 @@ impl Answer<'_> {
         let all: Vec<f64> = misses.iter().flatten().map(|(_, miss)| *miss).collect();
         let residuals = Residuals::of(&all);
         let (order, order_measured) = self.order();
-        let certainty = Certainty::new(&viewers, self.problem, self.solution, &misses)?;
+        let certainty = Certainty::new(&viewers, &mask, self.problem, self.solution, &misses)?;
         let mut fit = Fit {
             gap: sheet.gap,
             order,

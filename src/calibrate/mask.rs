@@ -95,3 +95,10 @@ pub struct Mask {
     /// tenth of a view.
     pub map: Option<Vec<f64>>,
 }
+
+impl Mask {
+    /// Phase at a point of the panel without the map, turns.
+    pub(super) fn plane(&self, p: DVec2) -> f64 {
+        (3.0 * p.x - 0.5 + self.slant * (p.y - 0.5) + self.offset) / self.pitch
+    }
+}

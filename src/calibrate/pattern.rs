@@ -42,7 +42,7 @@ const MARK: Range<f64> = 0.12..0.20;
 const CODE: Range<f64> = 0.24..0.76;
 const CODE_BITS: u16 = 12;
 /// Changes with what the picture has, so that photos of an older one are known.
-const VERSION: u64 = 2;
+const VERSION: u64 = 3;
 /// Rows of single pixels, white and black in turn, in the ring at the left and the right side, which are grey where the picture is scaled: along the
 /// side, and their middle in bands.
 pub(super) const ROWS: Range<f64> = 0.32..0.68;
@@ -57,7 +57,8 @@ const EDGE: f64 = 3.0;
 pub(super) struct Layout {
     /// Width and height of the panel, pixels.
     pub size: DVec2,
-    /// Thickness of the white frame, pixels; the black ring inside is twice as thick, and the black margin outside half.
+    /// Thickness of the white frame, pixels; the black ring inside is twice as thick, and the black margin outside half. It is even, so that the edges
+    /// of the frame are edges of pixels.
     pub band: f64,
     /// Fringes of the carrier over the height of the panel.
     pub carrier: f64,
@@ -95,9 +96,7 @@ impl Layout {
             + DVec2::splat(MARGIN);
         Self {
             size,
-            band: (0.03 * size.min_element())
-                .max(2.0 * setup.pitch / 3.0)
-                .round(),
+            band: 2.0 * (0.015 * size.min_element()).max(setup.pitch / 3.0).round(),
             carrier: (2.0 * reach.y).ceil().max(24.0),
             reach,
             code: code(setup),
@@ -257,6 +256,38 @@ mod tests {
         for (bit, mut cell) in layout.bits().enumerate() {
             let expected = f64::from(layout.code >> bit & 1);
             assert!(cell.all(|p| layout.light(p) == expected), "bit {bit}");
+        }
+    }
+
+    /// The fit takes the edges of the frame as rulers: half a pixel at each side of 2160 rows is a hundredth of a turn of the lenses.
+    #[test]
+    fn the_frame_ends_where_pixels_end() {
+        for (width, height, pitch) in [
+            (3840, 2160, 4.7),
+            (1920, 1080, 17.0),
+            (2560, 1600, 61.0),
+            (960, 540, 8.0),
+        ] {
+            let setup = Setup::new(width, height, 8, pitch, 0.66);
+            let layout = Layout::new(&setup);
+            let picture = picture(&setup);
+            // A column and a row that hold no mark.
+            let column = (0.5 * layout.size.x) as u32;
+            let row = (0.25 * layout.size.y) as u32;
+            let white = |x: u32, y: u32| picture.get_pixel(x, y).0 == [255; 3];
+            for (count, at) in [
+                (height, &(|i| white(column, i)) as &dyn Fn(u32) -> bool),
+                (width, &|i| white(i, row)),
+            ] {
+                let first = (0..count).find(|&i| at(i)).expect("a frame");
+                let end = (first..count).find(|&i| !at(i)).expect("a ring");
+                let edges = [first, end].map(f64::from);
+                assert_eq!(
+                    edges,
+                    [FRAME, RING].map(|edge| edge * layout.band),
+                    "{width}x{height}, pitch {pitch}"
+                );
+            }
         }
     }
 

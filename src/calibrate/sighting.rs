@@ -22,6 +22,8 @@ const DISTORTION_SPREAD: [f64; 2] = [0.05, 0.01];
 const CENTRE_SPREAD: f64 = 0.01;
 /// Of the slowest movement of the hand during a photo, in thousandths of half of the diagonal: a pixel of a photo of 12 Mpx is 0.4.
 const SHAKE_SPREAD: f64 = 0.5;
+/// Of the optical axis of a photo from that of the others, in the same unit: where a stabiliser held the lens, a seventh of a degree from its middle.
+const AXIS_SPREAD: f64 = 3.0;
 /// Of an edge point, before its scatter is known, panel pixels.
 const EDGE: f64 = 0.4;
 /// Parameters of [`Bench::optics`] and of [`Bench::pose`].
@@ -107,9 +109,12 @@ impl Bench {
     /// How unlikely such a movement is, in standard deviations: fast movements are smaller than slow ones.
     pub(super) fn steady(p: [f64; SHAKE]) -> [f64; SHAKE] {
         let mut all = p;
-        for (order, pair) in (1..).zip(all.as_chunks_mut::<2>().0) {
-            pair.iter_mut()
-                .for_each(|moved| *moved *= f64::from(order) / SHAKE_SPREAD);
+        for (order, pair) in (0..).zip(all.as_chunks_mut::<2>().0) {
+            let spread = match order {
+                0 => AXIS_SPREAD,
+                _ => SHAKE_SPREAD / f64::from(order),
+            };
+            pair.iter_mut().for_each(|moved| *moved /= spread);
         }
         all
     }

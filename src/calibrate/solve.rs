@@ -23,9 +23,9 @@ const BIAS: f64 = 1.0;
 const EDGE: f64 = 0.4;
 const PHASE: f64 = 0.02;
 /// Lower bound of every scatter. For the phase this is what windows and vignetting do to all blocks
-/// alike; the carrier turns some hundredths of a pixel into as much.
+/// alike; the carrier turns a hundredth of a pixel into as much.
 const LEAST_EDGE: f64 = 0.03;
-const LEAST_PHASE: f64 = 0.0003;
+const LEAST_PHASE: f64 = 0.0001;
 /// The common error of all points of an edge, which their scatter does not show, panel pixels; and as a part of the scatter,
 /// as noise that is cut off at black moves a blurred edge.
 const COMMON: f64 = 0.04;
@@ -262,7 +262,7 @@ impl<'a> Problem<'a> {
         let mut solved = solved.into_iter();
         let (mut minimum, turns) = solved.next().ok_or(CalibrateError::NoFit)?;
         let mut scatter = rough;
-        for _ in 0..3 {
+        for _ in 0..5 {
             scatter = self
                 .scatter(&minimum.at, turns)
                 .ok_or(CalibrateError::NoFit)?;
