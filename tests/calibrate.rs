@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 const QUALITY: u8 = 70;
 
 /// The phase that a fit has the mask of a panel of this size made for, at a point in pixels from the top left corner, in lenses.
-fn claimed(found: &Fit, (width, height): (u32, u32)) -> impl Fn(f64, f64) -> f64 + use<> {
+fn claimed(found: &Fit, size: (u32, u32)) -> impl Fn(f64, f64) -> f64 + use<> {
     let Mask {
         pitch,
         slant,
@@ -28,15 +28,7 @@ fn claimed(found: &Fit, (width, height): (u32, u32)) -> impl Fn(f64, f64) -> f64
     } = found.mask.clone();
     move |x, y| {
         let plane = 3.0 * x - 0.5 + slant * (y - 0.5) + offset;
-        let bias = map.as_ref().map_or(0.0, |map| {
-            let cell = |at: f64, size: u32, cells: f64| {
-                let at = (at / f64::from(size) * cells).clamp(0.0, cells - 1e-6);
-                (at as usize, at.fract())
-            };
-            let ((i, u), (j, v)) = (cell(x, width, 8.0), cell(y, height, 4.0));
-            let row = |j: usize| map[9 * j + i] * (1.0 - u) + map[9 * j + i + 1] * u;
-            row(j) * (1.0 - v) + row(j + 1) * v
-        });
+        let bias = map.as_ref().map_or(0.0, |map| mapped(map, [x, y], size));
         (plane + bias) / pitch
     }
 }
@@ -367,7 +359,7 @@ fn the_command_makes_the_pattern_and_fits_photos() {
     assert!(lens.inverted, "lenses before the pixels");
 }
 
-/// Number of displays of the long test.
+/// Number of displays of the long test, unless `MANYVIEW_CALIBRATION_DISPLAYS` says another one.
 const DISPLAYS: u64 = 200;
 const NOISE: [f64; 4] = [6.0, 10.0, 20.0, 30.0];
 const PHOTOS: [&str; 4] = ["1", "1, cone known", "2", "3"];
@@ -401,11 +393,12 @@ fn outcomes(seed: u64) -> Vec<[Outcome; PHOTOS.len()]> {
 /// Runs on two threads; each display is its own seed.
 fn all_outcomes() -> BTreeMap<u64, Vec<[Outcome; PHOTOS.len()]>> {
     let next = AtomicU64::new(0);
+    let displays = chosen("MANYVIEW_CALIBRATION_DISPLAYS", DISPLAYS);
     let work = || {
         let mut done = Vec::new();
         loop {
             let seed = next.fetch_add(1, Ordering::Relaxed);
-            if seed >= DISPLAYS {
+            if seed >= displays {
                 return done;
             }
             done.push((seed, outcomes(seed)));

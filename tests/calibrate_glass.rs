@@ -28,21 +28,26 @@ fn setup(display: &Display) -> Setup {
     setup
 }
 
+/// A mask's map of 17x9 places at a point of a panel, pixels from the top left corner.
+pub(crate) fn mapped(map: &[f64], [x, y]: [f64; 2], (width, height): (u32, u32)) -> f64 {
+    let cell = |at: f64, size: u32, cells: f64| {
+        let at = (at / f64::from(size) * cells).clamp(0.0, cells - 1e-6);
+        (at as usize, at.fract())
+    };
+    let ((i, u), (j, v)) = (cell(x, width, 16.0), cell(y, height, 8.0));
+    let line = |j: usize| map[17 * j + i] * (1.0 - u) + map[17 * j + i + 1] * u;
+    line(j) * (1.0 - v) + line(j + 1) * v
+}
+
 /// The view of a subpixel that the mask of a fit has, from 0 to N.
 fn view(found: &Fit, setup: &Setup, (x, row, colour): (usize, usize, usize)) -> f64 {
     let place = match found.order {
         SubpixelOrder::Rgb => colour,
         SubpixelOrder::Bgr => 2 - colour,
     };
-    let bias = found.mask.map.as_ref().map_or(0.0, |map| {
-        let cell = |at: usize, size: u32, cells: f64| {
-            let at = ((at as f64 + 0.5) / f64::from(size) * cells).clamp(0.0, cells - 1e-6);
-            (at as usize, at.fract())
-        };
-        let ((i, u), (j, v)) = (cell(x, setup.width, 8.0), cell(row, setup.height, 4.0));
-        let line = |j: usize| map[9 * j + i] * (1.0 - u) + map[9 * j + i + 1] * u;
-        line(j) * (1.0 - v) + line(j + 1) * v
-    });
+    let middle = [x, row].map(|at| at as f64 + 0.5);
+    let map = found.mask.map.as_ref();
+    let bias = map.map_or(0.0, |map| mapped(map, middle, (setup.width, setup.height)));
     let colours = found.colours.map_or(0.0, |(colours, _)| colours[colour]);
     let phase =
         (3 * x + place) as f64 + found.mask.slant * row as f64 + found.mask.offset + bias + colours;
@@ -161,7 +166,7 @@ struct Row {
 }
 
 /// A whole number that a person sets for a shorter study.
-fn chosen(variable: &str, default: u64) -> u64 {
+pub(crate) fn chosen(variable: &str, default: u64) -> u64 {
     let text = std::env::var(variable).ok();
     text.and_then(|text| text.parse().ok()).unwrap_or(default)
 }

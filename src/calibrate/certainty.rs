@@ -10,8 +10,8 @@ use super::solve::{Problem, Solution};
 use glam::DVec2;
 use nalgebra::DMatrix;
 
-/// The panel counts as known when this many standard deviations stay within half a view: of simulated displays with 40 views or more, 95 % of the panel
-/// was never off by more than 1.1 of them (the largest over the panel).
+/// The panel counts as known when this many standard deviations stay within half a view. Of 120 simulated displays, in three photos of 3 Mpx,
+/// 103 count as known with 2.2 (and of all 120 the mask is right); with 4 half of the first 34 did...
 const SURE: f64 = 2.2;
 /// ...on all but this part of it.
 pub(super) const UNSURE_PART: f64 = 0.05;
