@@ -5,6 +5,7 @@ mod gallery;
 pub(crate) mod random;
 mod scene;
 
+use crate::calibrate_glass::{chosen, mapped};
 use camera::{Exposure, Sheet, expose};
 use image::RgbImage;
 use manyview::calibrate::{CalibrateError, Fit, Guess, Mask, Photo, Setup, Sighting, fit, pattern};
