@@ -10,9 +10,9 @@ use super::solve::{Problem, Solution};
 use glam::DVec2;
 use nalgebra::DMatrix;
 
-/// The panel counts as known when this many standard deviations stay within half a view. Of 120 simulated displays, in three photos of 3 Mpx,
-/// 103 count as known with 2.2 (and of all 120 the mask is right); with 4 half of the first 34 did...
-const SURE: f64 = 2.2;
+/// The panel counts as known when this many standard deviations stay within half a view: in simulated photos one fit in
+/// some hundreds is off by nearly four...
+const SURE: f64 = 4.0;
 /// ...on all but this part of it.
 pub(super) const UNSURE_PART: f64 = 0.05;
 /// What is known to this part counts as told.
@@ -25,7 +25,8 @@ pub struct PhaseError {
     pub mean: f64,
     /// At the worst place of the panel.
     pub worst: f64,
-    /// The part of the panel that may be off by more than half a view, at 2.2 standard deviations and with the bend, 0 to 1.
+    /// The part of the panel that may be off by more than half a view, at four standard deviations, with the bend and with what the
+    /// mask leaves out, 0 to 1.
     pub unsure: f64,
     /// The same without the bend.
     pub unknown: f64,

@@ -36,7 +36,8 @@
 //!
 //! The carrier turns an error of place into one of phase, a hundredth of a turn for each pixel down. A hand that is not steady while the sensor is read moves rows
 //! by a pixel or so, which without a term of its own pulls the focal length by per cents, and with it the gap and the pitch. So each photo has a movement
-//! over its rows among its unknowns (`camera.rs`); edges and fringes fix it together.
+//! over its rows among its unknowns (`camera.rs`); edges and fringes fix it together. A stabiliser moves the lens, so each photo has an optical axis of its own
+//! as well; before a panel that is seen from the front nothing tells it from a step aside, and it limits how well the focal length and the offset are known.
 //!
 //! # Limits
 //!

@@ -1,5 +1,4 @@
 //! Seeded random numbers (SplitMix64).
-#![allow(dead_code, reason = "each test file uses its part")]
 
 pub(crate) struct Random(pub(crate) u64);
 

@@ -1,5 +1,4 @@
 //! A program that draws until it is told to stop, and the command that talks to it.
-#![allow(dead_code, reason = "each test file uses its part")]
 
 use crate::support::{Compiled, Screen, compiled, layered, manyview, rgb, run, window_picture};
 use image::RgbImage;

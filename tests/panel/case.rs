@@ -1,5 +1,4 @@
 //! Programs whose picture is in a window of the panel's own, and what has to be there.
-#![allow(dead_code, reason = "each test file uses its part")]
 
 use crate::support::{Compiled, compiled, manyview, rgb, scratch, succeed};
 use image::{GenericImageView, RgbImage};

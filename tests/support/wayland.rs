@@ -1,5 +1,4 @@
 //! A Wayland compositor for a test, with monitors of its own, and a user who looks at them.
-#![allow(dead_code, reason = "each test file uses its part")]
 
 use super::x::User;
 use super::{Screen, has, sized_screen};

@@ -1,5 +1,4 @@
 //! A user at an X server, who presses keys and looks at windows.
-#![allow(dead_code, reason = "each test file uses its part")]
 
 use image::{Rgb, RgbImage};
 use x11rb::connection::Connection;
