@@ -6,7 +6,8 @@ use x11rb::protocol::randr::{ConnectionExt as _, MonitorInfo};
 use x11rb::protocol::xproto::{
     AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ChangeWindowAttributesAux,
     ConfigureWindowAux, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus,
-    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, PropMode, Window, WindowClass,
+    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, MapState, PropMode, Window,
+    WindowClass,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -96,10 +97,16 @@ impl User {
         self.connection.sync().expect("a server");
     }
 
-    /// The children of the root window.
+    /// The children of the root window that can be seen: the server gives no picture, and no keyboard focus, of others.
     pub(crate) fn windows(&self) -> Vec<Window> {
         let tree = self.connection.query_tree(self.root).expect("sent").reply();
-        tree.expect("a tree").children
+        let mut all = tree.expect("a tree").children;
+        all.retain(|window| {
+            let asked = self.connection.get_window_attributes(*window);
+            let about = asked.expect("sent").reply();
+            about.is_ok_and(|about| about.map_state == MapState::VIEWABLE)
+        });
+        all
     }
 
     /// Opens a window in another one and maps it.
@@ -128,23 +135,11 @@ impl User {
         cleared.expect("sent").check().expect("cleared");
     }
 
-    /// Gives a window the keyboard focus, which only one that can be seen takes: it may not be mapped yet.
+    /// Gives a window the keyboard focus.
     pub(crate) fn focus(&self, window: Window) {
-        let give = || {
-            let given =
-                self.connection
-                    .set_input_focus(InputFocus::PARENT, window, x11rb::CURRENT_TIME);
-            given.expect("sent").check()
-        };
-        let mut given = give();
-        for _ in 0..200 {
-            if given.is_ok() {
-                break;
-            }
-            std::thread::sleep(std::time::Duration::from_millis(25));
-            given = give();
-        }
-        given.expect("focus");
+        let (to, now) = (InputFocus::PARENT, x11rb::CURRENT_TIME);
+        let given = self.connection.set_input_focus(to, window, now);
+        given.expect("sent").check().expect("focus");
     }
 
     /// Adds a monitor to the screen: a name, left, top, width and height.
