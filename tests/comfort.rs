@@ -53,7 +53,11 @@ fn frames(report: &Value) -> Vec<Frame> {
 
 /// The report of the walls, drawn by `how`, one of the arguments of depths.c.
 fn walls(how: &str, options: &[(&str, &str)]) -> Value {
-    let program = compiled("depths", Compiled::Program, &["-lEGL", "-lGL"]);
+    walls_of("depths", how, options)
+}
+
+fn walls_of(name: &str, how: &str, options: &[(&str, &str)]) -> Value {
+    let program = compiled(name, Compiled::Program, &["-lEGL", "-lGL"]);
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("report.json");
     let mut all = vec![("VIEWS", "8"), ("REPORT", path.to_str().expect("UTF-8"))];
@@ -64,6 +68,30 @@ fn walls(how: &str, options: &[(&str, &str)]) -> Value {
 
 /// The default of the product; the other tests fix the cameras.
 const AUTO: [(&str, &str); 1] = [("AUTO_DEPTH", "")];
+
+/// OpenGL ES reads depths of each format in a way of its own, and the program hears of no error.
+#[test]
+fn distances_are_those_that_are_drawn_in_es() {
+    for how in [
+        "window-24",
+        "window-32",
+        "pass-16",
+        "pass-24",
+        "pass-24-8",
+        "pass-32f",
+        "pass-32f-8",
+    ] {
+        let frames = frames(&walls_of("depths_es", how, &AUTO));
+        assert_eq!(frames.len() as u64, FRAMES, "{how}");
+        for frame in &frames[1..] {
+            let near = (4.0 + frame.frame as f64 * 0.5).min(10.0);
+            let wanted = [near, 40.0].map(|distance| frame.disparity(distance, WIDTH));
+            for (wanted, got) in wanted.iter().zip([frame.px[0], frame.px[2]]) {
+                assert!((wanted - got).abs() < 2e-3, "{how}: {wanted} in {frame:?}");
+            }
+        }
+    }
+}
 
 /// The report tells the distances that the program draws, whatever its depth encoding is.
 #[test]

@@ -1,7 +1,7 @@
 //! Small copies of the depths of the program's own view. They are read back once the driver has finished them, so that nothing waits.
 
 use super::{Atlas, Names, single::Single};
-use crate::gl::{BufferName, Fence, FramebufferName, Gl, consts as c};
+use crate::gl::{BufferName, DepthKind, Fence, FramebufferName, Gl, consts as c};
 use crate::state::{Neutral, Window};
 
 /// The most pictures of one frame.
@@ -45,8 +45,8 @@ pub(super) struct Depths {
     /// Of the window's depths; none where it has none.
     small: Option<Single>,
     buffer: BufferName,
-    /// Widths and heights of the pictures in the buffer, in samples.
-    taken: Vec<[i32; 2]>,
+    /// Widths and heights of the pictures in the buffer, in samples, and how their depths lie there.
+    taken: Vec<([i32; 2], DepthKind)>,
     /// Signalled once the last of them is in the buffer.
     fence: Option<Fence>,
     /// The driver has refused the framebuffer or the buffer object.
@@ -139,9 +139,9 @@ impl Atlas {
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, framebuffer);
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
         let at = depths.taken.len() * SLOT;
-        gl.read_depth_to_buffer(neutral.pixels(), size[0], size[1], at);
+        let kind = gl.read_depth_to_buffer(neutral.pixels(), size[0], size[1], at);
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);
-        depths.taken.push(size);
+        depths.taken.push((size, kind));
         self.bound_row = u32::MAX;
         true
     }
@@ -171,14 +171,17 @@ impl Atlas {
             .for_each(|f| gl.delete_fence(f));
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
         let taken = std::mem::take(&mut depths.taken);
-        let pictures = taken.into_iter().enumerate().map(|(picture, size)| {
-            let mut samples = vec![0.0; bytes(size) / size_of::<f32>()];
-            gl.get_buffer_depths(c::PIXEL_PACK_BUFFER, picture * SLOT, &mut samples);
-            DepthPicture {
-                size: size.map(|n| n as usize),
-                depths: samples,
-            }
-        });
+        let pictures = taken
+            .into_iter()
+            .enumerate()
+            .map(|(picture, (size, kind))| {
+                let mut samples = vec![0.0; bytes(size) / size_of::<f32>()];
+                gl.get_buffer_depths(c::PIXEL_PACK_BUFFER, picture * SLOT, kind, &mut samples);
+                DepthPicture {
+                    size: size.map(|n| n as usize),
+                    depths: samples,
+                }
+            });
         let pictures = pictures.collect();
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, BufferName::ZERO);
         pictures

@@ -9,6 +9,15 @@ use super::{BufferName, Gl, PixelStore};
 #[derive(Debug)]
 pub struct Fence(usize);
 
+/// How depths lie in a buffer, four bytes each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthKind {
+    /// 0 to 1.
+    Floats,
+    /// 0 to `u32::MAX`.
+    Integers,
+}
+
 impl Gl {
     /// glFenceSync; none where the context has no sync objects.
     pub fn fence(&self) -> Option<Fence> {
@@ -46,28 +55,32 @@ impl Gl {
         };
     }
 
-    /// glReadPixels of depth as floats into the bound pack buffer, from a byte on, without gaps. The driver refuses what does
+    /// glReadPixels of depth into the bound pack buffer, from a byte on, without gaps; says of which kind they are. The driver refuses what does
     /// not fit.
-    pub fn read_depth_to_buffer(&self, _: &PixelStore, w: i32, h: i32, at: usize) {
+    pub fn read_depth_to_buffer(&self, _: &PixelStore, w: i32, h: i32, at: usize) -> DepthKind {
+        let kind = match self.depths_are_integers() {
+            true => DepthKind::Integers,
+            false => DepthKind::Floats,
+        };
         if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 || !self.reads_depths() {
-            return;
+            return kind;
         }
-        // OpenGL ES reads no floats but of a buffer of floats.
-        let kind = match self.is_es() {
-            true => c::UNSIGNED_INT,
-            false => c::FLOAT,
+        let name = match kind {
+            DepthKind::Integers => c::UNSIGNED_INT,
+            DepthKind::Floats => c::FLOAT,
         };
         // SAFETY: a pack buffer is bound (asked above), so the pointer is an offset into it, which the driver checks.
         unsafe {
             self.real
-                .glReadPixels(0, 0, w, h, c::DEPTH_COMPONENT, kind, at as Ptr)
+                .glReadPixels(0, 0, w, h, c::DEPTH_COMPONENT, name, at as Ptr)
         };
+        kind
     }
 
     /// What [`Gl::read_depth_to_buffer`] has read, 0 to 1.
-    pub fn get_buffer_depths(&self, target: u32, at: usize, out: &mut [f32]) {
+    pub fn get_buffer_depths(&self, target: u32, at: usize, kind: DepthKind, out: &mut [f32]) {
         self.get_buffer_floats(target, at, out);
-        if self.is_es() {
+        if kind == DepthKind::Integers {
             for depth in out {
                 *depth = (f64::from(depth.to_bits()) / f64::from(u32::MAX)) as f32;
             }

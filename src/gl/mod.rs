@@ -37,7 +37,7 @@ mod written;
 
 pub use api::Gl;
 pub use bindings::{buffer_binding, texture_binding};
-pub use buffers::{Fence, Mapping};
+pub use buffers::{DepthKind, Fence, Mapping};
 pub use framebuffers::{Attachment, Object, Storage};
 pub use held::{Count, Held};
 pub use images::ImageUnit;

@@ -94,31 +94,61 @@ impl Gl {
         !self.is_es() || self.has_extension("GL_NV_read_depth")
     }
 
+    /// Whether the framebuffer that is bound for reading gives its depths as integers alone: OpenGL ES reads floats of a buffer of floats,
+    /// and nothing else of it (GL_NV_read_depth).
+    pub(super) fn depths_are_integers(&self) -> bool {
+        if !self.is_es() {
+            return false;
+        }
+        if !self.since((3, 0), Some((3, 0))) {
+            return true;
+        }
+        let attachment = match self.get_integer(c::READ_FRAMEBUFFER_BINDING) {
+            0 => c::DEPTH,
+            _ => c::DEPTH_ATTACHMENT,
+        };
+        let mut kind = 0i32;
+        // SAFETY: one integer.
+        unsafe {
+            self.real.glGetFramebufferAttachmentParameteriv(
+                c::READ_FRAMEBUFFER,
+                attachment,
+                c::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE,
+                (&raw mut kind).cast(),
+            )
+        };
+        kind as u32 != c::FLOAT
+    }
+
     /// glReadPixels of depth as 16 bits, rows bottom up, 0 where [`Gl::reads_depths`] says no.
-    pub fn read_depth16(&self, _: &PixelStore, x: i32, y: i32, w: u32, h: u32) -> Vec<u16> {
-        let mut out = vec![0u16; w as usize * h as usize];
-        // SAFETY: w·h texels of 2 bytes, without gaps, in no buffer (`PixelStore`).
-        unsafe { self.read_depths(x, y, [w, h], c::UNSIGNED_SHORT, out.as_mut_ptr().cast()) };
-        out
+    pub fn read_depth16(&self, neutral: &PixelStore, x: i32, y: i32, w: u32, h: u32) -> Vec<u16> {
+        let depths = self.read_depth32(neutral, x, y, w, h);
+        let rounded = depths.into_iter().map(|depth| {
+            let part = f64::from(depth) / f64::from(u32::MAX);
+            (part * f64::from(u16::MAX)).round() as u16
+        });
+        rounded.collect()
     }
 
     /// glReadPixels of depth, 0 to `u32::MAX`, rows bottom up, 0 where [`Gl::reads_depths`] says no.
     pub fn read_depth32(&self, _: &PixelStore, x: i32, y: i32, w: u32, h: u32) -> Vec<u32> {
         let mut out = vec![0u32; w as usize * h as usize];
-        // SAFETY: w·h texels of 4 bytes, without gaps, in no buffer (`PixelStore`).
-        unsafe { self.read_depths(x, y, [w, h], c::UNSIGNED_INT, out.as_mut_ptr().cast()) };
-        out
-    }
-
-    /// # Safety
-    /// `out` has room for the texels of this kind, which lie as a [`PixelStore`] has them.
-    unsafe fn read_depths(&self, x: i32, y: i32, size: [u32; 2], kind: u32, out: Ptr) {
-        let [w, h] = size.map(|side| side as i32);
-        if self.reads_depths() {
-            let format = c::DEPTH_COMPONENT;
-            // SAFETY: the caller's.
-            unsafe { self.real.glReadPixels(x, y, w, h, format, kind, out) };
+        if !self.reads_depths() {
+            return out;
         }
+        let floats = self.is_es() && !self.depths_are_integers();
+        let kind = if floats { c::FLOAT } else { c::UNSIGNED_INT };
+        let ([w, h], format) = ([w, h].map(|side| side as i32), c::DEPTH_COMPONENT);
+        let at = out.as_mut_ptr().cast();
+        // SAFETY: w·h texels of 4 bytes, without gaps, in no buffer (`PixelStore`).
+        unsafe { self.real.glReadPixels(x, y, w, h, format, kind, at) };
+        if floats {
+            for depth in &mut out {
+                let part = f64::from(f32::from_bits(*depth)).clamp(0.0, 1.0);
+                *depth = (part * f64::from(u32::MAX)).round() as u32;
+            }
+        }
+        out
     }
 
     /// glDrawPixels of RGB bytes, rows bottom up.

@@ -170,15 +170,11 @@ impl Layer {
         if self.cameras.comfort.taken.is_empty() {
             self.read_depths(gl);
         }
-        if !self.targets.atlas.has_depths() {
+        let first = !self.targets.atlas.has_depths();
+        if first {
             self.state.keep_errors(gl);
             let (names, window) = (&mut self.targets.names, &self.state.window);
             keep_bindings(gl, || self.targets.atlas.make_depths(gl, names, window));
-            if gl.drop_errors() > 0 {
-                self.targets.atlas.refuse_depths();
-                let why = "disparities are not measured: the driver makes no picture of the depths";
-                self.diagnostics.report.note(why.into());
-            }
         }
         let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
         let taken = match framebuffer.is_zero() {
@@ -188,6 +184,12 @@ impl Layer {
             }
             false => self.take_depths_of(gl, neutral, framebuffer),
         };
+        if first && gl.drop_errors() > 0 {
+            self.targets.atlas.refuse_depths();
+            let why = "disparities are not measured: the driver makes no picture of the depths";
+            self.diagnostics.report.note(why.into());
+            return;
+        }
         if taken {
             let mappings = self.cameras.comfort.mappings.clone();
             let way = mappings.most().map(|way| way.projection);
@@ -208,15 +210,20 @@ impl Layer {
     /// Takes the depths of a framebuffer of the program's.
     fn take_depths_of(&mut self, gl: &Gl, neutral: &Neutral, framebuffer: FramebufferName) -> bool {
         let offscreen = &mut self.targets.offscreen;
-        if offscreen.lacks_depths(gl, framebuffer) {
+        let first = offscreen.lacks_depths(gl, framebuffer);
+        if first {
             self.state.keep_errors(gl);
             offscreen.make_depths(gl, framebuffer);
-            gl.drop_errors();
         }
         let small = offscreen.shrink_depths(gl, framebuffer, self.known.depths.area);
-        small.is_some_and(|(small, size)| {
+        let taken = small.is_some_and(|(small, size)| {
             self.targets.atlas.take_depths_of(gl, neutral, small, size)
-        })
+        });
+        let refused = first && gl.drop_errors() > 0;
+        if refused {
+            offscreen.refuse_depths(gl, framebuffer);
+        }
+        taken && !refused
     }
 
     /// At the end of a frame: reads the depths of the previous one, and takes those of this one. Changes the framebuffer bindings.

@@ -52,6 +52,13 @@ impl Offscreen {
         self.target(gl, framebuffer).depths = Some(made);
     }
 
+    /// The driver has refused something of what [`Offscreen::make_depths`] made, or to read it: no depths of this framebuffer are taken.
+    pub fn refuse_depths(&mut self, gl: &Gl, framebuffer: FramebufferName) {
+        if let Some(made) = self.target(gl, framebuffer).depths.replace(None).flatten() {
+            made.delete(gl);
+        }
+    }
+
     /// Copies the depths that the own view of a framebuffer has now in a part of it (left, bottom, right, top in pixels), by the nearest pixel,
     /// to a framebuffer, and returns that with its width and height. None where there are no depths, or none whose format the driver tells. Changes the framebuffer bindings; the scissor test
     /// must be off.
