@@ -324,11 +324,17 @@ fn the_command_makes_the_pattern_and_fits_photos() {
         std::fs::write(at(name), exposure.jpeg(20.0, QUALITY, &mut random)).expect("written");
     }
     let (out, seen, a, b) = (at("panel.toml"), at("fit.png"), at("a.jpg"), at("b.jpg"));
+    // For an eye elsewhere one photo does not tell enough; for one where it was taken it does.
+    let elsewhere = ["--viewer", "800", "--dpi", "96"].map(AsRef::as_ref);
     let alone = ["--out".as_ref(), out.as_ref(), a.as_ref()];
-    let (code, _, errors) = run("fit", &alone);
+    let (code, _, errors) = run("fit", &[&elsewhere[..], &alone].concat());
     assert_eq!(code, Some(2), "{errors}");
     assert!(
-        errors.contains("the fit is doubtful") && !out.exists(),
+        errors.contains("the fit is doubtful")
+            && errors.contains(
+                "take the first photo from where the viewers are, and leave out --viewer"
+            )
+            && !out.exists(),
         "{errors}"
     );
     let both = [
@@ -345,7 +351,14 @@ fn the_command_makes_the_pattern_and_fits_photos() {
         report.contains("residuals  mean") && report.contains("confidence"),
         "{report}"
     );
-    assert!(image::open(seen).expect("a picture").width() > 1000);
+    assert!(image::open(&seen).expect("a picture").width() > 1000);
+    // Of many photos, some may be spoilt.
+    std::fs::write(at("spoilt.jpg"), "no picture").expect("written");
+    let spoilt = at("spoilt.jpg");
+    let many = [&both[..], &[spoilt.as_ref(); 5]].concat();
+    let (code, _, errors) = run("fit", &many);
+    assert_eq!(code, Some(0), "{errors}");
+    assert_eq!(errors.matches("left out: ").count(), 5, "{errors}");
     let display = Display::load(out.to_str().expect("UTF-8")).expect("a display file");
     assert_eq!(display.views, scene.sheet.views);
     let Kind::Slanted(lens) = display.kind else {

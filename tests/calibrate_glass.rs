@@ -6,16 +6,16 @@ use crate::optics::compare::{Sampling, compare};
 use crate::optics::displays::{Display, display};
 use crate::optics::eye::Truth;
 use crate::optics::photograph_jpeg;
-use crate::optics::scenario::{ALL, Scenario, Taking, scenario};
+use crate::optics::scenario::{ALL, First, Scenario, Taking, scenario};
 use image::RgbImage;
 use manyview::calibrate::{Fit, Photo, Setup, Sighting, fit, pattern};
 use manyview::display::SubpixelOrder;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What the owner of a display knows of it: the data sheet, and where the viewers sit.
-fn setup(display: &Display) -> Setup {
+/// What the owner of a display knows of it: the data sheet; and where the viewers sit, if no photo is from there.
+fn setup(display: &Display, first: First) -> Setup {
     let panel = &display.panel;
     let mut setup = Setup::new(
         panel.columns as u32,
@@ -24,7 +24,10 @@ fn setup(display: &Display) -> Setup {
         3.0 * display.nominal_columns(),
         -3.0 * display.nominal_lean(),
     );
-    setup.viewer = Some(display.distance / panel.pitch);
+    setup.viewer = match first {
+        First::Seat => None,
+        First::Anywhere => Some(display.distance / panel.pitch),
+    };
     setup
 }
 
@@ -65,38 +68,28 @@ struct Outcome {
     said: String,
 }
 
-fn outcome(scenario: &Scenario, setup: &Setup) -> Outcome {
-    let refused = |said: String| Outcome {
-        accepted: false,
-        wrong: None,
-        said,
-    };
+/// What comes of the first few photos of a scenario, for each number of them.
+fn outcomes(scenario: &Scenario, setup: &Setup, counts: &[usize]) -> Vec<Outcome> {
     let picture: RgbImage = pattern(setup).expect("a pattern");
     let shown = scenario.showing.apply(&scenario.display.panel, &picture);
-    let mut sightings = Vec::new();
-    for (number, shot) in scenario.shots.iter().enumerate() {
+    let sightings = scenario.shots.iter().enumerate().map(|(number, shot)| {
         let file = photograph_jpeg(&scenario.display, &shown, shot).expect("a file");
-        let seen = Photo::decode(&format!("photo {number}"), &file)
-            .and_then(|photo| Sighting::new(&photo, setup));
-        match seen {
-            Ok(sighting) => sightings.push(sighting),
-            Err(error) => return refused(error.to_string()),
-        }
-    }
-    let found = match fit(setup, &sightings) {
-        Ok(found) => found,
-        Err(error) => return refused(error.to_string()),
-    };
+        Photo::decode(&format!("photo {number}"), &file)
+            .and_then(|photo| Sighting::new(&photo, setup))
+            .map_err(|error| error.to_string())
+    });
+    let sightings: Vec<Result<Sighting, String>> = sightings.collect();
     let truth = Truth::new(&scenario.display);
-    let compared = compare(
-        &truth,
-        |x, row, colour| view(&found, setup, (x, row, colour)),
-        Sampling::default(),
-    );
-    Outcome {
-        accepted: found.doubts.is_empty(),
-        wrong: Some([compared.wrong, compared.wrong_after_offset].map(|share| 100.0 * share)),
-        said: format!(
+    let outcome = |count: usize| {
+        let sightings = sightings.iter().take(count).cloned();
+        let sightings: Vec<Sighting> = sightings.collect::<Result<_, _>>()?;
+        let found = fit(setup, &sightings).map_err(|error| error.to_string())?;
+        let compared = compare(
+            &truth,
+            |x, row, colour| view(&found, setup, (x, row, colour)),
+            Sampling::default(),
+        );
+        let said = format!(
             "{}; unsure {:.0} %, phase ± {:.2}, residuals {:.3}, order {:?} {}, viewer {:.0}",
             found.doubts.join("; "),
             100.0 * found.phase.unsure,
@@ -105,39 +98,65 @@ fn outcome(scenario: &Scenario, setup: &Setup) -> Outcome {
             found.order,
             found.order_measured,
             found.mask.viewer,
-        ),
-    }
+        );
+        Ok(Outcome {
+            accepted: found.doubts.is_empty(),
+            wrong: Some([compared.wrong, compared.wrong_after_offset].map(|share| 100.0 * share)),
+            said,
+        })
+    };
+    let refused = |said: String| Outcome {
+        accepted: false,
+        wrong: None,
+        said,
+    };
+    let all = counts
+        .iter()
+        .map(|&count| outcome(count).unwrap_or_else(refused));
+    all.collect()
 }
 
 /// Photos of 3 Mpx: a display whose views are not too fine for them.
 const SEED: u64 = 7;
 const SMALL: [u32; 2] = [2016, 1512];
 
-fn taken(name: &str, photos: usize) -> Outcome {
+fn taken(name: &str, photos: usize, first: First) -> Outcome {
     let taking = Taking {
         photos,
+        first,
         size: SMALL,
         seed: SEED,
     };
     let scenario = scenario(name, &display(SEED), taking).expect("a name");
-    outcome(&scenario, &setup(&scenario.display))
+    let all = outcomes(&scenario, &setup(&scenario.display, first), &[photos]);
+    all.into_iter().next().expect("an outcome")
 }
 
 #[test]
 fn a_sheet_of_glass_comes_back() {
-    let outcome = taken("ordinary", 3);
+    for first in [First::Seat, First::Anywhere] {
+        let outcome = taken("ordinary", 3, first);
+        assert!(outcome.accepted, "{first:?}: {}", outcome.said);
+        let [wrong, _] = outcome.wrong.expect("a fit");
+        assert!(wrong < 1.0, "{first:?}: {wrong} %: {}", outcome.said);
+    }
+}
+
+#[test]
+fn blue_on_the_left_is_measured() {
+    let outcome = taken("bgr", 3, First::Seat);
     assert!(outcome.accepted, "{}", outcome.said);
+    assert!(outcome.said.contains("order Bgr true"), "{}", outcome.said);
     let [wrong, _] = outcome.wrong.expect("a fit");
     assert!(wrong < 1.0, "{wrong} %: {}", outcome.said);
 }
 
 #[test]
-fn blue_on_the_left_is_measured() {
-    let outcome = taken("bgr", 3);
-    assert!(outcome.accepted, "{}", outcome.said);
-    assert!(outcome.said.contains("order Bgr true"), "{}", outcome.said);
-    let [wrong, _] = outcome.wrong.expect("a fit");
-    assert!(wrong < 1.0, "{wrong} %: {}", outcome.said);
+fn pixels_that_are_turned_are_noticed() {
+    let outcome = taken("turned pixels", 3, First::Seat);
+    assert!(!outcome.accepted, "{}", outcome.said);
+    let said = "as where pixels are turned by 90 degrees; measure where they lie, with --colours";
+    assert!(outcome.said.contains(said), "{}", outcome.said);
 }
 
 #[test]
@@ -147,7 +166,7 @@ fn a_pattern_that_is_not_shown_pixel_for_pixel_is_noticed() {
         ("scaled 99", "was shown scaled"),
         ("shifted", "beside its place"),
     ] {
-        let outcome = taken(name, 1);
+        let outcome = taken(name, 1, First::Seat);
         assert!(outcome.said.contains(part), "{name}: {}", outcome.said);
     }
 }
@@ -157,6 +176,14 @@ const DISPLAYS: u64 = 200;
 const SEEDS: u64 = 10;
 /// Per cent of the subpixels that may be off by more than half a view.
 const WRONG: f64 = 5.0;
+
+/// A scenario, where the first photo is taken, and how many are used, each number a line of its own.
+#[derive(Clone, Copy)]
+struct Case {
+    name: &'static str,
+    first: First,
+    counts: &'static [usize],
+}
 
 /// One line of the study.
 struct Row {
@@ -172,39 +199,46 @@ pub(crate) fn chosen(variable: &str, default: u64) -> u64 {
 }
 
 /// Photographs displays on two threads, and tells each.
-fn study(cases: &[(&'static str, usize, u64)]) -> Vec<Row> {
+fn study(case: Case, displays: u64) -> Vec<Row> {
     let wide = chosen("MANYVIEW_CALIBRATION_WIDTH", 4032) as u32;
-    let next = AtomicUsize::new(0);
+    let next = AtomicU64::new(0);
     let work = || {
         let mut done = Vec::new();
-        while let Some(&(name, photos, seed)) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+        loop {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            if seed >= displays {
+                return done;
+            }
             let taking = Taking {
-                photos,
+                photos: case.counts.iter().copied().max().unwrap_or(1),
+                first: case.first,
                 size: [wide, wide * 3 / 4],
                 seed,
             };
-            let scenario = scenario(name, &display(seed), taking).expect("a name");
-            let outcome = outcome(&scenario, &setup(&scenario.display));
-            let verdict = if outcome.accepted {
-                "accepted"
-            } else {
-                "refused"
-            };
-            let wrong = outcome
-                .wrong
-                .map(|[all, rest]| format!("{all:.1} % wrong, {rest:.1} % without a constant"));
-            let wrong = wrong.unwrap_or_default();
-            println!(
-                "{name}, display {seed} of {} views, {photos} photos: {verdict}, {wrong}; {}",
-                scenario.display.views, outcome.said
-            );
-            done.push(Row {
-                photos,
-                seed,
-                outcome,
-            });
+            let scenario = scenario(case.name, &display(seed), taking).expect("a name");
+            let setup = setup(&scenario.display, case.first);
+            let all = outcomes(&scenario, &setup, case.counts);
+            for (&photos, outcome) in case.counts.iter().zip(all) {
+                let verdict = if outcome.accepted {
+                    "accepted"
+                } else {
+                    "refused"
+                };
+                let wrong = outcome
+                    .wrong
+                    .map(|[all, rest]| format!("{all:.1} % wrong, {rest:.1} % without a constant"));
+                let wrong = wrong.unwrap_or_default();
+                println!(
+                    "{}, display {seed} of {} views, {photos} photos: {verdict}, {wrong}; {}",
+                    case.name, scenario.display.views, outcome.said
+                );
+                done.push(Row {
+                    photos,
+                    seed,
+                    outcome,
+                });
+            }
         }
-        done
     };
     let mut rows: Vec<Row> = std::thread::scope(|scope| {
         let threads = [scope.spawn(work), scope.spawn(work)];
@@ -230,36 +264,68 @@ fn write(name: &str, table: &str) {
     std::fs::write(path, format!("{}{table}{}", &text[..from], &text[to..])).expect("written");
 }
 
+/// In words, for a table.
+fn from(first: First) -> &'static str {
+    match first {
+        First::Seat => "where the viewers sit",
+        First::Anywhere => "elsewhere, with --viewer",
+    }
+}
+
 /// Half an hour on two cores: of the fits that are right most are accepted, and no accepted one is wrong.
 #[test]
 #[ignore = "half an hour: make calibration"]
 fn full_calibrate_glass_displays() {
     let displays = chosen("MANYVIEW_CALIBRATION_DISPLAYS", DISPLAYS);
     let mut table = String::from(
-        "| photos | accepted | of them wrong | refused | of them right | right ones accepted |\n|---|---|---|---|---|---|\n",
+        "| displays | photos | first photo | accepted | of them wrong | refused | of them right | right ones accepted |\n|---|---|---|---|---|---|---|---|\n",
     );
     let mut missed = Vec::new();
-    for (photos, least) in [(1, 0.0), (2, 75.0), (3, 90.0)] {
-        let cases: Vec<_> = (0..displays)
-            .map(|seed| ("ordinary", photos, seed))
-            .collect();
-        let rows = study(&cases);
+    let study = |first: First, counts: &'static [usize], displays: u64| {
+        let name = "ordinary";
+        let case = Case {
+            name,
+            first,
+            counts,
+        };
+        study(case, displays)
+    };
+    let (seat, elsewhere) = (
+        study(First::Seat, &[1, 2, 3], displays),
+        study(First::Anywhere, &[3], displays.div_ceil(4)),
+    );
+    let lines = [
+        (1, First::Seat, 0.0),
+        (2, First::Seat, 75.0),
+        (3, First::Seat, 90.0),
+        (3, First::Anywhere, 0.0),
+    ];
+    for (photos, first, least) in lines {
+        let all = match first {
+            First::Seat => &seat,
+            First::Anywhere => &elsewhere,
+        };
+        let rows: Vec<&Row> = all.iter().filter(|row| row.photos == photos).collect();
         let right = |row: &&Row| row.outcome.wrong.is_some_and(|[wrong, _]| wrong <= WRONG);
-        let accepted: Vec<_> = rows.iter().filter(|row| row.outcome.accepted).collect();
+        let accepted = rows.iter().filter(|row| row.outcome.accepted);
+        let accepted: Vec<&Row> = accepted.copied().collect();
         let wrong = accepted.iter().filter(|row| !right(row)).count();
-        let all_right = rows.iter().filter(right).count();
+        let all_right = rows.iter().filter(|row| right(row)).count();
         let good = accepted.len() - wrong;
         let share = 100.0 * good as f64 / all_right.max(1) as f64;
         let _ = writeln!(
             table,
-            "| {photos} | {} | {wrong} | {} | {} | {share:.0} % |",
+            "| {} | {photos} | {} | {} | {wrong} | {} | {} | {share:.0} % |",
+            rows.len(),
+            from(first),
             accepted.len(),
             rows.len() - accepted.len(),
             all_right - good,
         );
         if wrong > 0 || share < least {
             missed.push(format!(
-                "{photos} photos: {wrong} wrong ones accepted, {share:.0} % of the right ones"
+                "{photos} photos, {}: {wrong} wrong ones accepted, {share:.0} % of the right ones",
+                from(first)
             ));
         }
     }
@@ -278,8 +344,12 @@ fn full_calibrate_glass_scenarios() {
     );
     let mut missed = Vec::new();
     for (name, _) in ALL {
-        let cases: Vec<_> = (0..seeds).map(|seed| (name, 3, seed)).collect();
-        let rows = study(&cases);
+        let case = Case {
+            name,
+            first: First::Seat,
+            counts: &[3],
+        };
+        let rows = study(case, seeds);
         let wrong = |row: &Row| row.outcome.wrong.map_or(100.0, |[wrong, _]| wrong);
         let (accepted, refused): (Vec<&Row>, Vec<&Row>) =
             rows.iter().partition(|row| row.outcome.accepted);

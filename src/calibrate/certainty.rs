@@ -39,8 +39,10 @@ pub(super) struct Certainty<'a> {
     setup: &'a Setup,
     problem: &'a Problem<'a>,
     solution: &'a Solution,
-    /// By how much each parameter of the sheet moves the phase, at each block, in views.
-    slopes: Vec<Vec<f64>>,
+    /// For the viewers of the mask.
+    slopes: Slopes,
+    /// Those for viewers who sit where the first photo was taken, if others were asked for.
+    from_seat: Option<Slopes>,
     bend: Vec<f64>,
     /// What the mask leaves out at each block, in views.
     left: Vec<f64>,
@@ -55,29 +57,20 @@ impl<'a> Certainty<'a> {
         solution: &'a Solution,
         misses: &[Vec<((usize, usize), f64)>],
     ) -> Option<Self> {
-        const STEP: f64 = 1e-4;
-        let moved = |index: usize, step: f64| {
-            let mut at = solution.minimum.at.clone();
-            *at.get_mut(index)? += step;
-            problem.sheet(&at)
-        };
-        let sheets: Option<Vec<[Sheet; 2]>> = problem
-            .sheet_at()
-            .map(|index| Some([moved(index, STEP)?, moved(index, -STEP)?]))
-            .collect();
-        let sheets = sheets?;
-        let views = f64::from(viewers.setup.views);
         let blocks = (0..BLOCKS).flat_map(|row| (0..BLOCKS).map(move |column| (column, row)));
         let places = blocks.map(|(column, row)| {
             DVec2::new(column as f64, row as f64) / (BLOCKS - 1) as f64 * viewers.layout.size
         });
         let places: Vec<DVec2> = places.collect();
-        let slopes = places.iter().map(|&p| {
-            let slope = |[above, below]: &[Sheet; 2]| {
-                views * (viewers.phase(above, p) - viewers.phase(below, p)) / (2.0 * STEP)
-            };
-            sheets.iter().map(slope).collect()
-        });
+        let at = &solution.minimum.at;
+        let slopes = Slopes::new(viewers, viewers.setup.viewer, problem, at, &places)?;
+        let from_seat = match viewers.setup.viewer {
+            Some(distance) if distance.is_finite() => {
+                Some(Slopes::new(viewers, None, problem, at, &places)?)
+            }
+            _ => None,
+        };
+        let views = f64::from(viewers.setup.views);
         let sheet = problem.sheet(&solution.minimum.at)?;
         let left = places.iter().map(|&p| match mask.map {
             Some(_) => 0.0,
@@ -88,28 +81,19 @@ impl<'a> Certainty<'a> {
             setup: viewers.setup,
             problem,
             solution,
-            slopes: slopes.collect(),
+            slopes,
+            from_seat,
             bend: bend(misses),
         })
     }
 
     /// As the photos tell it.
     pub(super) fn phase(&self) -> PhaseError {
-        self.with(&self.solution.minimum.covariance)
+        self.with(&self.slopes, &self.solution.minimum.covariance)
     }
 
-    fn with(&self, covariance: &DMatrix<f64>) -> PhaseError {
-        let first = self.problem.sheet_at().start;
-        let deviations = self.slopes.iter().map(|slopes| {
-            let mut variance = 0.0;
-            for (i, a) in slopes.iter().enumerate() {
-                for (j, b) in slopes.iter().enumerate() {
-                    variance += a * b * covariance[(first + i, first + j)];
-                }
-            }
-            variance.max(0.0).sqrt()
-        });
-        let deviations: Vec<f64> = deviations.collect();
+    fn with(&self, slopes: &Slopes, covariance: &DMatrix<f64>) -> PhaseError {
+        let deviations = slopes.deviations(covariance);
         let count = deviations.len() as f64;
         let off = |bend: f64| {
             let unsure = deviations.iter().zip(&self.bend).zip(&self.left);
@@ -134,8 +118,8 @@ impl<'a> Certainty<'a> {
         let covariance = &self.solution.minimum.covariance;
         let column = covariance.column(parameter);
         let gain = deviation * deviation + covariance[(parameter, parameter)];
-        self.with(&(covariance - column * column.transpose() / gain))
-            .unsure
+        let told = covariance - column * column.transpose() / gain;
+        self.with(&self.slopes, &told).unsure
     }
 
     /// What would make the mask known: something to tell where that is enough, else more photos. `photos` were given, `focal` is the deviation of the
@@ -174,6 +158,12 @@ impl<'a> Certainty<'a> {
                 "give --cone from the data sheet",
             ),
         ];
+        let covariance = &self.solution.minimum.covariance;
+        let from_seat = self.from_seat.as_ref();
+        if from_seat.is_some_and(|seat| self.with(seat, covariance).unsure <= UNSURE_PART) {
+            return "take the first photo from where the viewers are, and leave out --viewer"
+                .to_owned();
+        }
         let enough = tellable
             .into_iter()
             .find(|(told, at, deviation, _)| !told && self.told(*at, *deviation) <= UNSURE_PART);
@@ -187,6 +177,71 @@ impl<'a> Certainty<'a> {
             }
         };
         remedy.to_owned()
+    }
+}
+
+/// How the phase of the mask depends on what was fitted.
+struct Slopes {
+    /// The parameters that move the phase.
+    parameters: Vec<usize>,
+    /// By how much each of them does, at each block, in views.
+    blocks: Vec<Vec<f64>>,
+}
+
+impl Slopes {
+    /// For viewers at a distance from the face of the panel, or where the first photo was taken: these move with the distance that is fitted, so it
+    /// need not be known.
+    fn new(
+        viewers: &Viewers,
+        distance: Option<f64>,
+        problem: &Problem,
+        at: &[f64],
+        places: &[DVec2],
+    ) -> Option<Self> {
+        const STEP: f64 = 1e-4;
+        let first = distance.is_none().then(|| problem.distance_at());
+        let parameters: Vec<usize> = problem.sheet_at().chain(first).collect();
+        let moved = |index: usize, step: f64| {
+            let mut at = at.to_vec();
+            *at.get_mut(index)? += step;
+            let distance = problem.viewer(&at, distance)?;
+            Some((
+                problem.sheet(&at)?,
+                Viewers {
+                    distance,
+                    ..*viewers
+                },
+            ))
+        };
+        let both = |index: &usize| Some([moved(*index, STEP)?, moved(*index, -STEP)?]);
+        let either: Option<Vec<_>> = parameters.iter().map(both).collect();
+        let either = either?;
+        let views = f64::from(viewers.setup.views);
+        let blocks = places.iter().map(|&p| {
+            let slope = |[above, below]: &[(Sheet, Viewers); 2]| {
+                let [above, below] = [above, below].map(|(sheet, viewers)| viewers.phase(sheet, p));
+                views * (above - below) / (2.0 * STEP)
+            };
+            either.iter().map(slope).collect()
+        });
+        Some(Self {
+            blocks: blocks.collect(),
+            parameters,
+        })
+    }
+
+    /// Standard deviation of the phase at each block, in views.
+    fn deviations(&self, covariance: &DMatrix<f64>) -> Vec<f64> {
+        let deviations = self.blocks.iter().map(|slopes| {
+            let mut variance = 0.0;
+            for (i, a) in self.parameters.iter().zip(slopes) {
+                for (j, b) in self.parameters.iter().zip(slopes) {
+                    variance += a * b * covariance[(*i, *j)];
+                }
+            }
+            variance.max(0.0).sqrt()
+        });
+        deviations.collect()
     }
 }
 

@@ -12,8 +12,10 @@ use crate::display::SubpixelOrder;
 /// Root mean square of the residuals, turns, above which the model does not describe the photo.
 const LARGEST_RESIDUAL: f64 = 0.08;
 
-/// How much better one order of the colours has to agree than the other, from 0 to 1, for it to count as measured.
-const LEAST_ORDER: f64 = 0.1;
+/// Subpixels by which red and blue may lie beside their places in the order that is given, and in the other one, which the filters of a camera make look
+/// nearer.
+const GIVEN: f64 = 0.25;
+const OTHER: f64 = 0.3;
 
 /// A lens sheet measured.
 #[derive(Clone, Debug)]
@@ -132,15 +134,12 @@ impl Answer<'_> {
                 contrast: sighting.fringes.contrast,
             });
         }
-        let distance = match self.setup.viewer {
-            // Seen from the face of the panel, the pixels are as deep in effective air as the gap is. The cameras' distances have that already.
-            Some(distance) => distance + sheet.gap,
-            None => cameras.first()?.eye[2],
-        };
         let viewers = Viewers {
             layout: self.layout,
             setup: self.setup,
-            distance,
+            distance: self
+                .problem
+                .viewer(&self.solution.minimum.at, self.setup.viewer)?,
         };
         let mask = viewers.mask(&sheet);
         let all: Vec<f64> = misses.iter().flatten().map(|(_, miss)| *miss).collect();
@@ -164,18 +163,23 @@ impl Answer<'_> {
         Some(fit)
     }
 
+    /// The mean of [`super::fringes::Fringes::beside`].
+    fn beside(&self) -> f64 {
+        let sum: f64 = self.sightings.iter().map(|s| s.fringes.beside).sum();
+        sum / self.sightings.len() as f64
+    }
+
     /// The order of the colours, and whether the photos tell it.
     fn order(&self) -> (SubpixelOrder, bool) {
-        let sum: f64 = self.sightings.iter().map(|s| s.fringes.swapped).sum();
-        let swapped = sum / self.sightings.len() as f64;
-        let order = match (self.setup.order, swapped > 0.0) {
-            (given, false) => given,
-            (SubpixelOrder::Rgb, true) => SubpixelOrder::Bgr,
-            (SubpixelOrder::Bgr, true) => SubpixelOrder::Rgb,
+        let beside = self.beside();
+        let given = self.setup.order;
+        let other = match given {
+            SubpixelOrder::Rgb => SubpixelOrder::Bgr,
+            SubpixelOrder::Bgr => SubpixelOrder::Rgb,
         };
-        match swapped.abs() > LEAST_ORDER {
-            true => (order, true),
-            false => (self.setup.order, false),
+        match beside > 1.0 {
+            true => (other, (beside - 2.0).abs() <= OTHER),
+            false => (given, beside.abs() <= GIVEN),
         }
     }
 
@@ -219,6 +223,13 @@ impl Answer<'_> {
                 "the residuals are large; take sharper photos, or ask for --bias if the sheet is bent"
                     .into(),
             );
+        }
+        // On a sheet of great slant, pixels that are turned look nearly like a row of red, green and blue, or of blue, green and red.
+        if !fit.order_measured && !self.setup.colours {
+            doubts.push(format!(
+                "red and blue lie {:.1} subpixels beside their places in a row of red, green and blue, as where pixels are turned by 90 degrees; measure where they lie, with --colours",
+                self.beside().abs()
+            ));
         }
         // Each colour's pixels are seen in turn along a lens; their beat must be finer than the fringes.
         let beat = self.setup.slant.abs() * self.layout.size.y / 3.0;

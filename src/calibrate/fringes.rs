@@ -41,8 +41,9 @@ pub(super) struct Fringes {
     pub blocks: Vec<Block>,
     /// Contrast as a part of that of the panel, 0 to 1.
     pub contrast: f64,
-    /// How much better the fringes of the colours agree when red and blue change places, from -1 to 1.
-    pub swapped: f64,
+    /// Subpixels from where the pattern has red to where red is seen, towards blue: 0 in the order that is given, 2 in the other one. Blue is as
+    /// far beside its place, towards red.
+    pub beside: f64,
 }
 
 /// The field, sampled evenly: R, G and B, each with black at 0 and white at 1.
@@ -114,9 +115,9 @@ pub(super) fn measure(
         let waves = field.demodulated(frequency / s, centre);
         found.push((centre, waves, (column, row)));
     }
-    let swapped = swapped(found.iter().map(|(_, waves, _)| *waves), layout.across);
+    let beside = beside(found.iter().map(|(_, waves, _)| *waves), layout.across);
     // Where each colour really is, so that all add up.
-    let red = turn(if swapped > 0.0 { layout.across } else { 0.0 });
+    let red = turn(if beside > 1.0 { layout.across } else { 0.0 });
     let blue = conjugate(red);
     let found = found.into_iter().map(|(centre, [r, g, b], place)| {
         let waves = [r.rotate(red), g, b.rotate(blue)];
@@ -160,22 +161,16 @@ pub(super) fn measure(
     Ok(Fringes {
         blocks,
         contrast,
-        swapped,
+        beside,
     })
 }
 
-/// How much better the waves of red and blue agree with green when the two change places, from -1 to 1; `across` turns lie between their subpixels.
+/// See [`Fringes::beside`]; `across` turns are two subpixels.
 ///
 /// What a pattern has for a colour on the left appears on the right of a panel with the other order, so its fringes are `across` turns behind.
-fn swapped(waves: impl Iterator<Item = [Complex; 3]>, across: f64) -> f64 {
-    let (mut red, mut blue, mut size) = (DVec2::ZERO, DVec2::ZERO, 0.0);
-    for [r, g, b] in waves {
-        red += conjugate(g).rotate(r);
-        blue += conjugate(g).rotate(b);
-        size += g.length() * (r.length() + b.length());
-    }
-    let agree = |turns: f64| red.rotate(turn(turns)).x + blue.rotate(turn(-turns)).x;
-    (agree(across) - agree(0.0)) / f64::max(size, 1e-30)
+fn beside(waves: impl Iterator<Item = [Complex; 3]>, across: f64) -> f64 {
+    let apart = waves.map(|[r, g, b]| conjugate(g).rotate(r) + conjugate(conjugate(g).rotate(b)));
+    -argument(apart.sum()) / across * 2.0
 }
 
 fn conjugate(z: Complex) -> Complex {

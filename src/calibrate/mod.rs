@@ -48,6 +48,7 @@
 mod by_eye;
 mod camera;
 mod certainty;
+mod choice;
 mod edges;
 mod error;
 mod find;
@@ -68,6 +69,7 @@ mod written;
 
 pub use by_eye::{Action, ByEye, KEYS, action};
 pub use certainty::PhaseError;
+pub use choice::{MOST, choose};
 pub use error::CalibrateError;
 pub use fit::{Camera, Fit, Residuals, fit};
 pub(crate) use least_squares::{minimise, soft};

@@ -39,7 +39,7 @@ impl std::fmt::Debug for Photo {
 }
 
 impl Photo {
-    /// Reads a JPEG or PNG file, turned upright as its EXIF data says.
+    /// Reads a JPEG, PNG or HEIC file, turned upright as it says.
     pub fn load(path: &Path) -> Result<Self, CalibrateError> {
         let photo = path.display().to_string();
         match std::fs::read(path) {
@@ -48,7 +48,7 @@ impl Photo {
         }
     }
 
-    /// A JPEG or PNG file in memory; `name` is for messages.
+    /// A JPEG, PNG or HEIC file in memory; `name` is for messages.
     pub fn decode(name: &str, bytes: &[u8]) -> Result<Self, CalibrateError> {
         let failed = |reason: String| CalibrateError::Decode {
             photo: name.into(),
@@ -106,6 +106,12 @@ impl Photo {
             self.focal = Some(2.0 * self.half() * mm / FILM_DIAGONAL);
         }
         self
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Half of the diagonal, pixels.
@@ -177,8 +183,11 @@ impl Photo {
     }
 }
 
-/// The picture of a JPEG or PNG file, turned upright as its EXIF data says; the error says why there is none.
+/// The picture of a JPEG, PNG or HEIC file, turned upright as it says; the error says why there is none.
 pub(crate) fn upright(bytes: &[u8]) -> Result<DynamicImage, String> {
+    if is_heif(bytes) {
+        return heif(bytes);
+    }
     let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
     let reader = reader.map_err(|e| e.to_string())?;
     let mut decoder = reader.into_decoder().map_err(|e| e.to_string())?;
@@ -192,6 +201,36 @@ pub(crate) fn upright(bytes: &[u8]) -> Result<DynamicImage, String> {
     let mut picture = DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
     picture.apply_orientation(orientation);
     Ok(picture)
+}
+
+/// Whether a file begins as those of HEIF do (ISO/IEC 23008-12), of which HEIC is the kind that phones write.
+fn is_heif(bytes: &[u8]) -> bool {
+    const BRANDS: [&[u8]; 7] = [
+        b"heic", b"heix", b"heim", b"heis", b"hevc", b"mif1", b"msf1",
+    ];
+    bytes.get(4..8) == Some(b"ftyp")
+        && bytes
+            .get(8..12)
+            .is_some_and(|brand| BRANDS.contains(&brand))
+}
+
+/// The picture of a HEIC file in sRGB. Its turns are those of the file itself; EXIF repeats them.
+#[cfg(feature = "heic")]
+fn heif(bytes: &[u8]) -> Result<DynamicImage, String> {
+    let options = heifer::Options {
+        max_threads: 0,
+        max_pixels: MOST_PIXELS,
+    };
+    let picture = heifer::decode_srgb_rgba8(bytes, &options).map_err(|e| e.to_string())?;
+    let (width, height) = (picture.width, picture.height);
+    let picture = RgbImage::from_raw(width, height, picture.into_rgb8());
+    let picture = picture.ok_or("its pixels are not as many as it says")?;
+    Ok(picture.into())
+}
+
+#[cfg(not(feature = "heic"))]
+fn heif(_: &[u8]) -> Result<DynamicImage, String> {
+    Err("this build of manyview does not read HEIC; let the phone write JPEG (iPhone: Settings, Camera, Formats, Most Compatible), or use heif-convert".into())
 }
 
 /// The transfer function of sRGB (IEC 61966-2-1).
@@ -219,6 +258,33 @@ fn equivalent(bytes: &[u8]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A file by x265 and libheif 1.15: red, green, blue and white quarters of 64x48 pixels.
+    #[test]
+    fn photos_of_phones_are_read() {
+        let bytes = include_bytes!("../../fuzz/seeds/photo/quarters.heic");
+        let read = upright(bytes);
+        if !cfg!(feature = "heic") {
+            assert!(read.expect_err("no decoder").contains("Most Compatible"));
+            return;
+        }
+        let picture = read.expect("a picture").into_rgb8();
+        assert_eq!(picture.dimensions(), (64, 48));
+        let quarters = [
+            ([16, 12], [255, 0, 0]),
+            ([48, 12], [0, 255, 0]),
+            ([16, 36], [0, 0, 255]),
+            ([48, 36], [255; 3]),
+        ];
+        for ([x, y], expected) in quarters {
+            let found = picture.get_pixel(x, y).0;
+            let near = found.iter().zip(expected).all(|(a, b)| a.abs_diff(b) < 8);
+            assert!(near, "{found:?} at {x}, {y}, not {expected:?}");
+        }
+        for length in [0, 4, 12, 40, bytes.len() / 2, bytes.len() - 1] {
+            assert!(upright(&bytes[..length]).is_err(), "{length} bytes");
+        }
+    }
 
     #[test]
     fn a_photo_has_as_many_pixels_as_memory_is_asked_for() {

@@ -39,6 +39,8 @@ pub struct Sighting {
     pub(super) size: (u32, u32),
     pub(super) bench: Bench,
     pub(super) start: View,
+    /// Of the panel, panel pixels.
+    middle: DVec2,
     pub(super) edges: Vec<EdgePoint>,
     pub(super) fringes: Fringes,
 }
@@ -173,9 +175,16 @@ impl Sighting {
             size: (photo.width, photo.height),
             bench,
             start: view,
+            middle: layout.size / 2.0,
             edges: points,
             fringes: fringes?,
         })
+    }
+
+    /// Where the camera was by the edges alone, from the middle of the panel: to the right, down, and before it, panel pixels.
+    pub(super) fn camera_place(&self) -> DVec3 {
+        let eye = self.start.pose.eye;
+        DVec3::new(eye.x - self.middle.x, eye.y - self.middle.y, -eye.z)
     }
 
     /// Contrast of the fringes as a part of that of the panel, 0 to 1.

@@ -139,6 +139,16 @@ impl<'a> Problem<'a> {
         })
     }
 
+    /// Distance of an eye before the apparent plane of the pixels: of one at this distance from the face of the panel, or of that of the first photo;
+    /// panel pixels.
+    pub(super) fn viewer(&self, p: &[f64], distance: Option<f64>) -> Option<f64> {
+        match distance {
+            // From the face of the panel, the pixels are as deep in effective air as the gap is. The cameras' distances have that already.
+            Some(distance) => Some(distance + self.sheet(p)?.gap),
+            None => Some(-self.view(p, 0)?.pose.eye.z),
+        }
+    }
+
     pub(super) fn view(&self, p: &[f64], photo: usize) -> Option<View> {
         let sighting = self.sightings.get(photo)?;
         let own = p.get(AFTER_SHEET + self.nodes() + OWN * photo..)?;

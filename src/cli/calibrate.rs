@@ -71,7 +71,7 @@ struct FitArguments {
     /// Picture of the fit to write, PNG
     #[arg(long, value_name = "PATH")]
     picture: Option<PathBuf>,
-    /// Photos, JPEG or PNG
+    /// Photos, JPEG, PNG or HEIC, that from where the viewers sit first; of more than six the most different are used
     #[arg(required = true, value_name = "PHOTO")]
     photos: Vec<PathBuf>,
 }
@@ -133,16 +133,7 @@ fn fit(arguments: &FitArguments) -> Outcome {
     if let Some(picture) = &arguments.picture {
         writable("the picture of the fit", picture)?;
     }
-    let bar = bar(arguments.photos.len() as u64);
-    let (mut photos, mut sightings) = (Vec::new(), Vec::new());
-    for path in &arguments.photos {
-        bar.set_message(path.display().to_string());
-        let photo = Photo::load(path)?.with_equivalent(arguments.setup.focal);
-        sightings.push(Sighting::new(&photo, &setup)?);
-        photos.push(photo);
-        bar.inc(1);
-    }
-    bar.finish_and_clear();
+    let (photos, sightings) = sightings(arguments, &setup)?;
     let fit = calibrate::fit(&setup, &sightings)?;
     if let Some(path) = &arguments.picture {
         let picture = fit.picture(&photos, &sightings, (setup.width, setup.height));
@@ -163,6 +154,54 @@ fn fit(arguments: &FitArguments) -> Outcome {
     fit.write(&setup, &name.to_string_lossy(), &arguments.out)?;
     tell(&format_args!("wrote {}", arguments.out.display()));
     Ok(ExitCode::SUCCESS)
+}
+
+/// The photos that are used, and what is measured in each. Of many photos some may be spoilt: those are told and left out.
+fn sightings(
+    arguments: &FitArguments,
+    setup: &Setup,
+) -> Result<(Vec<Photo>, Vec<Sighting>), CommandError> {
+    let many = arguments.photos.len() > calibrate::MOST;
+    let bar = bar(arguments.photos.len() as u64);
+    let (mut photos, mut sightings) = (Vec::new(), Vec::new());
+    for (number, path) in arguments.photos.iter().enumerate() {
+        bar.set_message(path.display().to_string());
+        let photo = Photo::load(path).map(|photo| photo.with_equivalent(arguments.setup.focal));
+        let seen = photo.and_then(|photo| Ok((Sighting::new(&photo, setup)?, photo)));
+        match seen {
+            Ok((sighting, photo)) => {
+                sightings.push(sighting);
+                photos.push(photo);
+            }
+            Err(error) if many && number > 0 => {
+                bar.suspend(|| tell(&format_args!("left out: {error}")));
+            }
+            Err(error) => return Err(error.into()),
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let chosen = calibrate::choose(&sightings);
+    if chosen.len() < sightings.len() {
+        let names: Vec<String> = chosen
+            .iter()
+            .filter_map(|index| photos.get(*index))
+            .map(|photo| photo.name().to_owned())
+            .collect();
+        tell(&format_args!(
+            "of {} photos, {} are used: {}",
+            sightings.len(),
+            chosen.len(),
+            names.join(", ")
+        ));
+    }
+    let pick = |index: &usize| chosen.contains(index);
+    let photos = photos.into_iter().enumerate().filter(|(i, _)| pick(i));
+    let sightings = sightings.into_iter().enumerate().filter(|(i, _)| pick(i));
+    Ok((
+        photos.map(|(_, photo)| photo).collect(),
+        sightings.map(|(_, sighting)| sighting).collect(),
+    ))
 }
 
 impl PanelArguments {
@@ -205,7 +244,8 @@ fn report(fit: &Fit, setup: &Setup, pixel: Option<f64>) -> String {
     let told = match (fit.order_measured, fit.order == setup.order) {
         (true, true) => "as measured",
         (true, false) => "as measured, and not as given",
-        (false, _) => "as given: photos of lenses that are so upright do not tell",
+        (false, true) => "as given; the photos do not tell for certain",
+        (false, false) => "not as given; the photos do not tell for certain",
     };
     let _ = writeln!(text, "colours    {order}, {told}");
     let _ = writeln!(

@@ -86,13 +86,14 @@ pub fn photograph_jpeg(
 
 #[cfg(test)]
 mod tests {
-    use super::scenario::{Taking, scenario};
+    use super::scenario::{First, Taking, scenario};
     use super::*;
 
     fn small_photo(name: &str) -> Vec<u8> {
         let display = displays::small();
         let taking = Taking {
             photos: 1,
+            first: First::Anywhere,
             size: [504, 378],
             seed: 3,
         };
@@ -131,6 +132,7 @@ mod tests {
             &display,
             Taking {
                 photos: 1,
+                first: First::Anywhere,
                 size: [1008, 756],
                 seed: 3,
             },

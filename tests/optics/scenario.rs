@@ -22,16 +22,28 @@ pub struct Scenario {
 pub struct Taking {
     /// One is from the front. Two add one from about 10 degrees left. Three add one from about 10 degrees right.
     pub photos: usize,
+    /// Where the first one is taken; the others are taken where the panel fills about two thirds of the picture.
+    pub first: First,
     /// Width and height of the sensor in px.
     pub size: [u32; 2],
     pub seed: u64,
 }
 
+/// Where the first photo is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum First {
+    /// At the design distance, or further back where the whole panel would not be in the picture: the viewers sit there then.
+    Seat,
+    /// Where the panel fills about two thirds of the picture, however far away the viewers sit.
+    Anywhere,
+}
+
 impl Taking {
-    /// Three photos of 12 Mpx.
+    /// Three photos of 12 Mpx, the first one from where the viewers sit.
     pub fn new(seed: u64) -> Self {
         Self {
             photos: 3,
+            first: First::Seat,
             size: [4032, 3024],
             seed,
         }
@@ -99,6 +111,7 @@ fn ordinary(display: &Display, taking: Taking) -> Scenario {
     let (k1, k2) = (random.range(-0.01, 0.01), random.range(-0.003, 0.003));
     let [width, height] = taking.size;
     let scale = f64::from(width) / 4032.0;
+    let mut display = display.clone();
     let shots = (0..taking.photos).map(|photo| {
         let mut camera = Camera {
             k1,
@@ -110,13 +123,20 @@ fn ordinary(display: &Display, taking: Taking) -> Scenario {
         let fill = random.range(0.62, 0.72) / [1.0, 1.2, 1.1][photo % 3];
         let distance = [half[0] / f64::from(width), half[1] / f64::from(height)]
             .map(|v| 2.0 * v * camera.focal / fill);
-        let distance = distance[0].max(distance[1]);
+        let mut distance = distance[0].max(distance[1]);
+        let seat = photo == 0 && taking.first == First::Seat;
+        if seat {
+            distance = distance.max(display.eye()[2]);
+        }
         let turn = ([0.0, -10.0, 10.0][photo % 3] + random.range(-1.5, 1.5)).to_radians();
         camera.position = [
             distance * turn.sin(),
             random.range(-0.04, 0.04) * distance,
             distance * turn.cos(),
         ];
+        if seat {
+            display.distance = camera.position[2] - display.sheet.front();
+        }
         camera.aim([
             random.range(-0.02, 0.02) * distance,
             random.range(-0.02, 0.02) * distance,
@@ -144,10 +164,11 @@ fn ordinary(display: &Display, taking: Taking) -> Scenario {
             camera,
         }
     });
+    let shots = shots.collect();
     Scenario {
-        display: display.clone(),
+        display,
         showing: Showing::default(),
-        shots: shots.collect(),
+        shots,
     }
 }
 
