@@ -3,9 +3,10 @@
 //! `make calibration` takes the whole table; the ordinary run a few displays.
 
 use crate::optics::compare::{Sampling, compare};
-use crate::optics::displays::{Display, display};
+use crate::optics::displays::{Display, display, small};
 use crate::optics::eye::Truth;
 use crate::optics::photograph_jpeg;
+use crate::optics::random::Random;
 use crate::optics::scenario::{ALL, First, Scenario, Taking, scenario};
 use image::RgbImage;
 use manyview::calibrate::{Fit, Photo, Setup, Sighting, fit, pattern};
@@ -121,6 +122,10 @@ const SEED: u64 = 7;
 const SMALL: [u32; 2] = [2016, 1512];
 
 fn taken(name: &str, photos: usize, first: First) -> Outcome {
+    taken_for(name, photos, first, |_| ())
+}
+
+fn taken_for(name: &str, photos: usize, first: First, ask: fn(&mut Setup)) -> Outcome {
     let taking = Taking {
         photos,
         first,
@@ -128,7 +133,9 @@ fn taken(name: &str, photos: usize, first: First) -> Outcome {
         seed: SEED,
     };
     let scenario = scenario(name, &display(SEED), taking).expect("a name");
-    let all = outcomes(&scenario, &setup(&scenario.display, first), &[photos]);
+    let mut setup = setup(&scenario.display, first);
+    ask(&mut setup);
+    let all = outcomes(&scenario, &setup, &[photos]);
     all.into_iter().next().expect("an outcome")
 }
 
@@ -157,6 +164,68 @@ fn pixels_that_are_turned_are_noticed() {
     assert!(!outcome.accepted, "{}", outcome.said);
     let said = "as where pixels are turned by 90 degrees; measure where they lie, with --colours";
     assert!(outcome.said.contains(said), "{}", outcome.said);
+    let outcome = taken_for("turned pixels", 3, First::Seat, |setup| {
+        setup.colours = true;
+    });
+    assert!(outcome.accepted, "{}", outcome.said);
+    let [wrong, _] = outcome.wrong.expect("a fit");
+    assert!(wrong < 1.0, "{wrong} %: {}", outcome.said);
+}
+
+/// Files with a few other bytes, many of them cut off, of which some can be read and a few show the pattern: nothing panics.
+fn spoilt(count: u64) {
+    let display = small();
+    let setup = setup(&display, First::Seat);
+    let taking = Taking {
+        photos: 1,
+        first: First::Anywhere,
+        size: [504, 378],
+        seed: SEED,
+    };
+    let scenario = scenario("ordinary", &display, taking).expect("a name");
+    let picture = pattern(&setup).expect("a pattern");
+    let photo = photograph_jpeg(&scenario.display, &picture, &scenario.shots[0]).expect("a file");
+    let folder = std::fs::read_dir("fuzz/seeds/photo").expect("seeds");
+    let mut paths: Vec<_> = folder.map(|entry| entry.expect("a file").path()).collect();
+    paths.sort();
+    let files: Vec<Vec<u8>> = paths
+        .iter()
+        .map(|path| std::fs::read(path).expect("a seed"))
+        .collect();
+    let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
+    let mut random = Random::new(SEED);
+    let (mut read, mut seen) = (0, 0);
+    for number in 0..count {
+        // A photo of the pattern takes a thousand times as long as a small file.
+        let mut file = match number % 400 {
+            0 => photo.clone(),
+            _ => random.pick(&files).to_vec(),
+        };
+        for _ in 0..random.whole(1, 8) {
+            let at = random.bits() as usize % file.len();
+            file[at] = random.bits() as u8;
+        }
+        if random.chance(0.2) {
+            file.truncate(random.bits() as usize % file.len());
+        }
+        if let Ok(photo) = Photo::decode("spoilt", &file) {
+            read += 1;
+            seen += u64::from(Sighting::new(&photo, &setup).is_ok());
+        }
+    }
+    println!("{count} spoilt files: {read} read, {seen} show the pattern");
+    assert!(read > 0 && seen > 0, "{read} read, {seen} seen");
+}
+
+#[test]
+fn spoilt_photos_do_no_harm() {
+    spoilt(2000);
+}
+
+#[test]
+#[ignore = "minutes: make calibration"]
+fn full_a_million_spoilt_photos_do_no_harm() {
+    spoilt(1_000_000);
 }
 
 #[test]
