@@ -172,6 +172,26 @@ fn pixels_that_are_turned_are_noticed() {
     assert!(wrong < 1.0, "{wrong} %: {}", outcome.said);
 }
 
+/// Behind upright lenses each colour is a column of its own, and photos do not tell where they lie: that is no reason for doubt.
+#[test]
+fn upright_lenses_are_accepted() {
+    let mut display = display(SEED);
+    (display.sheet.slant, display.nominal_slant) = (0.0, 0.0);
+    let taking = Taking {
+        photos: 3,
+        first: First::Seat,
+        size: SMALL,
+        seed: SEED,
+    };
+    let scenario = scenario("ordinary", &display, taking).expect("a name");
+    let setup = setup(&scenario.display, First::Seat);
+    let outcome = outcomes(&scenario, &setup, &[3]).remove(0);
+    assert!(outcome.accepted, "{}", outcome.said);
+    assert!(outcome.said.contains("order Rgb false"), "{}", outcome.said);
+    let [wrong, _] = outcome.wrong.expect("a fit");
+    assert!(wrong < 1.0, "{wrong} %: {}", outcome.said);
+}
+
 /// Files with a few other bytes, many of them cut off, of which some can be read and a few show the pattern: nothing panics.
 fn spoilt(count: u64) {
     let display = small();

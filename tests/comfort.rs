@@ -84,12 +84,17 @@ fn distances_are_those_that_are_drawn_in_es() {
         let frames = frames(&walls_of("depths_es", how, &AUTO));
         assert_eq!(frames.len() as u64, FRAMES, "{how}");
         for frame in &frames[1..] {
-            let near = (4.0 + frame.frame as f64 * 0.5).min(10.0);
-            let wanted = [near, 40.0].map(|distance| frame.disparity(distance, WIDTH));
-            for (wanted, got) in wanted.iter().zip([frame.px[0], frame.px[2]]) {
-                assert!((wanted - got).abs() < 2e-3, "{how}: {wanted} in {frame:?}");
-            }
+            shows_the_walls(frame, how);
         }
+    }
+}
+
+/// The nearest and the farthest wall have the disparity of their distances.
+fn shows_the_walls(frame: &Frame, how: &str) {
+    let near = (4.0 + frame.frame as f64 * 0.5).min(10.0);
+    let wanted = [near, 40.0].map(|distance| frame.disparity(distance, WIDTH));
+    for (wanted, got) in wanted.iter().zip([frame.px[0], frame.px[2]]) {
+        assert!((wanted - got).abs() < 2e-3, "{how}: {wanted} in {frame:?}");
     }
 }
 
@@ -120,11 +125,7 @@ fn distances_are_those_that_are_drawn() {
         let untold = u64::from(how == "apart");
         assert_eq!(frames.len() as u64, FRAMES - untold, "{how}");
         for frame in &frames[1..] {
-            let near = (4.0 + frame.frame as f64 * 0.5).min(10.0);
-            let wanted = [near, 40.0].map(|distance| frame.disparity(distance, WIDTH));
-            for (wanted, got) in wanted.iter().zip([frame.px[0], frame.px[2]]) {
-                assert!((wanted - got).abs() < 2e-3, "{how}: {wanted} in {frame:?}");
-            }
+            shows_the_walls(frame, how);
             assert!(
                 frame.px.iter().all(|px| px.abs() <= BUDGET) && frame.px[2] > 0.2 * BUDGET,
                 "{how}: {frame:?}"

@@ -177,6 +177,9 @@ impl Answer<'_> {
             SubpixelOrder::Rgb => SubpixelOrder::Bgr,
             SubpixelOrder::Bgr => SubpixelOrder::Rgb,
         };
+        if !self.layout.tells_colours() {
+            return (given, false);
+        }
         match beside > 1.0 {
             true => (other, (beside - 2.0).abs() <= OTHER),
             false => (given, beside.abs() <= GIVEN),
@@ -225,15 +228,14 @@ impl Answer<'_> {
             );
         }
         // On a sheet of great slant, pixels that are turned look nearly like a row of red, green and blue, or of blue, green and red.
-        if !fit.order_measured && !self.setup.colours {
+        let tells_colours = self.layout.tells_colours();
+        if tells_colours && !fit.order_measured && !self.setup.colours {
             doubts.push(format!(
                 "red and blue lie {:.1} subpixels beside their places in a row of red, green and blue, as where pixels are turned by 90 degrees; measure where they lie, with --colours",
                 self.beside().abs()
             ));
         }
-        // Each colour's pixels are seen in turn along a lens; their beat must be finer than the fringes.
-        let beat = self.setup.slant.abs() * self.layout.size.y / 3.0;
-        if self.setup.colours && beat < 2.0 * self.layout.carrier {
+        if self.setup.colours && !tells_colours {
             doubts.push(
                 "the lenses are too upright to tell the colours apart; leave out --colours".into(),
             );

@@ -117,7 +117,8 @@ pub(super) fn measure(
     }
     let beside = beside(found.iter().map(|(_, waves, _)| *waves), layout.across);
     // Where each colour really is, so that all add up.
-    let red = turn(if beside > 1.0 { layout.across } else { 0.0 });
+    let other = layout.tells_colours() && beside > 1.0;
+    let red = turn(if other { layout.across } else { 0.0 });
     let blue = conjugate(red);
     let found = found.into_iter().map(|(centre, [r, g, b], place)| {
         let waves = [r.rotate(red), g, b.rotate(blue)];

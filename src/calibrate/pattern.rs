@@ -110,6 +110,11 @@ impl Layout {
         }
     }
 
+    /// Whether photos tell the colours apart: along a lens the pixels of each colour are seen in turn, and their beat has to be finer than the fringes.
+    pub(super) fn tells_colours(&self) -> bool {
+        self.slant.abs() * self.size.y / 3.0 >= 2.0 * self.carrier
+    }
+
     /// Phase of the nominal lens at a point, turns.
     pub(super) fn nominal(&self, p: DVec2) -> f64 {
         (3.0 * p.x - 0.5 + self.slant * (p.y - 0.5)) / self.pitch

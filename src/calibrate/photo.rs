@@ -108,12 +108,6 @@ impl Photo {
         self
     }
 
-    /// The file.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
     /// Half of the diagonal, pixels.
     pub(super) fn half(&self) -> f64 {
         f64::from(self.width).hypot(f64::from(self.height)) / 2.0

@@ -133,9 +133,11 @@ fn fit(arguments: &FitArguments) -> Outcome {
     if let Some(picture) = &arguments.picture {
         writable("the picture of the fit", picture)?;
     }
-    let (photos, sightings) = sightings(arguments, &setup)?;
+    let (paths, sightings) = sightings(arguments, &setup)?;
     let fit = calibrate::fit(&setup, &sightings)?;
     if let Some(path) = &arguments.picture {
+        let photos = paths.iter().map(|path| photo(arguments, path));
+        let photos: Vec<Photo> = photos.collect::<Result<_, _>>()?;
         let picture = fit.picture(&photos, &sightings, (setup.width, setup.height));
         write_png("the picture of the fit", &picture, path)?;
         tell(&format_args!("wrote {}", path.display()));
@@ -156,22 +158,26 @@ fn fit(arguments: &FitArguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The photos that are used, and what is measured in each. Of many photos some may be spoilt: those are told and left out.
+/// A photo from a file, with the focal length that is given.
+fn photo(arguments: &FitArguments, path: &Path) -> Result<Photo, CalibrateError> {
+    Photo::load(path).map(|photo| photo.with_equivalent(arguments.setup.focal))
+}
+
+/// The photos that are used, and what is measured in each. Of many photos some may be spoilt: those are told and left out. A photo takes 50 MB, so
+/// none stays in memory.
 fn sightings(
     arguments: &FitArguments,
     setup: &Setup,
-) -> Result<(Vec<Photo>, Vec<Sighting>), CommandError> {
+) -> Result<(Vec<PathBuf>, Vec<Sighting>), CommandError> {
     let many = arguments.photos.len() > calibrate::MOST;
     let bar = bar(arguments.photos.len() as u64);
-    let (mut photos, mut sightings) = (Vec::new(), Vec::new());
+    let (mut paths, mut sightings) = (Vec::new(), Vec::new());
     for (number, path) in arguments.photos.iter().enumerate() {
         bar.set_message(path.display().to_string());
-        let photo = Photo::load(path).map(|photo| photo.with_equivalent(arguments.setup.focal));
-        let seen = photo.and_then(|photo| Ok((Sighting::new(&photo, setup)?, photo)));
-        match seen {
-            Ok((sighting, photo)) => {
+        match photo(arguments, path).and_then(|photo| Sighting::new(&photo, setup)) {
+            Ok(sighting) => {
                 sightings.push(sighting);
-                photos.push(photo);
+                paths.push(path.clone());
             }
             Err(error) if many && number > 0 => {
                 bar.suspend(|| tell(&format_args!("left out: {error}")));
@@ -181,27 +187,16 @@ fn sightings(
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let chosen = calibrate::choose(&sightings);
-    if chosen.len() < sightings.len() {
-        let names: Vec<String> = chosen
-            .iter()
-            .filter_map(|index| photos.get(*index))
-            .map(|photo| photo.name().to_owned())
-            .collect();
-        tell(&format_args!(
-            "of {} photos, {} are used: {}",
-            sightings.len(),
-            chosen.len(),
-            names.join(", ")
-        ));
+    let (all, chosen) = (sightings.len(), calibrate::choose(&sightings));
+    let seen = paths.into_iter().zip(sightings).enumerate();
+    let used = seen.filter(|(index, _)| chosen.contains(index));
+    let (paths, sightings): (Vec<_>, Vec<_>) = used.map(|(_, both)| both).unzip();
+    if sightings.len() < all {
+        let names: Vec<String> = paths.iter().map(|p| p.display().to_string()).collect();
+        let (count, names) = (paths.len(), names.join(", "));
+        tell(&format_args!("of {all} photos, {count} are used: {names}"));
     }
-    let pick = |index: &usize| chosen.contains(index);
-    let photos = photos.into_iter().enumerate().filter(|(i, _)| pick(i));
-    let sightings = sightings.into_iter().enumerate().filter(|(i, _)| pick(i));
-    Ok((
-        photos.map(|(_, photo)| photo).collect(),
-        sightings.map(|(_, sighting)| sighting).collect(),
-    ))
+    Ok((paths, sightings))
 }
 
 impl PanelArguments {

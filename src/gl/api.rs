@@ -454,11 +454,16 @@ impl Gl {
 
     /// glGetFramebufferAttachmentParameteriv of the draw framebuffer.
     pub fn attachment_parameter(&self, attachment: u32, name: u32) -> i32 {
+        self.attachment_parameter_of(super::consts::DRAW_FRAMEBUFFER, attachment, name)
+    }
+
+    /// glGetFramebufferAttachmentParameteriv
+    pub(super) fn attachment_parameter_of(&self, target: u32, attachment: u32, name: u32) -> i32 {
         let mut v = 0i32;
         // SAFETY: one integer.
         unsafe {
             self.real.glGetFramebufferAttachmentParameteriv(
-                super::consts::DRAW_FRAMEBUFFER,
+                target,
                 attachment,
                 name,
                 (&raw mut v).cast(),

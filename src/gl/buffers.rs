@@ -18,6 +18,16 @@ pub enum DepthKind {
     Integers,
 }
 
+impl DepthKind {
+    /// The type that glReadPixels has for it.
+    pub(super) fn name(self) -> u32 {
+        match self {
+            Self::Floats => c::FLOAT,
+            Self::Integers => c::UNSIGNED_INT,
+        }
+    }
+}
+
 impl Gl {
     /// glFenceSync; none where the context has no sync objects.
     pub fn fence(&self) -> Option<Fence> {
@@ -58,21 +68,14 @@ impl Gl {
     /// glReadPixels of depth into the bound pack buffer, from a byte on, without gaps; says of which kind they are. The driver refuses what does
     /// not fit.
     pub fn read_depth_to_buffer(&self, _: &PixelStore, w: i32, h: i32, at: usize) -> DepthKind {
-        let kind = match self.depths_are_integers() {
-            true => DepthKind::Integers,
-            false => DepthKind::Floats,
-        };
+        let kind = self.depth_kind(DepthKind::Floats);
         if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 || !self.reads_depths() {
             return kind;
         }
-        let name = match kind {
-            DepthKind::Integers => c::UNSIGNED_INT,
-            DepthKind::Floats => c::FLOAT,
-        };
         // SAFETY: a pack buffer is bound (asked above), so the pointer is an offset into it, which the driver checks.
         unsafe {
             self.real
-                .glReadPixels(0, 0, w, h, c::DEPTH_COMPONENT, name, at as Ptr)
+                .glReadPixels(0, 0, w, h, c::DEPTH_COMPONENT, kind.name(), at as Ptr)
         };
         kind
     }

@@ -1,7 +1,7 @@
 //! The layer's calls that read and draw pixels.
 
 use super::consts as c;
-use super::{Gl, PixelStore, Ptr};
+use super::{DepthKind, Gl, PixelStore, Ptr};
 
 impl Gl {
     /// glReadPixels of RGB bytes, rows bottom up.
@@ -94,30 +94,24 @@ impl Gl {
         !self.is_es() || self.has_extension("GL_NV_read_depth")
     }
 
-    /// Whether the framebuffer that is bound for reading gives its depths as integers alone: OpenGL ES reads floats of a buffer of floats,
-    /// and nothing else of it (GL_NV_read_depth).
-    pub(super) fn depths_are_integers(&self) -> bool {
+    /// As what depths of the framebuffer that is bound for reading can be read: desktop OpenGL converts them to what is wanted, OpenGL ES reads
+    /// floats of a buffer of floats, integers of others, and nothing else (GL_NV_read_depth).
+    pub(super) fn depth_kind(&self, wanted: DepthKind) -> DepthKind {
         if !self.is_es() {
-            return false;
+            return wanted;
         }
-        if !self.since((3, 0), Some((3, 0))) {
-            return true;
+        if self.version() < (3, 0) {
+            return DepthKind::Integers;
         }
         let attachment = match self.get_integer(c::READ_FRAMEBUFFER_BINDING) {
             0 => c::DEPTH,
             _ => c::DEPTH_ATTACHMENT,
         };
-        let mut kind = 0i32;
-        // SAFETY: one integer.
-        unsafe {
-            self.real.glGetFramebufferAttachmentParameteriv(
-                c::READ_FRAMEBUFFER,
-                attachment,
-                c::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE,
-                (&raw mut kind).cast(),
-            )
-        };
-        kind as u32 != c::FLOAT
+        let name = c::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE;
+        match self.attachment_parameter_of(c::READ_FRAMEBUFFER, attachment, name) as u32 {
+            c::FLOAT => DepthKind::Floats,
+            _ => DepthKind::Integers,
+        }
     }
 
     /// glReadPixels of depth as 16 bits, rows bottom up, 0 where [`Gl::reads_depths`] says no.
@@ -136,13 +130,12 @@ impl Gl {
         if !self.reads_depths() {
             return out;
         }
-        let floats = self.is_es() && !self.depths_are_integers();
-        let kind = if floats { c::FLOAT } else { c::UNSIGNED_INT };
+        let kind = self.depth_kind(DepthKind::Integers);
         let ([w, h], format) = ([w, h].map(|side| side as i32), c::DEPTH_COMPONENT);
         let at = out.as_mut_ptr().cast();
         // SAFETY: w·h texels of 4 bytes, without gaps, in no buffer (`PixelStore`).
-        unsafe { self.real.glReadPixels(x, y, w, h, format, kind, at) };
-        if floats {
+        unsafe { self.real.glReadPixels(x, y, w, h, format, kind.name(), at) };
+        if kind == DepthKind::Floats {
             for depth in &mut out {
                 let part = f64::from(f32::from_bits(*depth)).clamp(0.0, 1.0);
                 *depth = (part * f64::from(u32::MAX)).round() as u32;

@@ -175,6 +175,7 @@ impl Layer {
             self.state.keep_errors(gl);
             let (names, window) = (&mut self.targets.names, &self.state.window);
             keep_bindings(gl, || self.targets.atlas.make_depths(gl, names, window));
+            self.refuse_depths_of_errors(gl);
         }
         let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
         let taken = match framebuffer.is_zero() {
@@ -184,11 +185,8 @@ impl Layer {
             }
             false => self.take_depths_of(gl, neutral, framebuffer),
         };
-        if first && gl.drop_errors() > 0 {
-            self.targets.atlas.refuse_depths();
-            let why = "disparities are not measured: the driver makes no picture of the depths";
-            self.diagnostics.report.note(why.into());
-            return;
+        if first {
+            self.refuse_depths_of_errors(gl);
         }
         if taken {
             let mappings = self.cameras.comfort.mappings.clone();
@@ -207,6 +205,15 @@ impl Layer {
         }
     }
 
+    /// Takes no depths any more where the layer's calls have brought errors, which the program does not see.
+    fn refuse_depths_of_errors(&mut self, gl: &Gl) {
+        if gl.drop_errors() > 0 {
+            self.targets.atlas.refuse_depths();
+            let why = "disparities are not measured: the driver makes no picture of the depths";
+            self.diagnostics.report.note(why.into());
+        }
+    }
+
     /// Takes the depths of a framebuffer of the program's.
     fn take_depths_of(&mut self, gl: &Gl, neutral: &Neutral, framebuffer: FramebufferName) -> bool {
         let offscreen = &mut self.targets.offscreen;
@@ -214,6 +221,7 @@ impl Layer {
         if first {
             self.state.keep_errors(gl);
             offscreen.make_depths(gl, framebuffer);
+            gl.drop_errors();
         }
         let small = offscreen.shrink_depths(gl, framebuffer, self.known.depths.area);
         let taken = small.is_some_and(|(small, size)| {

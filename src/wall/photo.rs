@@ -37,7 +37,7 @@ pub(super) struct Seen {
 }
 
 impl Sighting {
-    /// Looks for tags in a JPEG or PNG file, which is turned upright as its EXIF data says.
+    /// Looks for tags in a JPEG, PNG or HEIC file, which is turned upright as it says.
     ///
     /// # Errors
     /// It cannot be read, or shows no tag of the wall.
