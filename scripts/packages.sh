@@ -9,8 +9,15 @@ set -eu
 
 say() { echo "packages: $*" >&2; }
 
+native=$(dpkg --print-architecture 2>/dev/null || true)
+
+# A name without an architecture means the machine's own, or a package for all of them. dpkg-query has a line for each architecture that is there.
 installed() {
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+    case $1 in
+        *:*) wanted=${1##*:} ;;
+        *) wanted="$native|all" ;;
+    esac
+    dpkg-query -W -f='${Architecture} ${db:Status-Status}\n' "$1" 2>/dev/null | grep -qxE "($wanted) installed"
 }
 
 # Prints those of its arguments that are not installed.

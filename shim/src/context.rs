@@ -433,7 +433,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
                 panel::after(l);
             }
             if let Some(f) = &mut work.frames {
-                f.show(gl);
+                f.show(gl, drawable.is_none());
             }
         });
     }
@@ -526,10 +526,19 @@ pub(crate) fn is_drawn() -> bool {
     enter(|_, l| l.drawn()) == Some(true)
 }
 
+fn shows_on_flush() -> bool {
+    let observed = with_context(|gl, _, work| {
+        work.frames
+            .as_ref()
+            .is_some_and(|frames| frames.shows_on_flush(gl))
+    });
+    observed == Some(true) || enter(|_, l| l.shows_on_flush()) == Some(true)
+}
+
 /// Makes a call that flushes, which shows what was drawn to the front buffer, or to the only one.
 pub(crate) fn show_flushed<R>(call: impl FnOnce() -> R) -> R {
     write_back_shared();
-    match !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
+    match !draws_to_memory() && shows_on_flush() {
         true => frame(None, call),
         false => guarded(call),
     }

@@ -138,7 +138,7 @@ pub(crate) fn turn_on() {
 }
 
 /// The commands that [`Mode::Observe`] hooks.
-const OBSERVED: [usize; 17] = [
+const OBSERVED: [usize; 18] = [
     slot::glXSwapBuffers,
     slot::glXSwapBuffersMscOML,
     slot::glXMakeCurrent,
@@ -156,6 +156,7 @@ const OBSERVED: [usize; 17] = [
     slot::OSMesaMakeCurrent,
     slot::OSMesaDestroyContext,
     slot::glFinish,
+    slot::glFlush,
 ];
 
 /// Whether a slot leads to our hook in this process.

@@ -1,10 +1,11 @@
 //! One view: the program draws it itself; frames are only counted and captured.
 
+use super::passes::HIDDEN;
 use crate::config::{CaptureWhat, Config};
 use crate::gl::{FramebufferName, Gl, consts as c};
 use crate::present::capture;
 use crate::report::Report;
-use crate::state::Neutral;
+use crate::state::{Neutral, is_front};
 
 /// Counts and captures of a context with one view.
 #[derive(Debug)]
@@ -31,8 +32,19 @@ impl Frames {
         (self.width, self.height) = (width, height);
     }
 
-    /// Captures the frame if it is wanted.
-    pub fn show(&mut self, gl: &Gl) {
+    /// Whether a flush shows what was drawn: it went to the front buffer, or there is no other. Draws are not watched, so a program that flushes twice
+    /// after them shows two frames.
+    pub fn shows_on_flush(&self, gl: &Gl) -> bool {
+        // Windows of OpenGL ES are shown by a swap.
+        if gl.is_es() || self.width.max(self.height) <= HIDDEN {
+            return false;
+        }
+        let window = gl.version() < (3, 0) || gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) == 0;
+        window && is_front(gl.get_integer(c::DRAW_BUFFER) as u32)
+    }
+
+    /// Captures the frame if it is wanted, from the front buffer where it is shown by a flush.
+    pub fn show(&mut self, gl: &Gl, flushed: bool) {
         let frame = self.report.frames() + 1;
         let Some(wanted) = self
             .config
@@ -53,6 +65,10 @@ impl Frames {
         if !read.is_zero() {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, FramebufferName::ZERO);
         }
+        let buffer = flushed.then(|| gl.get_integer(c::READ_BUFFER) as u32);
+        if buffer.is_some() {
+            gl.read_buffer(c::FRONT);
+        }
         let claims = &mut self.report.claims;
         let path = claims.path(self.config, &wanted.out, wanted.path_for(frame));
         let written = match wanted.what {
@@ -67,6 +83,9 @@ impl Frames {
         };
         if let Err(e) = written {
             self.report.note(format!("capture of frame {frame}: {e}"));
+        }
+        if let Some(buffer) = buffer {
+            gl.read_buffer(buffer);
         }
         if !read.is_zero() {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);

@@ -15,7 +15,7 @@ use crate::state::{Touch, uniform_change};
 use std::sync::Arc;
 
 /// Longer side, in pixels, up to which a window is taken as one that nobody looks at.
-const HIDDEN: u32 = 16;
+pub(super) const HIDDEN: u32 = 16;
 
 impl Layer {
     /// The target of a draw. If it is a pass whose camera may be the window's, also A of that camera (see [`crate::plan::parallax`]). The

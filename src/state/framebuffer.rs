@@ -56,6 +56,11 @@ const BITS: [u32; 6] = [
 ];
 
 /// The sizes that [`BITS`] names. A core profile has these of its attachments alone (OpenGL 3.2, E.2.2); Mesa's tells both.
+/// Whether a draw buffer of a window is its front buffer, alone or with others.
+pub(crate) fn is_front(buffer: u32) -> bool {
+    [c::FRONT, c::FRONT_LEFT, c::LEFT, c::FRONT_AND_BACK].contains(&buffer)
+}
+
 fn attached_bits(gl: &Gl, color: u32) -> [u32; 6] {
     let size = |(attachment, name)| match gl
         .attachment_parameter(attachment, c::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE)
@@ -285,9 +290,8 @@ impl Framebuffers {
 
     /// Whether the program draws to the front buffer, so that a flush must show it.
     pub fn draws_front(&self) -> bool {
-        let front = [c::FRONT, c::FRONT_LEFT, c::LEFT, c::FRONT_AND_BACK];
         // What is drawn to the front of such a window is shown at the swap.
-        !self.has_eyes() && self.draw_buffers.iter().any(|b| front.contains(b))
+        !self.has_eyes() && self.draw_buffers.iter().any(|&b| is_front(b))
     }
 
     /// Reads the draw buffer again: glPopAttrib may have restored another one of the atlas.

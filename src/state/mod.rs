@@ -17,6 +17,7 @@ mod uniform_buffers;
 pub use classification::ClassificationState;
 pub use effect::{Effect, Immediate};
 pub use eyes::{are_eyes_given, give_eyes};
+pub(crate) use framebuffer::is_front;
 pub use framebuffer::{BACK, Buffers, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Lists, Orphans, Run, Segment, Start};
 pub use neutral::Neutral;
