@@ -48,10 +48,8 @@ fn frames_of_one_view_are_shown_at_a_flush() {
     for buffers in ["double", "single"] {
         let frames = ["1", "3"].map(|views| {
             let mut command = manyview();
-            command.args([
-                "capture", "--frame", "1", "--views", views, "--what", "view:0", "--out",
-            ]);
-            command.arg(&picture).arg("--report").arg(&report);
+            command.args(["capture", "--frame", "1", "--views", views]);
+            command.args(["--what", "view:0", "--out"]).arg(&picture);
             command.arg("--").arg(&program).arg(buffers);
             succeed(screen.give(&mut command));
             let picture = rgb(&picture);
@@ -61,6 +59,11 @@ fn frames_of_one_view_are_shown_at_a_flush() {
                 [[0, 0, 255], [0, 255, 0]],
                 "{buffers}, {views} views"
             );
+            let options = [
+                ("VIEWS", views),
+                ("REPORT", report.to_str().expect("UTF-8")),
+            ];
+            succeed(screen.give(layered(&program, &options).arg(buffers)));
             let text = std::fs::read_to_string(&report).expect("a report");
             let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
             report["frames"].clone()
