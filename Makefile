@@ -205,7 +205,7 @@ looks-strategies: packages build ## play them under each strategy, the only opti
 	$(CARGO) test --release --test all -- looks::looks_are_right --ignored --nocapture
 
 calibration: ## fit photos of simulated displays and compare with the truth; writes docs/calibrated.md (an hour)
-	$(CARGO) test --release --test all -- calibrate_glass::full_ --ignored --nocapture --test-threads 1
+	$(CARGO) test --release --test all -- calibrate_glass::full_ calibrate_rough::full_ --ignored --nocapture --test-threads 1
 
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak
 	$(CARGO) test --release --test all -- soak::soak_ --ignored --nocapture

@@ -9,7 +9,7 @@ use crate::optics::photograph_jpeg;
 use crate::optics::random::Random;
 use crate::optics::scenario::{ALL, First, Scenario, Taking, scenario};
 use image::RgbImage;
-use manyview::calibrate::{Fit, Photo, Setup, Sighting, fit, pattern};
+use manyview::calibrate::{Beats, Fit, Photo, Setup, Sighting, fit, pattern, rough, rough_pattern};
 use manyview::display::SubpixelOrder;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -260,6 +260,54 @@ fn a_pattern_that_is_not_shown_pixel_for_pixel_is_noticed() {
     }
 }
 
+/// Seconds that this thread has had a processor.
+fn processor_time() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux");
+    let nanoseconds = text.split_whitespace().next().expect("a number");
+    nanoseconds.parse::<f64>().expect("a number") * 1e-9
+}
+
+/// A UHD panel in photos of 12 Mpx: reading and measuring them, and the fit, in seconds of processor time a photo.
+#[test]
+#[ignore = "nothing else may run: make calibration"]
+fn full_calibrate_glass_takes_two_seconds_a_photo() {
+    const MOST: f64 = 2.0;
+    let scenario = scenario("ordinary", &display(0), Taking::new(0)).expect("a name");
+    let panel = &scenario.display.panel;
+    let size = (panel.columns as u32, panel.rows as u32);
+    assert_eq!(size, (3840, 2160));
+    let files = |picture: RgbImage| {
+        let shown = scenario.showing.apply(panel, &picture);
+        let shots = scenario.shots.iter();
+        let files =
+            shots.map(|shot| photograph_jpeg(&scenario.display, &shown, shot).expect("a file"));
+        files.collect::<Vec<Vec<u8>>>()
+    };
+    let setup = setup(&scenario.display, First::Seat);
+    let photos = files(pattern(&setup).expect("a pattern"));
+    let begin = processor_time();
+    let sightings = photos.iter().map(|file| {
+        let photo = Photo::decode("photo", file)?;
+        Sighting::new(&photo, &setup)
+    });
+    let sightings: Vec<Sighting> = sightings.collect::<Result<_, _>>().expect("clear photos");
+    let seen = processor_time();
+    fit(&setup, &sightings).expect("a fit");
+    let end = processor_time();
+    let gratings = files(rough_pattern(size).expect("a pattern")).remove(0);
+    let rough_begin = processor_time();
+    let photo = Photo::decode_fine("gratings", &gratings).expect("a photo");
+    let beats = Beats::new(&photo, size).expect("beats");
+    rough(&[beats]).expect("a sheet");
+    let rough = processor_time() - rough_begin;
+    let count = photos.len() as f64;
+    let (measured, fitted) = ((seen - begin) / count, (end - seen) / count);
+    println!(
+        "a photo of 12 Mpx: {measured:.2} s to read and measure, {fitted:.2} s of the fit; one of gratings {rough:.2} s"
+    );
+    assert!(measured + fitted < MOST && rough < MOST);
+}
+
 /// Displays of the long test, and seeds of each scenario.
 const DISPLAYS: u64 = 200;
 const SEEDS: u64 = 10;
@@ -341,7 +389,7 @@ fn study(case: Case, displays: u64) -> Vec<Row> {
 }
 
 /// Writes a part of docs/calibrated.md, between lines that name it.
-fn write(name: &str, table: &str) {
+pub(crate) fn write(name: &str, table: &str) {
     let path = "docs/calibrated.md";
     let text = std::fs::read_to_string(path).expect("the page");
     let (begin, end) = (

@@ -262,7 +262,9 @@ fn the_commands_of_the_documents_are_accepted() {
             std::fs::write(folder.path().join(name), block).expect("written");
         }
     }
-    // The picture that an earlier command of the documents writes.
+    // The files that earlier commands of the documents write.
+    let rough = Display::named("slanted8").expect("a display").to_toml();
+    std::fs::write(folder.path().join("rough.toml"), rough.expect("a text")).expect("written");
     let panel = image::RgbImage::new(96, 54);
     panel.save(folder.path().join("panel.png")).expect("saved");
     let quilt = folder.path().join("scene_qs4x2a1.png");

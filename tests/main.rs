@@ -9,6 +9,8 @@ mod both;
 mod budget;
 mod calibrate;
 mod calibrate_glass;
+mod calibrate_page;
+mod calibrate_rough;
 mod cases;
 mod classes;
 mod cli;

@@ -2,10 +2,10 @@
 #![forbid(unsafe_code)]
 
 use super::Setup;
+use super::bench::FOCAL_SPREAD;
 use super::fringes::{BLOCKS, wrap};
 use super::mask::{Mask, Viewers};
 use super::sheet::Sheet;
-use super::sighting::FOCAL_SPREAD;
 use super::solve::{Problem, Solution};
 use glam::DVec2;
 use nalgebra::DMatrix;
@@ -59,7 +59,7 @@ impl<'a> Certainty<'a> {
     ) -> Option<Self> {
         let blocks = (0..BLOCKS).flat_map(|row| (0..BLOCKS).map(move |column| (column, row)));
         let places = blocks.map(|(column, row)| {
-            DVec2::new(column as f64, row as f64) / (BLOCKS - 1) as f64 * viewers.layout.size
+            DVec2::new(column as f64, row as f64) / (BLOCKS - 1) as f64 * viewers.layout.frame.size
         });
         let places: Vec<DVec2> = places.collect();
         let at = &solution.minimum.at;

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::Photo;
-use super::pattern::{FRAME, Layout};
+use super::frame::{FRAME, Frame};
 use glam::DVec2;
 
 /// Places along each line.
@@ -29,27 +29,27 @@ pub(super) struct EdgePoint {
 
 impl EdgePoint {
     /// How far a point of the panel is inside of this edge, panel pixels.
-    pub(super) fn miss(&self, layout: &Layout, p: DVec2) -> f64 {
+    pub(super) fn miss(&self, frame: &Frame, p: DVec2) -> f64 {
         let depth = match self.side {
             0 => p.y,
-            1 => layout.size.x - p.x,
-            2 => layout.size.y - p.y,
+            1 => frame.size.x - p.x,
+            2 => frame.size.y - p.y,
             _ => p.x,
         };
-        depth - (FRAME + self.line as f64) * layout.band
+        depth - (FRAME + self.line as f64) * frame.band
     }
 }
 
 /// Edge points near where `project` (panel to picture) expects them.
 pub(super) fn edges(
     photo: &Photo,
-    layout: &Layout,
+    frame: &Frame,
     project: impl Fn(DVec2) -> Option<DVec2>,
 ) -> Vec<EdgePoint> {
     let mut found = Vec::new();
     for (side, line) in (0..4).flat_map(|side| [(side, 0), (side, 1)]) {
         for place in 0..ALONG {
-            let point = edge(photo, layout, &project, side, line, place);
+            let point = edge(photo, frame, &project, side, line, place);
             found.extend(point.map(|pixel| EdgePoint {
                 pixel,
                 side,
@@ -67,7 +67,7 @@ pub(super) const POINTS: usize = 8 * ALONG;
 /// The step is where the area under the profile puts it: symmetric blur does not move it.
 fn edge(
     photo: &Photo,
-    layout: &Layout,
+    frame: &Frame,
     project: &impl Fn(DVec2) -> Option<DVec2>,
     side: usize,
     line: usize,
@@ -80,7 +80,7 @@ fn edge(
         let depth = FRAME + line as f64 + REACH * (2.0 * i as f64 / (ACROSS - 1) as f64 - 1.0);
         for j in 0..MEAN {
             let part = start + width * (j as f64 + 0.5) / MEAN as f64;
-            *value += photo.grey(project(layout.along(side, part, depth))?)? / MEAN as f64;
+            *value += photo.grey(project(frame.along(side, part, depth))?)? / MEAN as f64;
         }
     }
     let end = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -102,6 +102,6 @@ fn edge(
                 - 0.5 * (profile[0] - inner) / (outer - inner)
                 - 0.5 * (profile[ACROSS - 1] - inner) / (outer - inner));
     (depth.abs() < 0.8 * REACH)
-        .then(|| project(layout.along(side, start + width / 2.0, FRAME + line as f64 + depth)))
+        .then(|| project(frame.along(side, start + width / 2.0, FRAME + line as f64 + depth)))
         .flatten()
 }

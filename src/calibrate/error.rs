@@ -121,6 +121,22 @@ pub enum CalibrateError {
         /// Of the setup.
         expected: u16,
     },
+    /// The gratings, where another pattern belongs.
+    #[error(
+        "photo `{photo}` shows the gratings for a panel whose pitch is not known; leave out --pitch and --display, or show the pattern made with them"
+    )]
+    Gratings {
+        /// The file.
+        photo: String,
+    },
+    /// No gratings, or those of another panel.
+    #[error(
+        "photo `{photo}` shows another pattern than the gratings for a panel of this size; give the --display or --pitch that its pattern was made with, or take a sharper photo"
+    )]
+    NoGratings {
+        /// The file.
+        photo: String,
+    },
     /// The picture was resampled on its way to the pixels.
     #[error(
         "photo `{photo}`: the pattern was shown scaled, its finest rows are blurred; show it with `manyview calibrate show`, or full screen at 100 %, at the panel's own \
@@ -203,6 +219,15 @@ pub enum CalibrateError {
     )]
     Outside {
         /// The file.
+        photo: String,
+    },
+    /// Gratings without beats of one sheet.
+    #[error(
+        "photo `{photo}`: no single lens sheet explains what is seen of the gratings; take a sharp photo straight from the front that the panel fills, or another one beside it, \
+         or give --pitch and --slant"
+    )]
+    NoSheet {
+        /// The first file.
         photo: String,
     },
     /// The fit did not come to rest.

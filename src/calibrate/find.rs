@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::camera::{homography, mapped};
-use super::pattern::{FRAME, IN_FRAME, IN_RING, Layout, PLACES};
+use super::frame::{FRAME, Frame, IN_FRAME, IN_RING, PLACES};
 use super::{CalibrateError, Photo};
 use glam::{DMat3, DVec2};
 
@@ -16,7 +16,7 @@ const SMALLEST: f64 = 0.2;
 const PROBES: [f64; 8] = [0.07, 0.08, 0.09, 0.22, 0.78, 0.91, 0.92, 0.93];
 
 /// The map from the panel to the picture, straight and good to a few pixels.
-pub(super) fn find(photo: &Photo, layout: &Layout) -> Result<DMat3, CalibrateError> {
+pub(super) fn find(photo: &Photo, frame: &Frame) -> Result<DMat3, CalibrateError> {
     let pool = photo.width.max(photo.height).div_ceil(SEARCHED).max(1);
     let (grey, width, height) = photo.small(pool);
     let picture = Small::new(grey, width, height);
@@ -31,7 +31,7 @@ pub(super) fn find(photo: &Photo, layout: &Layout) -> Result<DMat3, CalibrateErr
     let mut mirrored = false;
     for part in THRESHOLDS {
         for quad in picture.quads(dark + part * (bright - dark)) {
-            match picture.turned(quad, layout) {
+            match picture.turned(quad, frame) {
                 Some(Turned::Upright(map)) => {
                     let pool = f64::from(pool);
                     return Ok(DMat3::from_diagonal(DVec2::splat(pool).extend(1.0)) * map);
@@ -170,13 +170,13 @@ impl Small {
     }
 
     /// Which corner is the top left one; None when this is not the pattern.
-    fn turned(&self, quad: [DVec2; 4], layout: &Layout) -> Option<Turned> {
-        let a = DVec2::splat(FRAME * layout.band);
-        let b = layout.size - a;
-        let frame = [a, DVec2::new(b.x, a.y), b, DVec2::new(a.x, b.y)];
+    fn turned(&self, quad: [DVec2; 4], frame: &Frame) -> Option<Turned> {
+        let a = DVec2::splat(FRAME * frame.band);
+        let b = frame.size - a;
+        let outer = [a, DVec2::new(b.x, a.y), b, DVec2::new(a.x, b.y)];
         (0..4).find_map(|turn| {
             let corners = [0, 1, 2, 3].map(|i| quad[(i + turn) % 4]);
-            let map = homography(frame, corners)?;
+            let map = homography(outer, corners)?;
             let mean = |points: &mut dyn Iterator<Item = DVec2>| {
                 let (mut sum, mut count) = (0.0, 0.0);
                 for point in points {
@@ -187,15 +187,15 @@ impl Small {
             };
             let mut level = 0.0;
             for side in 0..4 {
-                let at = |depth| mean(&mut PROBES.iter().map(|&t| layout.along(side, t, depth)));
-                let (frame, ring) = (at(IN_FRAME)?, at(IN_RING)?);
-                if ring > 0.6 * frame {
+                let at = |depth| mean(&mut PROBES.iter().map(|&t| frame.along(side, t, depth)));
+                let (white, ring) = (at(IN_FRAME)?, at(IN_RING)?);
+                if ring > 0.6 * white {
                     return None;
                 }
-                level += (frame + ring) / 8.0;
+                level += (white + ring) / 8.0;
             }
             // Vignetting makes each place its own judge as little as possible: only one may be above the level.
-            let mut bright = PLACES.map(|place| mean(&mut layout.place(place)));
+            let mut bright = PLACES.map(|place| mean(&mut frame.place(place)));
             bright.sort_by(|a, b| b.partial_cmp(a).unwrap_or(std::cmp::Ordering::Equal));
             let [Some(first), Some(second), ..] = bright else {
                 return None;
@@ -205,7 +205,7 @@ impl Small {
             }
             match PLACES
                 .iter()
-                .position(|&place| mean(&mut layout.place(place)) == Some(first))
+                .position(|&place| mean(&mut frame.place(place)) == Some(first))
             {
                 Some(0) => Some(Turned::Upright(map)),
                 // A mirrored panel has its mark at the end of a side, whichever is on top.

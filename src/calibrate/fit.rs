@@ -116,7 +116,7 @@ impl Answer<'_> {
     fn fit(&self) -> Option<Fit> {
         let views = f64::from(self.setup.views);
         let sheet = self.problem.sheet(&self.solution.minimum.at)?;
-        let size = self.layout.size;
+        let size = self.layout.frame.size;
         let mut misses = Vec::new();
         let mut cameras = Vec::new();
         for (photo, sighting) in self.sightings.iter().enumerate() {

@@ -2,7 +2,8 @@
 #![forbid(unsafe_code)]
 
 use super::camera::View;
-use super::pattern::{IN_FRAME, IN_RING, Layout, SWING};
+use super::levels::levels;
+use super::pattern::{Layout, SWING};
 use super::{CalibrateError, Photo};
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -82,7 +83,7 @@ pub(super) fn measure(
     view: View,
 ) -> Result<Fringes, CalibrateError> {
     let name = || photo.name.clone();
-    let s = layout.size;
+    let s = layout.frame.size;
     let side = |a: DVec2, b: DVec2| Some(view.to_picture(a)?.distance(view.to_picture(b)?));
     let middle = s / 2.0;
     let across = side(middle * DVec2::Y, DVec2::new(s.x, middle.y)).unwrap_or(0.0);
@@ -183,7 +184,7 @@ fn block_centre(field: &Field, column: usize, row: usize) -> DVec2 {
     field.origin + field.extent * DVec2::new(part(column), part(row))
 }
 
-/// The field as the camera sees it; the frame and the ring give white and black of each colour, so white balance is out.
+/// The field as the camera sees it.
 fn sample(
     photo: &Photo,
     layout: &Layout,
@@ -193,32 +194,10 @@ fn sample(
     let unclear = || CalibrateError::Edges {
         photo: photo.name.clone(),
     };
-    let mean = |depth: f64, parts: &[f64]| {
-        let mut sum = [0.0f32; 3];
-        let mut count = 0.0;
-        for (side, &part) in (0..4).flat_map(|side| parts.iter().map(move |part| (side, part))) {
-            let p = view.to_picture(layout.along(side, part, depth));
-            let rgb = p.and_then(|p| photo.at(p)).ok_or_else(unclear)?;
-            sum.iter_mut().zip(rgb).for_each(|(sum, v)| *sum += v);
-            count += 1.0;
-        }
-        Ok(sum.map(|sum| sum / count))
-    };
-    let parts = |from: f64, to: f64| (0..60).map(move |i| from + (to - from) * f64::from(i) / 59.0);
-    let frame: Vec<f64> = parts(0.08, 0.92).collect();
-    let ring: Vec<f64> = parts(0.21, 0.235).chain(parts(0.765, 0.79)).collect();
-    let mut white = [0.0f32; 3];
-    for depth in [-0.2, -0.1, 0.0, 0.1, 0.2] {
-        let one = mean(IN_FRAME + depth, &frame)?;
-        white.iter_mut().zip(one).for_each(|(w, v)| *w += v / 5.0);
-    }
-    let black = mean(IN_RING, &ring)?;
-    if white.iter().zip(black).any(|(w, b)| *w < 1.15 * b + 0.003) {
-        return Err(unclear());
-    }
-    let (from, to) = layout.field();
+    let levels = levels(photo, &layout.frame, view).ok_or_else(unclear)?;
+    let (from, to) = layout.frame.field();
     let extent = to - from;
-    let width = (across * extent.x / layout.size.x).clamp(*SAMPLES.start(), *SAMPLES.end());
+    let width = (across * extent.x / layout.frame.size.x).clamp(*SAMPLES.start(), *SAMPLES.end());
     let height = (width * extent.y / extent.x).round() as usize;
     let width = width.round() as usize;
     let mut values = Vec::with_capacity(width * height);
@@ -231,8 +210,7 @@ fn sample(
         let pixel = view.to_picture(from + extent * part).ok_or_else(unclear)?;
         let rgb = photo.at(pixel).ok_or_else(unclear)?;
         clipped += photo.clipped(pixel);
-        let [r, g, b] = [0, 1, 2].map(|c: usize| (rgb[c] - black[c]) / (white[c] - black[c]));
-        values.push([r, g, b]);
+        values.push(levels.of(rgb));
     }
     let part = clipped / (width * height) as f64;
     if part > MOST_CLIPPED {
@@ -330,7 +308,7 @@ fn peak(field: &Field, layout: &Layout) -> (DVec2, f64) {
     for ky in span(layout.carrier, layout.reach.y) {
         let mut columns = vec![DVec2::ZERO; width];
         for (y, row) in small.chunks_exact(width).enumerate() {
-            let wave = turns(ky, cell.y, layout.size.y, y);
+            let wave = turns(ky, cell.y, layout.frame.size.y, y);
             for (column, value) in columns.iter_mut().zip(row) {
                 *column += wave * *value;
             }
@@ -338,14 +316,14 @@ fn peak(field: &Field, layout: &Layout) -> (DVec2, f64) {
         for kx in span(0.0, layout.reach.x) {
             let waves = columns.iter().enumerate();
             let wave: Complex = waves
-                .map(|(x, column)| turns(kx, cell.x, layout.size.x, x).rotate(*column))
+                .map(|(x, column)| turns(kx, cell.x, layout.frame.size.x, x).rotate(*column))
                 .sum();
             powers.push((DVec2::new(kx, ky), wave.length()));
         }
     }
     let best = powers.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1));
     let (at, amplitude) = best.unwrap_or((DVec2::ZERO, 0.0));
-    let share = field.extent / layout.size;
+    let share = field.extent / layout.frame.size;
     let next = powers
         .iter()
         .filter(|(k, _)| ((*k - at) * share).abs().max_element() > 3.0)
@@ -359,7 +337,10 @@ fn refined(field: &Field, layout: &Layout, frequency: DVec2) -> DVec2 {
     (0..2).fold(frequency, |frequency, _| {
         // The mean turn from a block to the next, over columns and over rows.
         let wave = |column, row| {
-            field.demodulated(frequency / layout.size, block_centre(field, column, row))[1]
+            field.demodulated(
+                frequency / layout.frame.size,
+                block_centre(field, column, row),
+            )[1]
         };
         let waves: Vec<Vec<Complex>> = (0..BLOCKS)
             .map(|row| (0..BLOCKS).map(|column| wave(column, row)).collect())
@@ -375,7 +356,7 @@ fn refined(field: &Field, layout: &Layout, frequency: DVec2) -> DVec2 {
                 down += conjugate(*a).rotate(*b);
             }
         }
-        let pitch = field.extent * (1.0 - 2.0 * WINDOW) / (BLOCKS - 1) as f64 / layout.size;
+        let pitch = field.extent * (1.0 - 2.0 * WINDOW) / (BLOCKS - 1) as f64 / layout.frame.size;
         frequency + DVec2::new(argument(right), argument(down)) / pitch
     })
 }
@@ -387,13 +368,13 @@ mod tests {
 
     /// A wave on a slope, seen straight on.
     fn field(layout: &Layout, turns: DVec2, start: f64) -> Field {
-        let (from, to) = layout.field();
+        let (from, to) = layout.frame.field();
         let (width, height) = (400, 220);
         let extent = to - from;
         let values = (0..width * height).map(|i| {
             let part = DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5)
                 / DVec2::new(width as f64, height as f64);
-            let phase = ((from + extent * part) / layout.size).dot(turns) + start;
+            let phase = ((from + extent * part) / layout.frame.size).dot(turns) + start;
             let value = 0.5 + 0.2 * part.x + 0.1 * (TAU * phase).cos();
             [value as f32; 3]
         });
@@ -417,7 +398,7 @@ mod tests {
             let found = refined(&field, &layout, found);
             assert!(found.distance(DVec2::new(x, y)) < 0.01, "{found}");
             let centre = block_centre(&field, 3, 7);
-            let wave = field.demodulated(found / layout.size, centre)[1];
+            let wave = field.demodulated(found / layout.frame.size, centre)[1];
             assert!(wrap(argument(wave) - start).abs() < 0.01);
             assert!((wave.length() - 0.05).abs() < 0.002);
         }

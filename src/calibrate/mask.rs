@@ -25,7 +25,7 @@ pub(super) struct Viewers<'a> {
 impl Viewers<'_> {
     /// Phase of the mask at a point of the panel, turns.
     pub(super) fn phase(&self, sheet: &Sheet, p: DVec2) -> f64 {
-        let eye = (self.layout.size / 2.0).extend(-self.distance);
+        let eye = (self.layout.frame.size / 2.0).extend(-self.distance);
         match self.distance.is_finite() {
             true => sheet.seen(self.layout, self.setup, eye, p),
             false => sheet.seen(self.layout, self.setup, p.extend(-1.0), p),
@@ -34,7 +34,7 @@ impl Viewers<'_> {
 
     /// The mask of a sheet.
     pub(super) fn mask(&self, sheet: &Sheet) -> Mask {
-        let size = self.layout.size;
+        let size = self.layout.frame.size;
         let places = || (0..COLUMNS * ROWS).map(place);
         let phases: Vec<f64> = places()
             .map(|place| self.phase(sheet, (place + 1.0) / 2.0 * size))

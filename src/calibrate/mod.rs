@@ -45,6 +45,7 @@
 //! gap is positive. Colour offsets are seen through the camera's own colour filters, which make them smaller.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod by_eye;
 mod camera;
 mod certainty;
@@ -53,12 +54,16 @@ mod edges;
 mod error;
 mod find;
 mod fit;
+mod frame;
 mod fringes;
 mod least_squares;
+mod levels;
+mod locate;
 mod mask;
 mod pattern;
 mod photo;
 mod picture;
+mod rough;
 mod setup;
 mod sheet;
 mod shown;
@@ -76,6 +81,7 @@ pub(crate) use least_squares::{minimise, soft};
 pub use mask::Mask;
 pub use photo::Photo;
 pub(crate) use photo::{linear, upright};
+pub use rough::{Beats, Rough, rough, rough_pattern};
 pub use setup::{Guess, Setup};
 pub use sighting::Sighting;
 

@@ -10,6 +10,8 @@ use std::path::Path;
 
 /// Larger photos are averaged down: the fringes are coarse, and averaging in linear light takes noise away.
 const LARGEST_SIDE: u32 = 2600;
+/// The beats of gratings are finer.
+const LARGEST_FINE_SIDE: u32 = 5200;
 /// Larger ones than any camera takes are not decoded: they would only take memory.
 const MOST_PIXELS: u64 = 1 << 28;
 /// A channel at or above this value is taken as clipped.
@@ -41,35 +43,54 @@ impl std::fmt::Debug for Photo {
 impl Photo {
     /// Reads a JPEG, PNG or HEIC file, turned upright as it says.
     pub fn load(path: &Path) -> Result<Self, CalibrateError> {
+        Self::read(path, LARGEST_SIDE)
+    }
+
+    /// The same with more detail, for [`super::Beats`].
+    pub fn load_fine(path: &Path) -> Result<Self, CalibrateError> {
+        Self::read(path, LARGEST_FINE_SIDE)
+    }
+
+    fn read(path: &Path, largest: u32) -> Result<Self, CalibrateError> {
         let photo = path.display().to_string();
         match std::fs::read(path) {
-            Ok(bytes) => Self::decode(&photo, &bytes),
+            Ok(bytes) => Self::decoded(&photo, &bytes, largest),
             Err(source) => Err(CalibrateError::Read { photo, source }),
         }
     }
 
     /// A JPEG, PNG or HEIC file in memory; `name` is for messages.
     pub fn decode(name: &str, bytes: &[u8]) -> Result<Self, CalibrateError> {
+        Self::decoded(name, bytes, LARGEST_SIDE)
+    }
+
+    /// The same with more detail, for [`super::Beats`].
+    pub fn decode_fine(name: &str, bytes: &[u8]) -> Result<Self, CalibrateError> {
+        Self::decoded(name, bytes, LARGEST_FINE_SIDE)
+    }
+
+    fn decoded(name: &str, bytes: &[u8], largest: u32) -> Result<Self, CalibrateError> {
         let failed = |reason: String| CalibrateError::Decode {
             photo: name.into(),
             reason,
         };
-        let picture = upright(bytes).map_err(failed)?;
-        Ok(Self::from_picture(
-            name,
-            &picture.into_rgb8(),
-            equivalent(bytes),
-        ))
+        let picture = upright(bytes).map_err(failed)?.into_rgb8();
+        Ok(Self::averaged(name, &picture, largest).with_equivalent(equivalent(bytes)))
     }
 
     /// A picture in sRGB; `equivalent` is the focal length in mm for film of 36x24 mm, as phones and EXIF give it.
     #[must_use]
     pub fn from_picture(name: &str, picture: &RgbImage, equivalent: Option<f64>) -> Self {
+        Self::averaged(name, picture, LARGEST_SIDE).with_equivalent(equivalent)
+    }
+
+    /// Averaged down until no side is longer than `largest` pixels.
+    fn averaged(name: &str, picture: &RgbImage, largest: u32) -> Self {
         let linear: Vec<f32> = (0..=255u16).map(|v| linear(f32::from(v) / 255.0)).collect();
         let pool = picture
             .width()
             .max(picture.height())
-            .div_ceil(LARGEST_SIDE)
+            .div_ceil(largest)
             .max(1);
         let (width, height) = (picture.width() / pool, picture.height() / pool);
         let (mut light, mut clipped) = (Vec::new(), Vec::new());
@@ -96,7 +117,6 @@ impl Photo {
             light,
             clipped,
         }
-        .with_equivalent(equivalent)
     }
 
     /// The same photo with a focal length in mm for film of 36x24 mm; None leaves what it says itself.

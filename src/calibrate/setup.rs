@@ -3,6 +3,7 @@
 
 use super::CalibrateError;
 use crate::display::SubpixelOrder;
+use std::ops::RangeInclusive;
 
 /// A length or angle that is known to a factor: its value and the standard deviation of its logarithm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,19 +77,8 @@ impl Setup {
 
     /// Refuses panels for which no pattern can be made.
     pub(super) fn check(&self) -> Result<(), CalibrateError> {
-        let rules = [
-            (
-                "the width of the panel",
-                f64::from(self.width),
-                200.0..=32768.0,
-                "200 to 32768 pixels",
-            ),
-            (
-                "the height of the panel",
-                f64::from(self.height),
-                200.0..=32768.0,
-                "200 to 32768 pixels",
-            ),
+        check_size((self.width, self.height))?;
+        check(&[
             (
                 "the pitch",
                 self.pitch,
@@ -108,17 +98,7 @@ impl Setup {
                 "2 to 256",
             ),
             ("the cone", self.cone.value, 5.0..=120.0, "5 to 120 degrees"),
-        ];
-        for (field, value, bounds, expected) in rules {
-            if !bounds.contains(&value) {
-                return Err(CalibrateError::Setup {
-                    field,
-                    value,
-                    expected,
-                });
-            }
-        }
-        Ok(())
+        ])
     }
 
     /// The gap between pixels and lenses in panel pixels: a pitch fills the cone.
@@ -128,4 +108,41 @@ impl Setup {
             spread: self.cone.spread,
         }
     }
+}
+
+/// What is wrong, its value, the bounds, and what to give.
+type Rule = (&'static str, f64, RangeInclusive<f64>, &'static str);
+
+fn check(rules: &[Rule]) -> Result<(), CalibrateError> {
+    match rules
+        .iter()
+        .find(|(_, value, bounds, _)| !bounds.contains(value))
+    {
+        Some(&(field, value, _, expected)) => Err(CalibrateError::Setup {
+            field,
+            value,
+            expected,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses sizes of panels for which no pattern can be made.
+pub(super) fn check_size((width, height): (u32, u32)) -> Result<(), CalibrateError> {
+    let bounds = || 200.0..=32768.0;
+    let expected = "200 to 32768 pixels";
+    check(&[
+        (
+            "the width of the panel",
+            f64::from(width),
+            bounds(),
+            expected,
+        ),
+        (
+            "the height of the panel",
+            f64::from(height),
+            bounds(),
+            expected,
+        ),
+    ])
 }

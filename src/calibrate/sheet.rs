@@ -49,9 +49,9 @@ impl Sheet {
 
     /// Phase of the lens over that of the nominal one at a point of the sheet, turns.
     pub(super) fn added(&self, layout: &Layout, setup: &Setup, p: DVec2) -> f64 {
-        let place = p / layout.size * 2.0 - 1.0;
+        let place = p / layout.frame.size * 2.0 - 1.0;
         let bias: f64 = if setup.bias {
-            let weights = weights(p / layout.size);
+            let weights = weights(p / layout.frame.size);
             weights.iter().zip(self.bias).map(|(w, b)| w * b).sum()
         } else {
             0.0

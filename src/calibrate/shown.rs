@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::camera::View;
-use super::pattern::{EDGES, IN_FRAME, IN_MARKS, IN_RING, Layout, ROWS};
+use super::frame::{EDGES, Frame, IN_FRAME, IN_MARKS, IN_RING, ROWS};
 use super::{CalibrateError, Photo};
 use glam::DVec2;
 use std::ops::Range;
@@ -16,24 +16,26 @@ const SEEN: f64 = 0.15;
 /// The names of the sides, in the order of the clock from the top.
 const SIDES: [&str; 4] = ["top", "right", "bottom", "left"];
 
-/// Refuses a photo of a pattern that was shown scaled or moved.
-pub(super) fn check(photo: &Photo, layout: &Layout, view: View) -> Result<(), CalibrateError> {
-    let light = Light {
-        photo,
-        layout,
-        view,
-    };
+/// Refuses a photo of a pattern that was shown scaled.
+pub(super) fn scaled(photo: &Photo, frame: &Frame, view: View) -> Result<(), CalibrateError> {
+    let light = Light { photo, frame, view };
     // Where nothing can be read the fringes say what is wrong.
     let rows = [1, 3].map(|side| light.of(side, ROWS, IN_MARKS));
-    if let [Some(right), Some(left)] = rows
-        && (right + left) / 2.0 < LEAST_ROWS
-    {
-        return Err(CalibrateError::Scaled {
-            photo: photo.name.clone(),
-        });
+    match rows {
+        [Some(right), Some(left)] if (right + left) / 2.0 < LEAST_ROWS => {
+            Err(CalibrateError::Scaled {
+                photo: photo.name.clone(),
+            })
+        }
+        _ => Ok(()),
     }
+}
+
+/// Refuses a photo of a pattern that was shown beside its place.
+pub(super) fn moved(photo: &Photo, frame: &Frame, view: View) -> Result<(), CalibrateError> {
+    let light = Light { photo, frame, view };
     let edges = [0, 1, 2, 3].map(|side| {
-        let ends = EDGES.map(|range| light.of(side, range, layout.edge / layout.band / 2.0));
+        let ends = EDGES.map(|range| light.of(side, range, frame.edge / frame.band / 2.0));
         ends.into_iter().flatten().sum::<f64>() / 2.0
     });
     for (side, name) in SIDES.into_iter().enumerate() {
@@ -50,7 +52,7 @@ pub(super) fn check(photo: &Photo, layout: &Layout, view: View) -> Result<(), Ca
 
 struct Light<'a> {
     photo: &'a Photo,
-    layout: &'a Layout,
+    frame: &'a Frame,
     view: View,
 }
 
@@ -75,7 +77,7 @@ impl Light<'_> {
         let mut sum = 0.0;
         for i in 0..ALONG {
             let part = range.start + length * (0.1 + 0.8 * (i as f64 + 0.5) / ALONG as f64);
-            let at: DVec2 = self.layout.along(side, part, depth);
+            let at: DVec2 = self.frame.along(side, part, depth);
             sum += self.photo.grey(self.view.to_picture(at)?)?;
         }
         Some(sum / ALONG as f64)

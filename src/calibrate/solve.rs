@@ -1,6 +1,7 @@
 //! All photos together: the lens sheet, the gap, and every camera.
 #![forbid(unsafe_code)]
 
+use super::bench::{Bench, OPTICS, OPTICS_STEPS, POSE, POSE_STEPS, SHAKE};
 use super::camera::View;
 use super::edges::ALONG;
 use super::fringes::{BLOCKS, wrap};
@@ -8,7 +9,7 @@ use super::least_squares::{Minimum, minimise, soft};
 use super::pattern::Layout;
 use super::setup::Guess;
 use super::sheet::{NODES, Sheet};
-use super::sighting::{Bench, OPTICS, OPTICS_STEPS, POSE, POSE_STEPS, SHAKE, Sighting};
+use super::sighting::Sighting;
 use super::{CalibrateError, Setup};
 use glam::{DVec2, DVec3};
 use nalgebra::{DMatrix, DVector};
@@ -194,7 +195,7 @@ impl<'a> Problem<'a> {
         let mut lines: Vec<Line> = Vec::with_capacity(8);
         for point in &self.sightings.get(photo)?.edges {
             let at = sheet.under(view.pose.eye, view.to_panel(point.pixel)?);
-            let miss = point.miss(self.layout, at);
+            let miss = point.miss(&self.layout.frame, at);
             let name = (point.side, point.line);
             match lines.last_mut() {
                 Some(line) if line.name == name => line.misses.push((point.place, miss)),
@@ -217,7 +218,7 @@ impl<'a> Problem<'a> {
             return common;
         }
         let pitch = self.setup.pitch;
-        let lenses = self.setup.slant.abs() * self.layout.size.y / pitch;
+        let lenses = self.setup.slant.abs() * self.layout.frame.size.y / pitch;
         let lens = pitch / 3.0 / 12f64.sqrt();
         common.hypot(lens / (std::f64::consts::PI * lenses).max(1.0))
     }
@@ -347,7 +348,7 @@ impl<'a> Problem<'a> {
                 let p = view.to_panel(block.pixel)?;
                 let lens = sheet.through(view.pose.eye, p);
                 let added = self.layout.phase(p) - self.layout.nominal(lens) + 0.5 - block.phase;
-                let place = lens / self.layout.size * 2.0 - 1.0;
+                let place = lens / self.layout.frame.size * 2.0 - 1.0;
                 let row = [(0, place.x), (1, place.y), (2 + photo, 1.0)];
                 for (i, a) in row {
                     for (j, b) in row {

@@ -3,7 +3,7 @@
 
 use super::error::CommandError;
 use super::sheet::SheetArguments;
-use super::{Outcome, mask, print, show, tell};
+use super::{Outcome, mask, print, rough, show, tell};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::calibrate::{self, CalibrateError, Fit, Guess, Photo, Setup, Sighting};
@@ -26,6 +26,8 @@ enum Step {
     /// Show the pattern on the panel itself, or fit a panel by eye: a picture through its mask, and keys that nudge its numbers.
     Show(show::Arguments),
     /// Measure the panel from photos of the pattern and write its display file.
+    ///
+    /// Without --pitch and --display the pattern is of gratings, and one photo of it tells these.
     ///
     /// Take the first photo straight from the front, and one or two more from about 10 degrees to the sides and from other
     /// distances, with one camera, without zoom, with the whole panel in the photo.
@@ -102,17 +104,26 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 }
 
 fn pattern(arguments: &PatternArguments) -> Outcome {
-    let setup = arguments.panel.setup()?;
+    let size = arguments.panel.size()?;
+    let setup = arguments.panel.sheet.setup(size)?;
     writable("the pattern", &arguments.out)?;
-    let picture = calibrate::pattern(&setup)?;
+    let picture = match &setup {
+        Some(setup) => calibrate::pattern(setup)?,
+        None => {
+            tell(&rough::TOLD);
+            calibrate::rough_pattern(size)?
+        }
+    };
     write_png("the pattern", &picture, &arguments.out)?;
     tell(&format_args!("wrote {}", arguments.out.display()));
     Ok(ExitCode::SUCCESS)
 }
 
 fn fit(arguments: &FitArguments) -> Outcome {
-    let mut setup = arguments.panel.setup()?;
-    let size = (setup.width, setup.height);
+    let size = arguments.panel.size()?;
+    let Some(mut setup) = arguments.panel.sheet.setup(size)? else {
+        return unknown(arguments, size);
+    };
     let pixel = arguments.panel.sheet.pixel_mm(size)?;
     let pixels = |option: &'static str, mm: Option<f64>| {
         let Some(mm) = mm else { return Ok(None) };
@@ -158,6 +169,33 @@ fn fit(arguments: &FitArguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Finds out pitch and slant; options that are for the fit of the whole sheet are told.
+fn unknown(arguments: &FitArguments, size: (u32, u32)) -> Outcome {
+    let setup = &arguments.setup;
+    let idle = [
+        ("--distance", setup.distance.is_some()),
+        ("--viewer", setup.viewer.is_some()),
+        ("--cone", setup.cone.is_some()),
+        ("--colours", arguments.colours),
+        ("--bias", arguments.bias),
+        ("--doubtful", arguments.doubtful),
+        ("--picture", arguments.picture.is_some()),
+    ];
+    for (option, _) in idle.iter().filter(|(_, given)| *given) {
+        tell(&format_args!(
+            "{option} has no effect without --pitch or --display, where only pitch and slant are measured"
+        ));
+    }
+    writable("the display file", &arguments.out)?;
+    rough::fit(&rough::Unknown {
+        size,
+        views: arguments.panel.sheet.views,
+        focal: setup.focal,
+        photos: &arguments.photos,
+        out: &arguments.out,
+    })
+}
+
 /// A photo from a file, with the focal length that is given.
 fn photo(arguments: &FitArguments, path: &Path) -> Result<Photo, CalibrateError> {
     Photo::load(path).map(|photo| photo.with_equivalent(arguments.setup.focal))
@@ -200,9 +238,8 @@ fn sightings(
 }
 
 impl PanelArguments {
-    fn setup(&self) -> Result<Setup, CommandError> {
-        let size = mask::size(&self.size).ok_or_else(|| CommandError::Size(self.size.clone()))?;
-        self.sheet.setup(size)
+    fn size(&self) -> Result<(u32, u32), CommandError> {
+        mask::size(&self.size).ok_or_else(|| CommandError::Size(self.size.clone()))
     }
 }
 

@@ -16,6 +16,7 @@ mod man;
 mod mask;
 mod panel;
 mod points;
+mod rough;
 mod run;
 mod sheet;
 mod show;

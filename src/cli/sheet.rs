@@ -9,8 +9,9 @@ use manyview::display::{Display, Kind, MM_PER_INCH};
 
 #[derive(Args)]
 pub(super) struct SheetArguments {
-    /// Panel as it is thought to be: a built-in name or a file of kind "slanted", with a pitch right to 1 %
-    #[arg(long, value_name = "NAME|FILE", required_unless_present = "pitch")]
+    /// Panel as it is thought to be: a built-in name or a file of kind "slanted", with a pitch right to 1 %; without it and --pitch, the
+    /// steps find out pitch and slant
+    #[arg(long, value_name = "NAME|FILE")]
     display: Option<String>,
     /// In place of --display: subpixels from lens to lens along a row, right to 1 %, or with --dpi or --screen-mm the 0.286mm or 60lpi of a data
     /// sheet
@@ -22,18 +23,18 @@ pub(super) struct SheetArguments {
         requires = "views"
     )]
     pitch: Option<String>,
-    /// With --pitch: subpixels per row downwards, or the angle of the lenses such as 12.5deg
+    /// With --pitch: subpixels per row downwards, or the angle of the lenses such as 12.5deg [default: 0]
     #[arg(
         long,
         value_name = "S",
-        default_value = "0",
         allow_hyphen_values = true,
-        conflicts_with = "display"
+        conflicts_with = "display",
+        requires = "pitch"
     )]
-    slant: String,
-    /// With --pitch: number of views
+    slant: Option<String>,
+    /// In place of --display: number of views
     #[arg(long, value_name = "N", conflicts_with = "display")]
-    views: Option<u32>,
+    pub(super) views: Option<u32>,
     /// Width and height of the lit part of the panel in mm
     #[arg(long, value_name = "WxH", conflicts_with = "dpi")]
     screen_mm: Option<String>,
@@ -58,24 +59,27 @@ impl SheetArguments {
         Err(CalibrateError::Display { reason })
     }
 
-    pub(super) fn setup(&self, (width, height): (u32, u32)) -> Result<Setup, CommandError> {
-        let Some(Display {
+    /// What is known of the sheet; none where it is to be found out.
+    pub(super) fn setup(&self, (width, height): (u32, u32)) -> Result<Option<Setup>, CommandError> {
+        if let Some(Display {
             kind: Kind::Slanted(lens),
             views,
             ..
         }) = self.display()?
-        else {
-            let slant = units::slant(&self.slant)?;
-            let text = self.pitch.as_deref().unwrap_or_default();
-            let pitch = units::pitch(text, slant, self.pixel_mm((width, height))?)?;
-            let views = self.views.unwrap_or(0);
-            return Ok(Setup::new(width, height, views, pitch, slant));
+        {
+            let (pitch, slant) = (lens.pitch.to_f64(), lens.slant.to_f64());
+            let mut setup = Setup::new(width, height, views, pitch, slant);
+            setup.order = lens.order;
+            setup.inverted = lens.inverted;
+            return Ok(Some(setup));
+        }
+        let Some(text) = &self.pitch else {
+            return Ok(None);
         };
-        let (pitch, slant) = (lens.pitch.to_f64(), lens.slant.to_f64());
-        let mut setup = Setup::new(width, height, views, pitch, slant);
-        setup.order = lens.order;
-        setup.inverted = lens.inverted;
-        Ok(setup)
+        let slant = units::slant(self.slant.as_deref().unwrap_or("0"))?;
+        let pitch = units::pitch(text, slant, self.pixel_mm((width, height))?)?;
+        let views = self.views.unwrap_or(0);
+        Ok(Some(Setup::new(width, height, views, pitch, slant)))
     }
 
     /// Side of a pixel of a panel of this size in pixels, in mm, where it is known.

@@ -3,7 +3,7 @@
 
 use super::error::CommandError;
 use super::sheet::SheetArguments;
-use super::{Outcome, mask, print, tell};
+use super::{Outcome, mask, print, rough, tell};
 use clap::Args;
 use image::RgbImage;
 use manyview::calibrate::{self, Action, ByEye, CalibrateError, KEYS, action};
@@ -54,7 +54,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             by_eye(&mut window, &mut fit, size, out)
         }
         _ => {
-            let picture = calibrate::pattern(&arguments.sheet.setup(size)?)?;
+            let picture = match arguments.sheet.setup(size)? {
+                Some(setup) => calibrate::pattern(&setup)?,
+                None => {
+                    tell(&rough::TOLD);
+                    calibrate::rough_pattern(size)?
+                }
+            };
             photos(&mut window, &picture)
         }
     }

@@ -1,0 +1,175 @@
+//! The one sheet that explains the beats of all tiles.
+#![forbid(unsafe_code)]
+
+use super::Rough;
+use super::spectrum::{Peak, Spectrum};
+use crate::display::SubpixelOrder;
+use glam::DVec2;
+
+/// Beats of each tile from which sheets are proposed, and the harmonics that these may be of.
+const PEAKS: usize = 3;
+const HARMONICS: u32 = 8;
+/// Pitches that are looked for, subpixels, and the largest slant, subpixels per row.
+const PITCHES: std::ops::RangeInclusive<f64> = 1.9..=110.0;
+const SLANT: f64 = 3.0;
+/// The part of the tiles' strongest beats that a sheet has to explain.
+const EXPLAINED: f64 = 0.35;
+/// Another sheet explains less than this part of what the best one does.
+const OTHER: f64 = 0.96;
+/// Sheets count as one when their frequencies differ by fewer waves over a tile.
+const SAME: f64 = 1.0;
+/// Three standard deviations have to be within what the finer pattern allows: a part, and subpixels per row.
+const PITCH_ERROR: f64 = 0.01;
+const SLANT_ERROR: f64 = 0.02;
+const SURE: f64 = 3.0;
+
+/// A sheet: its frequency in turns per panel pixel, and how much it explains.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    frequency: DVec2,
+    explained: f64,
+    order: SubpixelOrder,
+}
+
+/// None where no sheet explains the beats better than all others, or none is known well enough.
+pub(super) fn search(spectra: &[&Spectrum]) -> Option<Rough> {
+    let mut all: Vec<Candidate> = [SubpixelOrder::Rgb, SubpixelOrder::Bgr]
+        .into_iter()
+        .flat_map(|order| Tiles::new(spectra, order).candidates())
+        .collect();
+    all.sort_by(|a, b| b.explained.total_cmp(&a.explained));
+    let best = *all.first()?;
+    let tiles = Tiles::new(spectra, best.order);
+    let (frequency, spread) = tiles.refined(best.frequency)?;
+    let explained = tiles.explained(frequency);
+    let other = all.iter().find(|other| {
+        // A sheet that is so many times as coarse has the same beats and more; were it the right one, these would be seen, too.
+        let times = (frequency.x / other.frequency.x).round().max(1.0);
+        !tiles.same(times * other.frequency, frequency)
+    });
+    let rough = Rough {
+        pitch: 3.0 / frequency.x,
+        slant: 3.0 * frequency.y / frequency.x,
+        pitch_spread: spread.x / frequency.x,
+        slant_spread: 3.0 * spread.y / frequency.x,
+        order: best.order,
+    };
+    let only = other.is_none_or(|other| other.explained < OTHER * explained);
+    let sure = SURE * rough.pitch_spread < PITCH_ERROR && SURE * rough.slant_spread < SLANT_ERROR;
+    (explained >= EXPLAINED && only && sure).then_some(rough)
+}
+
+/// The tiles of all photos, for one order of the colours.
+struct Tiles<'a> {
+    spectra: &'a [&'a Spectrum],
+    order: SubpixelOrder,
+    /// The strongest beats of each.
+    peaks: Vec<Vec<Peak>>,
+    /// The sum of the amplitudes of the strongest.
+    total: f64,
+}
+
+impl<'a> Tiles<'a> {
+    fn new(spectra: &'a [&'a Spectrum], order: SubpixelOrder) -> Self {
+        let peaks = spectra.iter().map(|tile| tile.peaks(order, PEAKS));
+        let peaks: Vec<Vec<Peak>> = peaks.collect();
+        let strongest = peaks.iter().filter_map(|peaks| peaks.first());
+        Self {
+            spectra,
+            order,
+            total: strongest.map(|peak| peak.amplitude).sum(),
+            peaks,
+        }
+    }
+
+    fn same(&self, a: DVec2, b: DVec2) -> bool {
+        let waves = |tile: &&Spectrum| tile.waves(a - b).abs().max_element();
+        self.spectra.iter().all(|tile| waves(tile) < SAME)
+    }
+
+    /// All sheets that give one of the strongest beats of a tile.
+    fn candidates(&self) -> Vec<Candidate> {
+        let mut all = Vec::new();
+        for (tile, peaks) in self.spectra.iter().zip(&self.peaks) {
+            for (peak, harmonic) in peaks
+                .iter()
+                .flat_map(|peak| (1..=HARMONICS).map(move |harmonic| (peak, harmonic)))
+            {
+                let frequency = (tile.frequency - peak.frequency) / f64::from(harmonic);
+                let slant = 3.0 * frequency.y / frequency.x;
+                if frequency.x > 0.0
+                    && PITCHES.contains(&(3.0 / frequency.x))
+                    && slant.abs() <= SLANT
+                {
+                    all.push(Candidate {
+                        frequency,
+                        explained: self.explained(frequency),
+                        order: self.order,
+                    });
+                }
+            }
+        }
+        all
+    }
+
+    /// The harmonic of a sheet that is nearest to a grating, whose beat lenses do not break up; and the beat.
+    fn beat(tile: &Spectrum, sheet: DVec2) -> Option<(f64, DVec2)> {
+        let harmonic = (tile.frequency.dot(sheet) / sheet.length_squared()).round();
+        (harmonic >= 1.0).then(|| (harmonic, tile.frequency - harmonic * sheet))
+    }
+
+    /// The part of the tiles' strongest beats that lies where a sheet has its beats, 0 to 1.
+    fn explained(&self, sheet: DVec2) -> f64 {
+        let amplitudes = self.spectra.iter().filter_map(|tile| {
+            let (_, beat) = Self::beat(tile, sheet)?;
+            tile.amplitude(self.order, beat)
+        });
+        amplitudes.sum::<f64>() / self.total
+    }
+
+    /// The frequency by all tiles, and its standard deviation, turns per panel pixel: the mean of what each says, weighted by amplitude and
+    /// harmonic, without those that disagree with most.
+    fn refined(&self, sheet: DVec2) -> Option<(DVec2, DVec2)> {
+        const ROUNDS: usize = 4;
+        const DISAGREES: f64 = 3.0;
+        let (mut sheet, mut spread) = (sheet, DVec2::INFINITY);
+        for _ in 0..ROUNDS {
+            let found = self.spectra.iter().filter_map(|tile| {
+                let (harmonic, beat) = Self::beat(tile, sheet)?;
+                let peak = tile.near(self.order, beat)?;
+                let told = (tile.frequency - peak.frequency) / harmonic;
+                Some((told, harmonic, peak.amplitude))
+            });
+            let found: Vec<(DVec2, f64, f64)> = found.collect();
+            // Of a beat, in turns per pixel: the same for all harmonics.
+            let scatter = |axis: fn(DVec2) -> f64| {
+                let mut sizes: Vec<f64> = found
+                    .iter()
+                    .map(|(told, harmonic, _)| (axis(*told - sheet) * harmonic).abs())
+                    .collect();
+                sizes.sort_by(f64::total_cmp);
+                sizes.get(sizes.len() / 2).map(|middle| 1.4826 * middle)
+            };
+            let scatter = DVec2::new(scatter(|d| d.x)?, scatter(|d| d.y)?);
+            let (mut sum, mut weights, mut squares, mut count) =
+                (DVec2::ZERO, 0.0, DVec2::ZERO, 0.0);
+            for (told, harmonic, amplitude) in &found {
+                let off = (*told - sheet) * *harmonic;
+                if (off.abs() - DISAGREES * scatter).max_element() > 1e-12 {
+                    continue;
+                }
+                let weight = amplitude * harmonic * harmonic;
+                sum += *told * weight;
+                squares += (off * weight / harmonic).powf(2.0);
+                weights += weight;
+                count += 1.0;
+            }
+            if count < 3.0 {
+                return None;
+            }
+            sheet = sum / weights;
+            spread = squares.powf(0.5) / weights;
+        }
+        Some((sheet, spread))
+    }
+}

@@ -1,0 +1,138 @@
+//! Pitch and slant of displays of which only the size is told, from photos of gratings by an optical simulator that shares nothing with the search.
+
+use crate::calibrate_glass::{chosen, write};
+use crate::optics::displays::{Display, display};
+use crate::optics::photograph_jpeg;
+use crate::optics::scenario::{First, Taking, scenario};
+use manyview::calibrate::{Beats, Photo, Rough, rough, rough_pattern};
+use manyview::display::SubpixelOrder;
+use std::fmt::Write as _;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What the pattern that follows allows: a part, and subpixels per row.
+const PITCH: f64 = 0.01;
+const SLANT: f64 = 0.02;
+
+/// What one photo of 12 Mpx tells of a display in a situation, changed by `change`.
+fn told(name: &str, seed: u64, change: impl Fn(&mut Display)) -> (Display, Result<Rough, String>) {
+    let taking = Taking {
+        photos: 1,
+        first: First::Anywhere,
+        size: [4032, 3024],
+        seed,
+    };
+    let mut scenario = scenario(name, &display(seed), taking).expect("a name");
+    change(&mut scenario.display);
+    let panel = &scenario.display.panel;
+    let size = (panel.columns as u32, panel.rows as u32);
+    let shown = scenario
+        .showing
+        .apply(panel, &rough_pattern(size).expect("a pattern"));
+    let file = photograph_jpeg(&scenario.display, &shown, &scenario.shots[0]).expect("a file");
+    let found = Photo::decode_fine("gratings.jpg", &file)
+        .and_then(|photo| Beats::new(&photo, size))
+        .and_then(|beats| rough(&[beats]));
+    (scenario.display, found.map_err(|error| error.to_string()))
+}
+
+/// By how much the pitch is off, as a part, and the slant, subpixels per row.
+fn off(display: &Display, found: &Rough) -> (f64, f64) {
+    let sheet = &display.sheet;
+    let pitch = 3.0 * sheet.pitch / sheet.slant.cos() / display.panel.pitch;
+    let slant = -3.0 * sheet.slant.tan();
+    (
+        (found.pitch / pitch).ln().abs(),
+        (found.slant - slant).abs(),
+    )
+}
+
+#[test]
+fn pitch_slant_and_colours_are_found_without_a_data_sheet() {
+    // UHD and FHD, fine and coarse lenses, leaning to the left and to the right, upright.
+    for (name, seed, upright) in [
+        ("ordinary", 9, false),
+        ("bgr", 1, false),
+        ("ordinary", 22, false),
+        ("ordinary", 12, true),
+    ] {
+        let (display, found) = told(name, seed, |display| {
+            if upright {
+                (display.sheet.slant, display.nominal_slant) = (0.0, 0.0);
+            }
+        });
+        let found = found.expect(name);
+        let (pitch, slant) = off(&display, &found);
+        assert!(pitch < PITCH && slant < SLANT, "{name} {seed}: {found:?}");
+        assert!(
+            pitch < 4.0 * found.pitch_spread && slant < 4.0 * found.slant_spread + 1e-3,
+            "{name} {seed}: off by {pitch} and {slant}, {found:?}"
+        );
+        let order = match name {
+            "bgr" => SubpixelOrder::Bgr,
+            _ => SubpixelOrder::Rgb,
+        };
+        // The colours of upright lenses are columns of their own, which look alike in either order.
+        assert!(upright || found.order == order, "{name} {seed}: {found:?}");
+    }
+}
+
+/// A screen without lenses, or with ones that blur all, shows the gratings and no beats of one sheet.
+#[test]
+fn a_panel_without_lenses_has_no_pitch() {
+    let (_, found) = told("ordinary", 1, |display| display.sheet.spot *= 60.0);
+    let error = found.expect_err("no lenses");
+    assert!(
+        error.contains("no single lens sheet") && error.contains("--pitch"),
+        "{error}"
+    );
+}
+
+#[test]
+fn gratings_that_are_shown_scaled_are_noticed() {
+    let (_, found) = told("scaled 99.5", 1, |_| ());
+    let error = found.expect_err("scaled");
+    assert!(error.contains("was shown scaled"), "{error}");
+}
+
+/// All displays of the study, on two threads: none may be off by more than the next pattern allows.
+#[test]
+#[ignore = "minutes: make calibration"]
+fn full_calibrate_rough_displays() {
+    let displays = chosen("MANYVIEW_CALIBRATION_DISPLAYS", 200);
+    let next = AtomicU64::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            if seed >= displays {
+                return done;
+            }
+            let (display, found) = told("ordinary", seed, |_| ());
+            let found = found.map(|found| off(&display, &found));
+            println!("display {seed} of {} views: {found:?}", display.views);
+            done.push(found.ok());
+        }
+    };
+    let found: Vec<Option<(f64, f64)>> = std::thread::scope(|scope| {
+        let threads = [scope.spawn(work), scope.spawn(work)];
+        let done = threads.map(|thread| thread.join().expect("no panic"));
+        done.into_iter().flatten().collect()
+    });
+    let all: Vec<(f64, f64)> = found.iter().copied().flatten().collect();
+    let most = |of: fn(&(f64, f64)) -> f64| all.iter().map(of).fold(0.0, f64::max);
+    let (pitch, slant) = (most(|off| off.0), most(|off| off.1));
+    let mut table = String::from(
+        "| displays | found | pitch off by at most | slant off by at most |\n|---|---|---|---|\n",
+    );
+    let _ = writeln!(
+        table,
+        "| {} | {} | {:.2} % | {slant:.4} subpixels per row |",
+        found.len(),
+        all.len(),
+        100.0 * pitch
+    );
+    println!("{table}");
+    write("gratings", &table);
+    assert!(pitch < PITCH && slant < SLANT, "{table}");
+    assert!(all.len() as f64 >= 0.95 * found.len() as f64, "{table}");
+}
