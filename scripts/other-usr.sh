@@ -4,8 +4,9 @@
 # usage: other-usr.sh FOLDER
 set -eu
 folder=$1 release=trixie
-wanted="libgl1 libegl1 libgl1-mesa-dri libx11-6 libwayland-egl1"
-if [ -f "$folder/whole" ]; then exit; fi
+wanted="libgl1 libegl1 libgl1-mesa-dri libx11-6 libwayland-egl1 libpng16-16t64"
+# A folder that was made with other packages is made anew.
+if [ "$(cat "$folder/whole" 2>/dev/null)" = "$wanted" ]; then exit; fi
 rm -rf "$folder"
 mkdir -p "$(dirname "$folder")"
 # shellcheck disable=SC2086
@@ -15,4 +16,4 @@ chroot "$folder" apt-get update
 narrow=$(for name in $wanted mesa-utils-bin; do echo "$name:i386"; done)
 # shellcheck disable=SC2086
 chroot "$folder" apt-get install -y --no-install-recommends $narrow
-touch "$folder/whole"
+echo "$wanted" > "$folder/whole"

@@ -203,7 +203,7 @@ pub enum CalibrateError {
     /// No single frequency stands out.
     #[error(
         "photo `{photo}`: no single fringe frequency stands out (the best is {ratio:.1} times the next); \
-         take a sharper photo, and check that the pitch of --display is right to 1 %"
+         take a sharper photo, and find out the pitch without --display and --pitch if it may be off by more than 1 %"
     )]
     Frequency {
         /// The file.
@@ -214,7 +214,7 @@ pub enum CalibrateError {
     /// The frequency is where the search ends.
     #[error(
         "photo `{photo}`: the fringes are outside of what a pitch right to 1 % allows; \
-         correct the pitch and slant of --display and show the new pattern, \
+         find out pitch and slant without --display and --pitch, \
          or go farther away if the cone is narrow"
     )]
     Outside {

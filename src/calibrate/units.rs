@@ -43,6 +43,12 @@ pub fn pitch(text: &str, slant: f64, pixel: Option<f64>) -> Result<f64, Calibrat
     Ok(along / (pixel / 3.0))
 }
 
+/// The width of a lens at a right angle to it, mm, of a pitch in subpixels along a row; the reverse of [`pitch`].
+#[must_use]
+pub fn across(pitch: f64, slant: f64, pixel: f64) -> f64 {
+    pitch * pixel / 3.0 / (1.0f64).hypot(slant / 3.0)
+}
+
 fn number(text: &str) -> Option<f64> {
     Number::parse(text).map(Number::to_f64)
 }
@@ -63,6 +69,7 @@ mod tests {
         assert!((pitch("0.3 mm", 0.0, Some(0.1)).unwrap() - 9.0).abs() < 1e-12);
         assert!((pitch("0.3mm", 3.0, Some(0.1)).unwrap() - 9.0 * 2.0f64.sqrt()).abs() < 1e-12);
         assert!((pitch("84.667lpi", 0.0, Some(0.1)).unwrap() - 9.0).abs() < 1e-4);
+        assert!((across(9.0 * 2.0f64.sqrt(), 3.0, 0.1) - 0.3).abs() < 1e-12);
     }
 
     #[test]

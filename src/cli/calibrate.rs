@@ -110,7 +110,7 @@ fn pattern(arguments: &PatternArguments) -> Outcome {
     let picture = match &setup {
         Some(setup) => calibrate::pattern(setup)?,
         None => {
-            tell(&rough::TOLD);
+            rough::gratings(&arguments.panel.sheet);
             calibrate::rough_pattern(size)?
         }
     };
@@ -189,6 +189,7 @@ fn unknown(arguments: &FitArguments, size: (u32, u32)) -> Outcome {
     writable("the display file", &arguments.out)?;
     rough::fit(&rough::Unknown {
         size,
+        pixel: arguments.panel.sheet.pixel_mm(size)?,
         views: arguments.panel.sheet.views,
         focal: setup.focal,
         photos: &arguments.photos,

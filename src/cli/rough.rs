@@ -1,19 +1,31 @@
 //! `manyview calibrate fit` for a panel whose pitch is not known: photos of gratings tell it well enough for the pattern of the fit.
 #![forbid(unsafe_code)]
 
+use super::sheet::SheetArguments;
 use super::{Outcome, print, tell};
-use manyview::calibrate::{Beats, CalibrateError, Photo, Rough, rough};
-use manyview::display::SubpixelOrder;
+use manyview::calibrate::{Beats, CalibrateError, Photo, Rough, rough, units};
+use manyview::display::{MM_PER_INCH, SubpixelOrder};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// What is said where the gratings are made or shown.
-pub(super) const TOLD: &str = "without --pitch and --display this is the picture of gratings: one photo of it, from straight before the panel, tells pitch and slant to `manyview calibrate fit --size WxH --out rough.toml PHOTO`";
+/// Says what the gratings are for, where they are made or shown.
+pub(super) fn gratings(sheet: &SheetArguments) {
+    if sheet.views.is_some() {
+        tell(
+            &"--views has no effect on the picture of gratings; give it to `manyview calibrate fit`",
+        );
+    }
+    tell(
+        &"without --pitch and --display this is the picture of gratings: one photo of it, from straight before the panel, tells pitch and slant to `manyview calibrate fit --size WxH --out rough.toml PHOTO`",
+    );
+}
 
 /// A panel of which only the size is known.
 pub(super) struct Unknown<'a> {
     /// Pixels.
     pub size: (u32, u32),
+    /// Side of a pixel in mm, where it is known.
+    pub pixel: Option<f64>,
     /// As asked for; else as many as a lens has subpixels.
     pub views: Option<u32>,
     /// Focal length of the camera in mm for film of 36x24 mm.
@@ -31,7 +43,7 @@ pub(super) fn fit(unknown: &Unknown) -> Outcome {
     });
     let beats: Vec<Beats> = beats.collect::<Result<_, CalibrateError>>()?;
     let found = rough(&beats)?;
-    print(&report(&found))?;
+    print(&report(&found, unknown.pixel))?;
     let views = unknown.views.unwrap_or_else(|| found.views());
     if unknown.views.is_none() {
         tell(&format_args!(
@@ -48,13 +60,20 @@ pub(super) fn fit(unknown: &Unknown) -> Outcome {
 }
 
 /// The measurement as text.
-fn report(found: &Rough) -> String {
+fn report(found: &Rough, pixel: Option<f64>) -> String {
     let order = match found.order {
         SubpixelOrder::Rgb => "rgb",
         SubpixelOrder::Bgr => "bgr",
     };
+    let lens = pixel.map_or_else(String::new, |pixel| {
+        let mm = units::across(found.pitch, found.slant, pixel);
+        format!(
+            ", lenses {mm:.4} mm wide, {:.2} in an inch",
+            MM_PER_INCH / mm
+        )
+    });
     format!(
-        "pitch      {:.3} ± {:.3} subpixels\nslant      {:.4} ± {:.4} subpixels per row\ncolours    {order}, as measured\n",
+        "pitch      {:.3} ± {:.3} subpixels{lens}\nslant      {:.4} ± {:.4} subpixels per row\ncolours    {order}, as measured\n",
         found.pitch,
         found.pitch * found.pitch_spread,
         found.slant,
