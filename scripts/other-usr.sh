@@ -6,7 +6,7 @@ set -eu
 folder=$1 release=trixie
 wanted="libgl1 libegl1 libgl1-mesa-dri libx11-6 libwayland-egl1 libpng16-16t64"
 # A folder that was made with other packages is made anew.
-if [ "$(cat "$folder/whole" 2>/dev/null)" = "$wanted" ]; then exit; fi
+if [ "$(cat "$folder/whole" 2>/dev/null)" = "$release $wanted" ]; then exit; fi
 rm -rf "$folder"
 mkdir -p "$(dirname "$folder")"
 # shellcheck disable=SC2086
@@ -16,4 +16,4 @@ chroot "$folder" apt-get update
 narrow=$(for name in $wanted mesa-utils-bin; do echo "$name:i386"; done)
 # shellcheck disable=SC2086
 chroot "$folder" apt-get install -y --no-install-recommends $narrow
-echo "$wanted" > "$folder/whole"
+echo "$release $wanted" > "$folder/whole"

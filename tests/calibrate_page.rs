@@ -90,3 +90,36 @@ fn the_page_of_calibration_leads_to_a_panel_that_shows_one_view_to_each_eye() {
     );
     assert!(compared.wrong_after_offset < 0.01, "{compared:?}");
 }
+
+#[test]
+fn options_that_gratings_do_not_need_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |words: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_manyview"))
+            .current_dir(folder.path())
+            .args(["calibrate", words[0], "--size", "400x300"])
+            .args(&words[1..])
+            .output()
+            .expect("the command");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let told = run(&["pattern", "--views", "8", "--dpi", "90", "--out", "a.png"]);
+    assert!(folder.path().join("a.png").is_file(), "{told}");
+    for part in [
+        "--views has no effect",
+        "--dpi has no effect",
+        "--size 400x300 --out rough.toml",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+    let told = run(&["fit", "--bias", "--out", "a.toml", "absent.jpg"]);
+    for part in ["--bias has no effect", "absent.jpg"] {
+        assert!(told.contains(part), "{told}");
+    }
+    let told = run(&["fit", "--views", "1", "--out", "a.toml", "absent.jpg"]);
+    assert!(
+        told.contains("the number of views is 1; give 2 to 256"),
+        "{told}"
+    );
+    assert!(!folder.path().join("a.toml").exists());
+}

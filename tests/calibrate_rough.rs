@@ -1,10 +1,10 @@
 //! Pitch and slant of displays of which only the size is told, from photos of gratings by an optical simulator that shares nothing with the search.
 
 use crate::calibrate_glass::{chosen, write};
-use crate::optics::displays::{Display, display};
+use crate::optics::displays::{Display, display, small};
 use crate::optics::photograph_jpeg;
 use crate::optics::scenario::{First, Taking, scenario};
-use manyview::calibrate::{Beats, Photo, Rough, rough, rough_pattern};
+use manyview::calibrate::{Beats, Photo, Rough, Setup, Sighting, pattern, rough, rough_pattern};
 use manyview::display::SubpixelOrder;
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -31,7 +31,7 @@ fn told(name: &str, seed: u64, change: impl Fn(&mut Display)) -> (Display, Resul
     let file = photograph_jpeg(&scenario.display, &shown, &scenario.shots[0]).expect("a file");
     let found = Photo::decode_fine("gratings.jpg", &file)
         .and_then(|photo| Beats::new(&photo, size))
-        .and_then(|beats| rough(&[beats]));
+        .and_then(|beats| rough(&beats, Setup::CONE));
     (scenario.display, found.map_err(|error| error.to_string()))
 }
 
@@ -48,18 +48,19 @@ fn off(display: &Display, found: &Rough) -> (f64, f64) {
 
 #[test]
 fn pitch_slant_and_colours_are_found_without_a_data_sheet() {
+    type Change = fn(&mut Display);
+    let same: Change = |_| ();
+    let upright: Change = |display| display.sheet.slant = 0.0;
+    let fine: Change = |display| display.sheet.pitch *= 0.5;
     // UHD and FHD, fine and coarse lenses, leaning to the left and to the right, upright.
-    for (name, seed, upright) in [
-        ("ordinary", 9, false),
-        ("bgr", 1, false),
-        ("ordinary", 22, false),
-        ("ordinary", 12, true),
+    for (name, seed, change, order) in [
+        ("ordinary", 9, same, Some(SubpixelOrder::Rgb)),
+        ("ordinary", 37, fine, Some(SubpixelOrder::Rgb)),
+        ("bgr", 1, same, Some(SubpixelOrder::Bgr)),
+        ("ordinary", 22, same, Some(SubpixelOrder::Rgb)),
+        ("ordinary", 12, upright, None),
     ] {
-        let (display, found) = told(name, seed, |display| {
-            if upright {
-                (display.sheet.slant, display.nominal_slant) = (0.0, 0.0);
-            }
-        });
+        let (display, found) = told(name, seed, change);
         let found = found.expect(name);
         let (pitch, slant) = off(&display, &found);
         assert!(pitch < PITCH && slant < SLANT, "{name} {seed}: {found:?}");
@@ -67,12 +68,8 @@ fn pitch_slant_and_colours_are_found_without_a_data_sheet() {
             pitch < 4.0 * found.pitch_spread && slant < 4.0 * found.slant_spread + 1e-3,
             "{name} {seed}: off by {pitch} and {slant}, {found:?}"
         );
-        let order = match name {
-            "bgr" => SubpixelOrder::Bgr,
-            _ => SubpixelOrder::Rgb,
-        };
         // The colours of upright lenses are columns of their own, which look alike in either order.
-        assert!(upright || found.order == order, "{name} {seed}: {found:?}");
+        assert_eq!(found.order, order, "{name} {seed}: {found:?}");
     }
 }
 
@@ -92,6 +89,30 @@ fn gratings_that_are_shown_scaled_are_noticed() {
     let (_, found) = told("scaled 99.5", 1, |_| ());
     let error = found.expect_err("scaled");
     assert!(error.contains("was shown scaled"), "{error}");
+}
+
+/// A photo of the wrong one of the two patterns says so.
+#[test]
+fn the_other_pattern_is_known() {
+    let setup = Setup::new(640, 400, 8, 8.0, -1.0);
+    let size = (setup.width, setup.height);
+    let display = small();
+    let taking = Taking {
+        photos: 1,
+        first: First::Anywhere,
+        size: [1008, 756],
+        seed: 1,
+    };
+    let scenario = scenario("ordinary", &display, taking).expect("a name");
+    let [gratings, lens] = [rough_pattern(size), pattern(&setup)].map(|picture| {
+        let picture = picture.expect("a pattern");
+        let file = photograph_jpeg(&display, &picture, &scenario.shots[0]).expect("a file");
+        Photo::decode("a.jpg", &file).expect("a photo")
+    });
+    let error = Sighting::new(&gratings, &setup).expect_err("gratings");
+    assert!(error.to_string().contains("leave out --pitch"), "{error}");
+    let error = Beats::new(&lens, size).expect_err("the pattern of a lens");
+    assert!(error.to_string().contains("give the --display"), "{error}");
 }
 
 /// All displays of the study, on two threads: none may be off by more than the next pattern allows.

@@ -1,13 +1,14 @@
 //! What the layer costs under Wine and in a container, where it is switched off and where it draws one view, beside what it costs a program as it is. `make overhead-ways`.
 
 use crate::support::{Screen, demo, library, own_screen, scratch, target_folder};
+use std::io::{BufRead, BufReader, Lines, Write};
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-/// Frames of a short run and of a long one: their difference is free of the start.
-const FRAMES: [u32; 2] = [200, 2200];
-const ROUNDS: usize = 7;
+/// Frames of a turn, turns that are measured, and turns before these, in which caches are made.
+const FRAMES: u32 = 40;
+const TURNS: usize = 101;
+const FIRST: usize = 6;
 /// The bounds: one view, and the layer switched off.
 const BOUNDS: [f64; 2] = [1.05, 1.02];
 
@@ -55,14 +56,18 @@ fn ways() -> Vec<Way> {
     all
 }
 
-/// Seconds for a frame, with these variables.
-fn seconds(way: &Way, screen: &Screen, variables: &[(&str, String)]) -> f64 {
-    let times = FRAMES.map(|frames| {
+/// A program that is kept alive and draws on request.
+struct Program {
+    child: Child,
+    requests: ChildStdin,
+    answers: Lines<BufReader<ChildStdout>>,
+}
+
+impl Program {
+    /// With these variables.
+    fn new(way: &Way, screen: &Screen, variables: &[(&str, String)]) -> Self {
         let mut command = Command::new(&way.words[0]);
-        command
-            .args(&way.words[1..])
-            .arg("--frames")
-            .arg(frames.to_string());
+        command.args(&way.words[1..]).arg("--bench");
         let prefix = std::path::absolute(scratch("wine")).expect("a path");
         command
             .env("WINEPREFIX", prefix)
@@ -70,18 +75,42 @@ fn seconds(way: &Way, screen: &Screen, variables: &[(&str, String)]) -> f64 {
             .env("WINEDLLOVERRIDES", "mscoree=;mshtml=")
             .env("vblank_mode", "0")
             .envs(variables.iter().map(|(name, value)| (name, value)))
-            .stdout(Stdio::null())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
             .stderr(Stdio::null());
-        let begin = Instant::now();
-        let status = screen.give(&mut command).status().expect("it starts");
-        // Wine itself sometimes ends with a signal after the last frame.
-        let wine = way.words[0] == "wine";
-        assert!(wine || status.success(), "{}: {status}", way.name);
-        begin.elapsed().as_secs_f64()
-    });
-    let frame = (times[1] - times[0]) / f64::from(FRAMES[1] - FRAMES[0]);
-    assert!(frame > 1e-4, "{}: {frame} s a frame", way.name);
-    frame
+        let mut child = screen.give(&mut command).spawn().expect("it starts");
+        let (requests, answers) = (child.stdin.take(), child.stdout.take());
+        Self {
+            requests: requests.expect("a pipe"),
+            answers: BufReader::new(answers.expect("a pipe")).lines(),
+            child,
+        }
+    }
+
+    /// Nanoseconds of a turn: one number, or as demos answer, `wall T1 ... TN cpu ...`, after lines with the name of the driver.
+    fn turn(&mut self, name: &str) -> f64 {
+        writeln!(self.requests, "{FRAMES}").expect(name);
+        loop {
+            let line = self.answers.next().expect(name).expect("text");
+            let line = line.trim();
+            if let Ok(all) = line.parse::<f64>() {
+                return all;
+            }
+            if let Some(times) = line.strip_prefix("wall ") {
+                let times = times
+                    .split_whitespace()
+                    .map_while(|t| t.parse::<f64>().ok());
+                return times.sum();
+            }
+        }
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -101,18 +130,25 @@ fn the_layer_costs_no_more_in_any_way() {
     let mut over = Vec::new();
     println!("{:<16}{:>10}{:>10}{:>10}", "", "ms", "one view", "off");
     for way in ways() {
-        // The first run makes caches.
-        seconds(&way, &screen, &[]);
+        let mut programs =
+            [&[][..], &one, &off].map(|variables| Program::new(&way, &screen, variables));
         let mut ratios = [Vec::new(), Vec::new()];
         let mut bare = Vec::new();
-        for _ in 0..ROUNDS {
-            let times = [&[][..], &one, &off].map(|variables| seconds(&way, &screen, variables));
-            bare.push(times[0]);
-            ratios[0].push(times[1] / times[0]);
-            ratios[1].push(times[2] / times[0]);
+        for turn in 0..FIRST + TURNS {
+            let mut times = [0.0; 3];
+            // Each of them comes first, second and last as often.
+            for program in 0..times.len() {
+                let next = (turn + program) % times.len();
+                times[next] = programs[next].turn(way.name);
+            }
+            if turn >= FIRST {
+                bare.push(times[0]);
+                ratios[0].push(times[1] / times[0]);
+                ratios[1].push(times[2] / times[0]);
+            }
         }
         let ratios = ratios.map(median);
-        let ms = median(bare) * 1e3;
+        let ms = median(bare) * 1e-6 / f64::from(FRAMES);
         println!(
             "{:<16}{ms:>10.3}{:>10.3}{:>10.3}",
             way.name, ratios[0], ratios[1]

@@ -1,11 +1,12 @@
 /* What the programs for Windows draw: boxes that turn, and a sign that stands still.
  *
- * PROGRAM [--shader rows|columns|indexed] [--offset N] [--software] [--execute] [--full] [--frames N] [--view I/N] [--separation S] [--convergence C]
+ * PROGRAM [--shader rows|columns|indexed] [--offset N] [--software] [--execute] [--full] [--frames N|--bench] [--view I/N] [--separation S] [--convergence C]
  *
  * --shader, where the program has shaders: rows, the camera is four dot products (m4x4); columns, four multiplications and additions; indexed, a bone of three rows,
  * chosen by an index of the vertex, before the camera's rows. --offset: the constant at which the camera begins. --software, where the program can: it transforms the
  * vertices itself. --execute, where the program can: it draws by execute buffers. --full, where the program can: it has the screen for itself and flips. --view I/N: draws
- * view I of N itself: x in clip space moves by S·place·(w - C), where place is I - (N - 1) / 2. */
+ * view I of N itself: x in clip space moves by S·place·(w - C), where place is I - (N - 1) / 2. --bench: frames on request, so that several programs can be kept
+ * alive and drawn in turns: each line of stdin is a number of frames, and when these are drawn, a line answers how many ns they took. */
 #include <windows.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,9 +17,10 @@ enum { WIDTH = 320, HEIGHT = 240, BONES = 8 };
 
 typedef float matrix[16]; /* rows, for row vectors, as Direct3D has them */
 
-static int frames = 5, view, views = 1, offset, software, execute, full;
+static int frames = 5, view, views = 1, offset, software, execute, full, bench;
 static const char *shader = "";
 static double separation, convergence = 1.0;
+static HWND scene;
 
 __attribute__((unused)) static void product(matrix r, const matrix a, const matrix b)
 {
@@ -126,6 +128,8 @@ static HWND begin(int count, char **words)
             shader = value, i++;
         else if (!strcmp(words[i], "--offset"))
             offset = atoi(value), i++;
+        else if (!strcmp(words[i], "--bench"))
+            bench = 1, frames = 1 << 30;
         else if (!strcmp(words[i], "--frames"))
             frames = atoi(value), i++;
         else if (!strcmp(words[i], "--view"))
@@ -140,13 +144,35 @@ static HWND begin(int count, char **words)
     kind.lpfnWndProc = DefWindowProcA;
     kind.lpszClassName = "scene";
     RegisterClassA(&kind);
-    return CreateWindowA("scene", "scene", WS_POPUP | WS_VISIBLE, 0, 0, WIDTH, HEIGHT, NULL, NULL, NULL, NULL);
+    return scene = CreateWindowA("scene", "scene", WS_POPUP | WS_VISIBLE, 0, 0, WIDTH, HEIGHT, NULL, NULL, NULL, NULL);
+}
+
+/* Waits for the next request where the last one is met. Its window comes to the top, for a hidden one costs less. */
+static void take_turns(void)
+{
+    static LARGE_INTEGER start, now, second;
+    static int left;
+    char line[64];
+    if (left-- > 0)
+        return;
+    QueryPerformanceCounter(&now);
+    QueryPerformanceFrequency(&second);
+    if (start.QuadPart)
+        printf("%.0f\n", 1e9 * (double)(now.QuadPart - start.QuadPart) / (double)second.QuadPart);
+    fflush(stdout);
+    if (!fgets(line, sizeof line, stdin))
+        exit(0);
+    left = atoi(line) - 1;
+    SetWindowPos(scene, HWND_TOP, 0, 0, 0, 0, SWP_NOMOVE | SWP_NOSIZE | SWP_NOACTIVATE);
+    QueryPerformanceCounter(&start);
 }
 
 /* Answers what the window is told. */
 static void answer(void)
 {
     MSG message;
+    if (bench)
+        take_turns();
     while (PeekMessageA(&message, NULL, 0, 0, PM_REMOVE))
         DispatchMessageA(&message);
 }

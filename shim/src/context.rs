@@ -547,7 +547,11 @@ pub(crate) fn show_flushed<R>(call: impl FnOnce() -> R) -> R {
 /// The program is about to leave its context, which flushes, for `next` with other drawables. Anything that it has drawn to its memory
 /// (OSMesa) since its last glFinish is a frame. Of a window's back buffer, the true framebuffer 0 gets the picture.
 pub(crate) fn leave_context(next: Key, drawables: Option<Pair>) {
-    show_flushed(|| ());
+    write_back_shared();
+    // With one view it is not known whether anything was drawn, and most programs have shown it by now.
+    if !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
+        frame(None, || ());
+    }
     if !draws_to_memory() {
         leave_drawable(next, drawables);
     } else if is_drawn() {

@@ -138,7 +138,7 @@ pub(crate) fn turn_on() {
 }
 
 /// The commands that [`Mode::Observe`] hooks.
-const OBSERVED: [usize; 18] = [
+const OBSERVED: [usize; 21] = [
     slot::glXSwapBuffers,
     slot::glXSwapBuffersMscOML,
     slot::glXMakeCurrent,
@@ -157,6 +157,9 @@ const OBSERVED: [usize; 18] = [
     slot::OSMesaDestroyContext,
     slot::glFinish,
     slot::glFlush,
+    slot::glXWaitGL,
+    slot::eglWaitGL,
+    slot::eglWaitClient,
 ];
 
 /// Whether a slot leads to our hook in this process.

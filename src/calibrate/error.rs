@@ -131,7 +131,7 @@ pub enum CalibrateError {
     },
     /// No gratings, or those of another panel.
     #[error(
-        "photo `{photo}` shows another pattern than the gratings for a panel of this size; give the --display or --pitch that its pattern was made with, or take a sharper photo"
+        "photo `{photo}` shows another pattern than the gratings for a panel of this --size; check the size, give the --display or --pitch that the pattern was made with, or take a sharper photo"
     )]
     NoGratings {
         /// The file.
@@ -203,7 +203,7 @@ pub enum CalibrateError {
     /// No single frequency stands out.
     #[error(
         "photo `{photo}`: no single fringe frequency stands out (the best is {ratio:.1} times the next); \
-         take a sharper photo, and find out the pitch without --display and --pitch if it may be off by more than 1 %"
+         take a sharper photo, or measure the pitch from a photo of the gratings, which `manyview calibrate pattern` makes without --display and --pitch"
     )]
     Frequency {
         /// The file.
@@ -214,7 +214,7 @@ pub enum CalibrateError {
     /// The frequency is where the search ends.
     #[error(
         "photo `{photo}`: the fringes are outside of what a pitch right to 1 % allows; \
-         find out pitch and slant without --display and --pitch, \
+         measure pitch and slant from a photo of the gratings, which `manyview calibrate pattern` makes without --display and --pitch, \
          or go farther away if the cone is narrow"
     )]
     Outside {
@@ -223,12 +223,25 @@ pub enum CalibrateError {
     },
     /// Gratings without beats of one sheet.
     #[error(
-        "photo `{photo}`: no single lens sheet explains what is seen of the gratings; take a sharp photo straight from the front that the panel fills, or another one beside it, \
-         or give --pitch and --slant"
+        "photo `{photo}`: no single lens sheet explains what is seen of the gratings; take a sharp photo straight from the front, which the panel fills and in which nothing mirrors, \
+         or give --pitch, --slant and --views"
     )]
     NoSheet {
-        /// The first file.
+        /// The file.
         photo: String,
+    },
+    /// One sheet, but not known well enough for the next pattern.
+    #[error(
+        "photo `{photo}` tells the pitch to ± {percent:.1} % and the slant to ± {slant:.3} only; give --cone from the data sheet, and --focal where the photo does not say it, \
+         or take a sharper photo from farther away"
+    )]
+    Unsure {
+        /// The file.
+        photo: String,
+        /// Standard deviation of the pitch.
+        percent: f64,
+        /// Standard deviation of the slant, subpixels per row.
+        slant: f64,
     },
     /// The fit did not come to rest.
     #[error(

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::camera::View;
+use super::complex::{Complex, argument, conjugate, turn};
 use super::levels::levels;
 use super::pattern::{Layout, SWING};
 use super::{CalibrateError, Photo};
@@ -56,19 +57,6 @@ struct Field {
     /// Panel coordinates of the field.
     origin: DVec2,
     extent: DVec2,
-}
-
-/// Amplitude and phase.
-type Complex = DVec2;
-
-fn turn(turns: f64) -> Complex {
-    let (sin, cos) = (TAU * turns).sin_cos();
-    DVec2::new(cos, sin)
-}
-
-/// In turns, -1/2 to 1/2.
-fn argument(z: Complex) -> f64 {
-    z.y.atan2(z.x) / TAU
 }
 
 /// The nearest whole number taken away.
@@ -173,10 +161,6 @@ pub(super) fn measure(
 fn beside(waves: impl Iterator<Item = [Complex; 3]>, across: f64) -> f64 {
     let apart = waves.map(|[r, g, b]| conjugate(g).rotate(r) + conjugate(conjugate(g).rotate(b)));
     -argument(apart.sum()) / across * 2.0
-}
-
-fn conjugate(z: Complex) -> Complex {
-    DVec2::new(z.x, -z.y)
 }
 
 fn block_centre(field: &Field, column: usize, row: usize) -> DVec2 {

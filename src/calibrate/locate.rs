@@ -11,6 +11,7 @@ use glam::DVec2;
 
 /// Of an edge point, before its scatter is known, panel pixels.
 const EDGE: f64 = 0.4;
+
 /// A panel found in a photo.
 pub(super) struct Located {
     pub bench: Bench,

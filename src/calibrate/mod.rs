@@ -39,6 +39,11 @@
 //! over its rows among its unknowns (`camera.rs`); edges and fringes fix it together. A stabiliser moves the lens, so each photo has an optical axis of its own
 //! as well; before a panel that is seen from the front nothing tells it from a step aside, and it limits how well the focal length and the offset are known.
 //!
+//! # Where pitch and slant are not known
+//!
+//! The pattern is made for a nominal lens that is right to 1 %. Where no data sheet has it, another pattern comes first: many gratings, of whose
+//! beats one photo tells pitch and slant (`rough`).
+//!
 //! # Limits
 //!
 //! A sheet whose views run from right to left looks the same with the cone turned inside out; the sheet here is one whose
@@ -50,6 +55,7 @@ mod by_eye;
 mod camera;
 mod certainty;
 mod choice;
+mod complex;
 mod edges;
 mod error;
 mod find;

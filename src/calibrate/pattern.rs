@@ -24,6 +24,7 @@ const SLANT_ERROR: f64 = 0.02;
 const MARGIN: f64 = 2.0;
 /// Changes with what the picture has, so that photos of an older one are known.
 const VERSION: u64 = 3;
+
 /// Where everything lies in the picture.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {

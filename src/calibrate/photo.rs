@@ -10,8 +10,8 @@ use std::path::Path;
 
 /// Larger photos are averaged down: the fringes are coarse, and averaging in linear light takes noise away.
 const LARGEST_SIDE: u32 = 2600;
-/// The beats of gratings are finer.
-const LARGEST_FINE_SIDE: u32 = 5200;
+/// The beats of gratings are finer. A photo of 24 Mpx, as phones take them, is not averaged.
+const LARGEST_FINE_SIDE: u32 = 6200;
 /// Larger ones than any camera takes are not decoded: they would only take memory.
 const MOST_PIXELS: u64 = 1 << 28;
 /// A channel at or above this value is taken as clipped.

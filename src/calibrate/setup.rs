@@ -76,7 +76,7 @@ impl Setup {
     }
 
     /// Refuses panels for which no pattern can be made.
-    pub(super) fn check(&self) -> Result<(), CalibrateError> {
+    pub fn check(&self) -> Result<(), CalibrateError> {
         check_size((self.width, self.height))?;
         check(&[
             (

@@ -5,7 +5,6 @@ use super::error::CommandError;
 use super::sheet::SheetArguments;
 use super::{Outcome, mask, print, rough, show, tell};
 use clap::{Args, Subcommand};
-use indicatif::{ProgressBar, ProgressStyle};
 use manyview::calibrate::{self, CalibrateError, Fit, Guess, Photo, Setup, Sighting};
 use manyview::display::SubpixelOrder;
 use manyview::launch::writable;
@@ -73,7 +72,8 @@ struct FitArguments {
     /// Picture of the fit to write, PNG
     #[arg(long, value_name = "PATH")]
     picture: Option<PathBuf>,
-    /// Photos, JPEG, PNG or HEIC, that from where the viewers sit first; of more than six the most different are used
+    /// Photos, JPEG, PNG or HEIC, that from where the viewers sit first; of more than six the most different are used, and of the gratings the one
+    /// that tells most
     #[arg(required = true, value_name = "PHOTO")]
     photos: Vec<PathBuf>,
 }
@@ -110,7 +110,7 @@ fn pattern(arguments: &PatternArguments) -> Outcome {
     let picture = match &setup {
         Some(setup) => calibrate::pattern(setup)?,
         None => {
-            rough::gratings(&arguments.panel.sheet);
+            rough::gratings(&arguments.panel.sheet, size);
             calibrate::rough_pattern(size)?
         }
     };
@@ -135,10 +135,7 @@ fn fit(arguments: &FitArguments) -> Outcome {
         spread: Setup::TAPE,
     });
     setup.viewer = pixels("--viewer", arguments.setup.viewer)?;
-    setup.cone = arguments.setup.cone.map_or(Setup::CONE, |value| Guess {
-        value,
-        spread: Setup::DATA_SHEET,
-    });
+    setup.cone = cone(&arguments.setup);
     (setup.colours, setup.bias) = (arguments.colours, arguments.bias);
     writable("the display file", &arguments.out)?;
     if let Some(picture) = &arguments.picture {
@@ -169,13 +166,20 @@ fn fit(arguments: &FitArguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
+/// The angle over which the views are seen once.
+fn cone(setup: &SetupArguments) -> Guess {
+    setup.cone.map_or(Setup::CONE, |value| Guess {
+        value,
+        spread: Setup::DATA_SHEET,
+    })
+}
+
 /// Finds out pitch and slant; options that are for the fit of the whole sheet are told.
 fn unknown(arguments: &FitArguments, size: (u32, u32)) -> Outcome {
     let setup = &arguments.setup;
     let idle = [
         ("--distance", setup.distance.is_some()),
         ("--viewer", setup.viewer.is_some()),
-        ("--cone", setup.cone.is_some()),
         ("--colours", arguments.colours),
         ("--bias", arguments.bias),
         ("--doubtful", arguments.doubtful),
@@ -183,7 +187,7 @@ fn unknown(arguments: &FitArguments, size: (u32, u32)) -> Outcome {
     ];
     for (option, _) in idle.iter().filter(|(_, given)| *given) {
         tell(&format_args!(
-            "{option} has no effect without --pitch or --display, where only pitch and slant are measured"
+            "{option} has no effect without --pitch or --display, where pitch, slant and colours are measured"
         ));
     }
     writable("the display file", &arguments.out)?;
@@ -191,6 +195,7 @@ fn unknown(arguments: &FitArguments, size: (u32, u32)) -> Outcome {
         size,
         pixel: arguments.panel.sheet.pixel_mm(size)?,
         views: arguments.panel.sheet.views,
+        cone: cone(setup),
         focal: setup.focal,
         photos: &arguments.photos,
         out: &arguments.out,
@@ -209,7 +214,7 @@ fn sightings(
     setup: &Setup,
 ) -> Result<(Vec<PathBuf>, Vec<Sighting>), CommandError> {
     let many = arguments.photos.len() > calibrate::MOST;
-    let bar = bar(arguments.photos.len() as u64);
+    let bar = rough::bar(arguments.photos.len() as u64);
     let (mut paths, mut sightings) = (Vec::new(), Vec::new());
     for (number, path) in arguments.photos.iter().enumerate() {
         bar.set_message(path.display().to_string());
@@ -323,10 +328,4 @@ fn write_png(
         file: path.display().to_string(),
         reason: error.to_string(),
     })
-}
-
-/// A progress bar on stderr, hidden when that is no terminal.
-fn bar(photos: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{spinner} {wide_bar} {pos}/{len} photos  {msg}");
-    ProgressBar::new(photos).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

@@ -37,10 +37,10 @@ pub(super) struct SheetArguments {
     pub(super) views: Option<u32>,
     /// Width and height of the lit part of the panel in mm
     #[arg(long, value_name = "WxH", conflicts_with = "dpi")]
-    screen_mm: Option<String>,
+    pub(super) screen_mm: Option<String>,
     /// Pixels per inch of the panel
     #[arg(long, value_name = "N")]
-    dpi: Option<f64>,
+    pub(super) dpi: Option<f64>,
 }
 
 impl SheetArguments {

@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             let picture = match arguments.sheet.setup(size)? {
                 Some(setup) => calibrate::pattern(&setup)?,
                 None => {
-                    rough::gratings(&arguments.sheet);
+                    rough::gratings(&arguments.sheet, size);
                     calibrate::rough_pattern(size)?
                 }
             };

@@ -32,18 +32,20 @@ impl Frames {
         (self.width, self.height) = (width, height);
     }
 
-    /// Whether a flush shows what was drawn: it went to the front buffer, or there is no other. Draws are not watched, so a program that flushes twice
-    /// after them shows two frames.
+    /// Whether a flush shows what was drawn: the window is bound, and draws go to its front buffer, or it has no other. Draws are not watched, so a
+    /// program that flushes twice after them shows two frames.
     pub fn shows_on_flush(&self, gl: &Gl) -> bool {
         // Windows of OpenGL ES are shown by a swap.
         if gl.is_es() || self.width.max(self.height) <= HIDDEN {
             return false;
         }
         let window = gl.version() < (3, 0) || gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) == 0;
-        window && is_front(gl.get_integer(c::DRAW_BUFFER) as u32)
+        window
+            && (gl.get_integer(c::DOUBLEBUFFER) == 0
+                || is_front(gl.get_integer(c::DRAW_BUFFER) as u32))
     }
 
-    /// Captures the frame if it is wanted, from the front buffer where it is shown by a flush.
+    /// Captures the frame if it is wanted, from the front buffer where a flush shows it, or it is in the program's memory (OSMesa).
     pub fn show(&mut self, gl: &Gl, flushed: bool) {
         let frame = self.report.frames() + 1;
         let Some(wanted) = self

@@ -55,12 +55,12 @@ const BITS: [u32; 6] = [
     c::STENCIL_BITS,
 ];
 
-/// The sizes that [`BITS`] names. A core profile has these of its attachments alone (OpenGL 3.2, E.2.2); Mesa's tells both.
 /// Whether a draw buffer of a window is its front buffer, alone or with others.
 pub(crate) fn is_front(buffer: u32) -> bool {
     [c::FRONT, c::FRONT_LEFT, c::LEFT, c::FRONT_AND_BACK].contains(&buffer)
 }
 
+/// The sizes that [`BITS`] names. A core profile has these of its attachments alone (OpenGL 3.2, E.2.2); Mesa's tells both.
 fn attached_bits(gl: &Gl, color: u32) -> [u32; 6] {
     let size = |(attachment, name)| match gl
         .attachment_parameter(attachment, c::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE)

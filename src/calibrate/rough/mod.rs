@@ -16,23 +16,28 @@ use super::frame::Frame;
 use super::levels::levels;
 use super::locate::{Located, locate};
 use super::written::{rounded, write};
-use super::{CalibrateError, Photo, Setup, shown};
+use super::{CalibrateError, Guess, Photo, Setup, shown};
 use crate::display::{Display, Kind, Number, Slanted, SubpixelOrder};
 use image::RgbImage;
 use spectrum::Spectrum;
 use std::path::Path;
+
+/// Three standard deviations have to be within what the finer pattern allows: a part of the pitch, and subpixels per row.
+const PITCH_ERROR: f64 = 0.01;
+const SLANT_ERROR: f64 = 0.02;
+const SURE: f64 = 3.0;
 
 /// The beats in one photo, ready for [`rough`].
 #[derive(Clone, Debug)]
 pub struct Beats {
     name: String,
     size: (u32, u32),
-    /// Of the camera from the panel, panel pixels.
-    distance: f64,
+    /// Of the camera from the panel, panel pixels, and the standard deviation of its logarithm.
+    distance: Guess,
     spectra: Vec<Spectrum>,
 }
 
-/// A lens sheet as far as photos of gratings tell it.
+/// A lens sheet as far as a photo of gratings tells it.
 #[derive(Clone, Copy, Debug)]
 pub struct Rough {
     /// Subpixels from lens to lens along a row.
@@ -43,8 +48,8 @@ pub struct Rough {
     pub pitch_spread: f64,
     /// Standard deviation of the slant, subpixels per row.
     pub slant_spread: f64,
-    /// Which colour is leftmost in a pixel.
-    pub order: SubpixelOrder,
+    /// Which colour is leftmost in a pixel, if the photo tells it.
+    pub order: Option<SubpixelOrder>,
 }
 
 /// The picture of gratings for a panel of this size in pixels; row 0 on top.
@@ -67,7 +72,7 @@ impl Beats {
             CalibrateError::OtherPattern { photo, .. } => CalibrateError::NoGratings { photo },
             error => error,
         });
-        let Located { view, .. } = located?;
+        let Located { view, bench, .. } = located?;
         shown::scaled(photo, &frame, view)?;
         let unclear = || CalibrateError::Edges {
             photo: photo.name.clone(),
@@ -79,7 +84,10 @@ impl Beats {
         Ok(Self {
             name: photo.name.clone(),
             size,
-            distance: -view.pose.eye.z,
+            distance: Guess {
+                value: -view.pose.eye.z,
+                spread: bench.focal_spread,
+            },
             spectra: spectra.ok_or_else(unclear)?,
         })
     }
@@ -89,7 +97,7 @@ impl Rough {
     /// As many views as a lens has subpixels.
     #[must_use]
     pub fn views(&self) -> u32 {
-        // A pitch is 2 to 110 subpixels.
+        // Of subpixels there are 110 at most.
         (self.pitch.round() as u32).max(2)
     }
 
@@ -101,25 +109,37 @@ impl Rough {
             offset: Number::whole(0),
             colours: [Number::whole(0); 3],
             bias: None,
-            order: self.order,
+            order: self.order.unwrap_or(SubpixelOrder::Rgb),
             inverted: true,
         };
         write(&Display::new(name, views, Kind::Slanted(sheet)), path)
     }
 }
 
-/// The sheet that explains the beats of all photos.
-pub fn rough(beats: &[Beats]) -> Result<Rough, CalibrateError> {
-    let first = beats.first().ok_or(CalibrateError::NoPhoto)?;
-    let spectra: Vec<&Spectrum> = beats.iter().flat_map(|beats| &beats.spectra).collect();
-    let mut found = search::search(&spectra).ok_or_else(|| CalibrateError::NoSheet {
-        photo: first.name.clone(),
-    })?;
-    let (width, height) = first.size;
-    let gap = Setup::new(width, height, 2, found.pitch, found.slant).gap();
-    let distances = beats.iter().map(|beats| beats.distance);
-    let part = gap.value * beats.len() as f64 / distances.sum::<f64>();
-    found.pitch *= 1.0 - part;
-    found.pitch_spread = found.pitch_spread.hypot(part * gap.spread);
-    Ok(found)
+/// The sheet that explains the beats; `cone` is the angle over which its views are seen once, in degrees.
+pub fn rough(beats: &Beats, cone: Guess) -> Result<Rough, CalibrateError> {
+    let photo = || beats.name.clone();
+    let none = || CalibrateError::NoSheet { photo: photo() };
+    let found = search::search(&beats.spectra).ok_or_else(none)?;
+    let (f, spread) = (found.frequency, found.spread);
+    let (pitch, slant) = (3.0 / f.x, 3.0 * f.y / f.x);
+    let (width, height) = beats.size;
+    let mut setup = Setup::new(width, height, 2, pitch, slant);
+    setup.cone = cone;
+    setup.check()?;
+    let gap = setup.gap();
+    let part = gap.value / beats.distance.value;
+    let rough = Rough {
+        pitch: pitch * (1.0 - part),
+        slant,
+        pitch_spread: (spread.x / f.x).hypot(part * gap.spread.hypot(beats.distance.spread)),
+        slant_spread: (3.0 * spread.y).hypot(slant * spread.x) / f.x,
+        order: found.order,
+    };
+    let sure = SURE * rough.pitch_spread < PITCH_ERROR && SURE * rough.slant_spread < SLANT_ERROR;
+    sure.then_some(rough).ok_or_else(|| CalibrateError::Unsure {
+        photo: photo(),
+        percent: 100.0 * rough.pitch_spread,
+        slant: rough.slant_spread,
+    })
 }

@@ -1,7 +1,6 @@
 //! The one sheet that explains the beats of all tiles.
 #![forbid(unsafe_code)]
 
-use super::Rough;
 use super::spectrum::{Peak, Spectrum};
 use crate::display::SubpixelOrder;
 use glam::DVec2;
@@ -18,10 +17,8 @@ const EXPLAINED: f64 = 0.35;
 const OTHER: f64 = 0.96;
 /// Sheets count as one when their frequencies differ by fewer waves over a tile.
 const SAME: f64 = 1.0;
-/// Three standard deviations have to be within what the finer pattern allows: a part, and subpixels per row.
-const PITCH_ERROR: f64 = 0.01;
-const SLANT_ERROR: f64 = 0.02;
-const SURE: f64 = 3.0;
+/// Of how many times as fine a sheet the beats may be that the best one has as well.
+const FINER: i32 = 4;
 
 /// A sheet: its frequency in turns per panel pixel, and how much it explains.
 #[derive(Clone, Copy, Debug)]
@@ -31,14 +28,22 @@ struct Candidate {
     order: SubpixelOrder,
 }
 
-/// None where no sheet explains the beats better than all others, or none is known well enough.
-pub(super) fn search(spectra: &[&Spectrum]) -> Option<Rough> {
-    let mut all: Vec<Candidate> = [SubpixelOrder::Rgb, SubpixelOrder::Bgr]
+/// A sheet that explains the beats: its frequency, the standard deviation of that, turns per panel pixel, and the order of the colours, if they tell it.
+pub(super) struct Found {
+    pub frequency: DVec2,
+    pub spread: DVec2,
+    pub order: Option<SubpixelOrder>,
+}
+
+/// None where no sheet explains the beats better than all others.
+pub(super) fn search(spectra: &[Spectrum]) -> Option<Found> {
+    let orders = [SubpixelOrder::Rgb, SubpixelOrder::Bgr];
+    let mut all: Vec<Candidate> = orders
         .into_iter()
         .flat_map(|order| Tiles::new(spectra, order).candidates())
         .collect();
     all.sort_by(|a, b| b.explained.total_cmp(&a.explained));
-    let best = *all.first()?;
+    let best = finest(spectra, &all)?;
     let tiles = Tiles::new(spectra, best.order);
     let (frequency, spread) = tiles.refined(best.frequency)?;
     let explained = tiles.explained(frequency);
@@ -47,21 +52,36 @@ pub(super) fn search(spectra: &[&Spectrum]) -> Option<Rough> {
         let times = (frequency.x / other.frequency.x).round().max(1.0);
         !tiles.same(times * other.frequency, frequency)
     });
-    let rough = Rough {
-        pitch: 3.0 / frequency.x,
-        slant: 3.0 * frequency.y / frequency.x,
-        pitch_spread: spread.x / frequency.x,
-        slant_spread: 3.0 * spread.y / frequency.x,
-        order: best.order,
-    };
     let only = other.is_none_or(|other| other.explained < OTHER * explained);
-    let sure = SURE * rough.pitch_spread < PITCH_ERROR && SURE * rough.slant_spread < SLANT_ERROR;
-    (explained >= EXPLAINED && only && sure).then_some(rough)
+    let told = orders.into_iter().all(|order| {
+        order == best.order || Tiles::new(spectra, order).explained(frequency) < OTHER * explained
+    });
+    (explained >= EXPLAINED && only).then_some(Found {
+        frequency,
+        spread,
+        order: told.then_some(best.order),
+    })
 }
 
-/// The tiles of all photos, for one order of the colours.
+/// The sheet that explains most, or where one that is a whole number of times as fine explains as much, that: the coarser one has its
+/// beats and, from noise, a little more.
+fn finest(spectra: &[Spectrum], all: &[Candidate]) -> Option<Candidate> {
+    let best = *all.first()?;
+    let tiles = Tiles::new(spectra, best.order);
+    let finer = all.iter().filter(|other| {
+        let times = (other.frequency.x / best.frequency.x).round() as i32;
+        (2..=FINER).contains(&times)
+            && other.order == best.order
+            && other.explained >= OTHER * best.explained
+            && tiles.same(other.frequency, f64::from(times) * best.frequency)
+    });
+    let finer = finer.max_by(|a, b| a.frequency.x.total_cmp(&b.frequency.x));
+    Some(finer.copied().unwrap_or(best))
+}
+
+/// The tiles, for one order of the colours.
 struct Tiles<'a> {
-    spectra: &'a [&'a Spectrum],
+    spectra: &'a [Spectrum],
     order: SubpixelOrder,
     /// The strongest beats of each.
     peaks: Vec<Vec<Peak>>,
@@ -70,7 +90,7 @@ struct Tiles<'a> {
 }
 
 impl<'a> Tiles<'a> {
-    fn new(spectra: &'a [&'a Spectrum], order: SubpixelOrder) -> Self {
+    fn new(spectra: &'a [Spectrum], order: SubpixelOrder) -> Self {
         let peaks = spectra.iter().map(|tile| tile.peaks(order, PEAKS));
         let peaks: Vec<Vec<Peak>> = peaks.collect();
         let strongest = peaks.iter().filter_map(|peaks| peaks.first());
@@ -83,7 +103,7 @@ impl<'a> Tiles<'a> {
     }
 
     fn same(&self, a: DVec2, b: DVec2) -> bool {
-        let waves = |tile: &&Spectrum| tile.waves(a - b).abs().max_element();
+        let waves = |tile: &Spectrum| tile.waves(a - b).abs().max_element();
         self.spectra.iter().all(|tile| waves(tile) < SAME)
     }
 

@@ -3,6 +3,7 @@
 
 use super::super::Photo;
 use super::super::camera::View;
+use super::super::complex::{Complex, conjugate, turn};
 use super::super::levels::Levels;
 use super::tiles::Tile;
 use crate::display::SubpixelOrder;
@@ -20,17 +21,6 @@ const COARSEST: f64 = 2.0;
 const APART: f64 = 2.5;
 /// A part of the side of a tile at its edges that is not used: blur mixes neighbours there.
 const MARGIN: f64 = 0.04;
-
-type Complex = DVec2;
-
-fn turn(turns: f64) -> Complex {
-    let (sin, cos) = (TAU * turns).sin_cos();
-    DVec2::new(cos, sin)
-}
-
-fn conjugate(z: Complex) -> Complex {
-    DVec2::new(z.x, -z.y)
-}
 
 /// Amplitudes over the frequencies of beats; zero where no beat can be told.
 #[derive(Clone, Debug)]
