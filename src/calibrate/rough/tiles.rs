@@ -10,9 +10,6 @@ use std::f64::consts::TAU;
 /// Tiles along the longer side and along the shorter one.
 const LONG: usize = 11;
 const SHORT: usize = 10;
-/// Tiles follow one another in this step through the frequencies, so that no part of the panel has all frequencies of a kind, which a
-/// lamp could hide. It has no divisor in common with the number of tiles.
-const STEP: usize = 37;
 /// Turns per pixel to the right, of the first grating, and from one to the next.
 const ACROSS: f64 = 0.08;
 const ACROSS_STEP: f64 = 0.1;
@@ -56,10 +53,12 @@ pub(super) fn tiles(frame: &Frame) -> impl Iterator<Item = Tile> {
     })
 }
 
-/// Of the tile that has this number. Rows of frequencies lie between each other as bricks do.
+/// Of the tile that has this number. Neighbours have frequencies far apart, so that no part of the panel, which a lamp could hide, has all of
+/// a kind; the steps have no divisor in common with the numbers of tiles. Rows of frequencies lie between each other as bricks do.
 fn frequency(index: usize) -> DVec2 {
-    let index = index * STEP % (LONG * SHORT);
-    let (i, j) = ((index % LONG) as f64, (index / LONG) as f64);
+    let (column, row) = (index % LONG, index / LONG);
+    let (i, j) = ((4 * column + 3 * row) % LONG, 3 * row % SHORT);
+    let (i, j) = (i as f64, j as f64);
     DVec2::new(
         ACROSS + ACROSS_STEP * (i + 0.5 * (j % 2.0)),
         DOWN_STEP * (j - (SHORT - 1) as f64 / 2.0),
