@@ -81,6 +81,14 @@ fn pitch_slant_and_colours_are_found_without_a_data_sheet() {
     }
 }
 
+/// Fine lenses that are nearly upright, on a panel with blue on the left: the camera sees more of the beats of their mirror image, which is not taken for them.
+#[test]
+fn a_mirror_image_is_no_sheet() {
+    let (_, found) = told("bgr", 9, LARGE, |display| display.sheet.slant = 0.08);
+    let error = found.expect_err("which one it is cannot be told");
+    assert!(error.contains("no single lens sheet"), "{error}");
+}
+
 /// A screen without lenses, or with ones that blur all, shows the gratings and no beats of one sheet.
 #[test]
 fn a_panel_without_lenses_has_no_pitch() {

@@ -6,17 +6,24 @@ use crate::display::SubpixelOrder;
 use glam::DVec2;
 
 /// Beats of each tile from which sheets are proposed, and the harmonics that these may be of.
-const PEAKS: usize = 3;
+const PEAKS: usize = 5;
 const HARMONICS: u32 = 8;
 /// Pitches that are looked for, subpixels, and the largest slant, subpixels per row.
 const PITCHES: std::ops::RangeInclusive<f64> = 1.9..=110.0;
 const SLANT: f64 = 3.0;
 /// The part of the tiles' strongest beats that a sheet has to explain.
 const EXPLAINED: f64 = 0.35;
+/// With the colours in the other order, the columns of pixels make a grating `k` look like `k` less a turn in a pixel, and a sheet like its mirror
+/// image: a turn in a pixel less its own frequency. A camera that blurs the beats of a fine sheet sees more of those of that mirror image. So where
+/// the finer one of the two explains as much as this part of what the coarser one does, this has to explain nearly all.
+const MIRRORED: f64 = 0.5;
+const NEARLY_ALL: f64 = 0.75;
 /// Another sheet explains less than this part of what the best one does.
 const OTHER: f64 = 0.96;
 /// Sheets count as one when their frequencies differ by fewer waves over a tile.
 const SAME: f64 = 1.0;
+/// Waves over a tile between a beat and those with columns of one colour.
+const COLUMN: f64 = 1.5;
 /// Of how many times as fine a sheet the beats may be that the best one has as well.
 const FINER: i32 = 4;
 
@@ -56,7 +63,17 @@ pub(super) fn search(spectra: &[Spectrum]) -> Option<Found> {
     let told = orders.into_iter().all(|order| {
         order == best.order || Tiles::new(spectra, order).explained(frequency) < OTHER * explained
     });
-    (explained >= EXPLAINED && only).then_some(Found {
+    let mirrored = orders.into_iter().any(|order| {
+        let image = DVec2::X - frequency;
+        order != best.order
+            && image.x > frequency.x
+            && Tiles::new(spectra, order).explained(image) >= MIRRORED * explained
+    });
+    let least = match mirrored {
+        true => NEARLY_ALL,
+        false => EXPLAINED,
+    };
+    (explained >= least && only).then_some(Found {
         frequency,
         spread,
         order: told.then_some(best.order),
@@ -85,20 +102,15 @@ struct Tiles<'a> {
     order: SubpixelOrder,
     /// The strongest beats of each.
     peaks: Vec<Vec<Peak>>,
-    /// The sum of the amplitudes of the strongest.
-    total: f64,
 }
 
 impl<'a> Tiles<'a> {
     fn new(spectra: &'a [Spectrum], order: SubpixelOrder) -> Self {
         let peaks = spectra.iter().map(|tile| tile.peaks(order, PEAKS));
-        let peaks: Vec<Vec<Peak>> = peaks.collect();
-        let strongest = peaks.iter().filter_map(|peaks| peaks.first());
         Self {
             spectra,
             order,
-            total: strongest.map(|peak| peak.amplitude).sum(),
-            peaks,
+            peaks: peaks.collect(),
         }
     }
 
@@ -140,11 +152,36 @@ impl<'a> Tiles<'a> {
 
     /// The part of the tiles' strongest beats that lies where a sheet has its beats, 0 to 1.
     fn explained(&self, sheet: DVec2) -> f64 {
-        let amplitudes = self.spectra.iter().filter_map(|tile| {
-            let (_, beat) = Self::beat(tile, sheet)?;
-            tile.amplitude(self.order, beat)
+        let columns = Self::columns(sheet);
+        let told = |tile: &Spectrum, beat: DVec2| {
+            let apart = |column: &DVec2| {
+                let waves = |d: DVec2| tile.waves(d).length();
+                waves(beat - *column) >= COLUMN && waves(beat + *column) >= COLUMN
+            };
+            columns.iter().all(apart)
+        };
+        let (mut explained, mut total) = (0.0, 0.0);
+        for (tile, peaks) in self.spectra.iter().zip(&self.peaks) {
+            let strongest = peaks.iter().find(|peak| told(tile, peak.frequency));
+            total += strongest.map_or(0.0, |peak| peak.amplitude);
+            let beat = Self::beat(tile, sheet).map(|(_, beat)| beat);
+            let beat = beat.filter(|beat| told(tile, *beat));
+            explained += beat
+                .and_then(|beat| tile.amplitude(self.order, beat))
+                .unwrap_or(0.0);
+        }
+        explained / total
+    }
+
+    /// The beats of a sheet with the columns of one colour, whatever the grating. Where red and blue are put where a pixel has them in the other
+    /// order, the colours of these do not cancel; where lenses are upright they are coarse, and stronger than all others.
+    fn columns(sheet: DVec2) -> Vec<DVec2> {
+        let beats = [1.0, 2.0].into_iter().flat_map(|times| {
+            let columns = DVec2::X * times;
+            let nearest = (columns.dot(sheet) / sheet.length_squared()).round();
+            [-1.0, 0.0, 1.0].map(|beside| columns - (nearest + beside) * sheet)
         });
-        amplitudes.sum::<f64>() / self.total
+        beats.collect()
     }
 
     /// The frequency by all tiles, and its standard deviation, turns per panel pixel: the mean of what each says, weighted by amplitude and
