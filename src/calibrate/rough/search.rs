@@ -15,8 +15,10 @@ const SLANT: f64 = 3.0;
 const EXPLAINED: f64 = 0.35;
 /// With the colours in the other order, the columns of pixels make a grating `k` look like `k` less a turn in a pixel, and a sheet like its mirror
 /// image: a turn in a pixel less its own frequency. A camera that blurs the beats of a fine sheet sees more of those of that mirror image. So where
-/// the finer one of the two explains as much as this part of what the coarser one does, this has to explain nearly all.
+/// the finer one of the two explains as much as this part of what the coarser one does, this has to explain nearly all. Sheets of more slant have
+/// beats apart from those of their mirror image.
 const MIRRORED: f64 = 0.5;
+const MIRRORED_SLANT: f64 = 0.7;
 const NEARLY_ALL: f64 = 0.75;
 /// Another sheet explains less than this part of what the best one does.
 const OTHER: f64 = 0.96;
@@ -67,6 +69,7 @@ pub(super) fn search(spectra: &[Spectrum]) -> Option<Found> {
         let image = DVec2::X - frequency;
         order != best.order
             && image.x > frequency.x
+            && (3.0 * image.y / image.x).abs() < MIRRORED_SLANT
             && Tiles::new(spectra, order).explained(image) >= MIRRORED * explained
     });
     let least = match mirrored {
