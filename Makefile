@@ -204,7 +204,7 @@ looks: packages build ## play games as a new user launches them, without an opti
 looks-strategies: packages build ## play them under each strategy, the only option; writes docs/looks-strategies.md (two hours)
 	$(CARGO) test --release --test all -- looks::looks_are_right --ignored --nocapture
 
-calibration: ## fit photos of simulated displays and compare with the truth; writes docs/calibrated.md (an hour)
+calibration: ## fit photos of simulated displays and compare with the truth; writes docs/calibrated.md (two hours)
 	$(CARGO) test --release --test all -- calibrate_glass::full_ calibrate_rough::full_ --ignored --nocapture --test-threads 1
 
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak

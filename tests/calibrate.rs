@@ -5,7 +5,7 @@ mod gallery;
 pub(crate) mod random;
 mod scene;
 
-use crate::calibrate_glass::{chosen, mapped};
+use crate::calibrate_glass::{chosen, mapped, on_two_threads};
 use camera::{Exposure, Sheet, expose};
 use image::RgbImage;
 use manyview::calibrate::{CalibrateError, Fit, Guess, Mask, Photo, Setup, Sighting, fit, pattern};
@@ -14,7 +14,6 @@ use random::Random;
 use scene::Scene;
 use std::collections::BTreeMap;
 use std::process::Command;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 const QUALITY: u8 = 70;
 
@@ -404,27 +403,11 @@ fn outcomes(seed: u64) -> Vec<[Outcome; PHOTOS.len()]> {
         .collect()
 }
 
-/// Runs on two threads; each display is its own seed.
 fn all_outcomes() -> BTreeMap<u64, Vec<[Outcome; PHOTOS.len()]>> {
-    let next = AtomicU64::new(0);
     let displays = chosen("MANYVIEW_CALIBRATION_DISPLAYS", DISPLAYS);
-    let work = || {
-        let mut done = Vec::new();
-        loop {
-            let seed = next.fetch_add(1, Ordering::Relaxed);
-            if seed >= displays {
-                return done;
-            }
-            done.push((seed, outcomes(seed)));
-        }
-    };
-    std::thread::scope(|scope| {
-        let threads = [scope.spawn(work), scope.spawn(work)];
-        let done = threads
-            .into_iter()
-            .flat_map(|t| t.join().expect("no panic"));
-        done.collect()
-    })
+    on_two_threads(displays, |seed| (seed, outcomes(seed)))
+        .into_iter()
+        .collect()
 }
 
 /// The quantile of sorted values: the value below which a part (0 to 1) of them lies.

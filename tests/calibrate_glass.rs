@@ -349,7 +349,6 @@ const REMEDIES: [(&str, &str, Ask); 2] = [
 /// One line of the study.
 struct Row {
     photos: usize,
-    seed: u64,
     outcome: Outcome,
 }
 
@@ -359,57 +358,63 @@ pub(crate) fn chosen(variable: &str, default: u64) -> u64 {
     text.and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-/// Photographs displays on two threads, and tells each.
-fn study(case: Case, displays: u64) -> Vec<Row> {
-    let wide = chosen("MANYVIEW_CALIBRATION_WIDTH", 4032) as u32;
+/// What comes of work with each of so many displays, on two threads, in the order of their seeds.
+pub(crate) fn on_two_threads<T: Send>(displays: u64, work: impl Fn(u64) -> T + Sync) -> Vec<T> {
     let next = AtomicU64::new(0);
-    let work = || {
+    let some = || {
         let mut done = Vec::new();
         loop {
             let seed = next.fetch_add(1, Ordering::Relaxed);
             if seed >= displays {
                 return done;
             }
-            let taking = Taking {
-                photos: case.counts.iter().copied().max().unwrap_or(1),
-                first: case.first,
-                size: [wide, wide * 3 / 4],
-                seed,
-            };
-            let scenario = scenario(case.name, &display(seed), taking).expect("a name");
-            let mut setup = setup(&scenario.display, case.first);
-            (case.ask)(&mut setup);
-            let all = outcomes(&scenario, &setup, case.counts);
-            for (&photos, outcome) in case.counts.iter().zip(all) {
-                let verdict = if outcome.accepted {
-                    "accepted"
-                } else {
-                    "refused"
-                };
-                let wrong = outcome
-                    .wrong
-                    .map(|[all, rest]| format!("{all:.1} % wrong, {rest:.1} % without a constant"));
-                let wrong = wrong.unwrap_or_default();
-                println!(
-                    "{}, display {seed} of {} views, {photos} photos: {verdict}, {wrong}; {}",
-                    case.name, scenario.display.views, outcome.said
-                );
-                done.push(Row {
-                    photos,
-                    seed,
-                    outcome,
-                });
-            }
+            done.push((seed, work(seed)));
         }
     };
-    let mut rows: Vec<Row> = std::thread::scope(|scope| {
-        let threads = [scope.spawn(work), scope.spawn(work)];
-        let done = threads
-            .into_iter()
-            .flat_map(|thread| thread.join().expect("no panic"));
-        done.collect()
+    let mut all: Vec<(u64, T)> = std::thread::scope(|scope| {
+        let threads = [scope.spawn(some), scope.spawn(some)];
+        let done = threads.into_iter().map(|thread| thread.join());
+        done.flat_map(|done| done.expect("no panic")).collect()
     });
-    rows.sort_by_key(|row| (row.photos, row.seed));
+    all.sort_by_key(|(seed, _)| *seed);
+    all.into_iter().map(|(_, of)| of).collect()
+}
+
+/// Photographs displays, and tells each.
+fn study(case: Case, displays: u64) -> Vec<Row> {
+    let wide = chosen("MANYVIEW_CALIBRATION_WIDTH", 4032) as u32;
+    let work = |seed| {
+        let taking = Taking {
+            photos: case.counts.iter().copied().max().unwrap_or(1),
+            first: case.first,
+            size: [wide, wide * 3 / 4],
+            seed,
+        };
+        let scenario = scenario(case.name, &display(seed), taking).expect("a name");
+        let mut setup = setup(&scenario.display, case.first);
+        (case.ask)(&mut setup);
+        let all = outcomes(&scenario, &setup, case.counts);
+        let rows = case.counts.iter().zip(all).map(|(&photos, outcome)| {
+            let verdict = if outcome.accepted {
+                "accepted"
+            } else {
+                "refused"
+            };
+            let wrong = outcome
+                .wrong
+                .map(|[all, rest]| format!("{all:.1} % wrong, {rest:.1} % without a constant"));
+            let wrong = wrong.unwrap_or_default();
+            println!(
+                "{}, display {seed} of {} views, {photos} photos: {verdict}, {wrong}; {}",
+                case.name, scenario.display.views, outcome.said
+            );
+            Row { photos, outcome }
+        });
+        rows.collect::<Vec<Row>>()
+    };
+    let rows = on_two_threads(displays, work);
+    let mut rows: Vec<Row> = rows.into_iter().flatten().collect();
+    rows.sort_by_key(|row| row.photos);
     rows
 }
 

@@ -1,6 +1,7 @@
 //! What the layer costs under Wine and in a container, where it is switched off and where it draws one view, beside what it costs a program as it is. `make overhead-ways`.
 
 use crate::support::{Screen, demo, library, own_screen, scratch, target_folder};
+use manyview::bench::protocol::Times;
 use std::io::{BufRead, BufReader, Lines, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -96,11 +97,8 @@ impl Program {
             if let Ok(all) = line.parse::<f64>() {
                 return all;
             }
-            if let Some(times) = line.strip_prefix("wall ") {
-                let times = times
-                    .split_whitespace()
-                    .map_while(|t| t.parse::<f64>().ok());
-                return times.sum();
+            if let Some(times) = Times::read(line, FRAMES) {
+                return times.wall.iter().sum::<u64>() as f64;
             }
         }
     }

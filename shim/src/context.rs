@@ -538,7 +538,12 @@ fn shows_on_flush() -> bool {
 /// Makes a call that flushes, which shows what was drawn to the front buffer, or to the only one.
 pub(crate) fn show_flushed<R>(call: impl FnOnce() -> R) -> R {
     write_back_shared();
-    match !draws_to_memory() && shows_on_flush() {
+    show_where(shows_on_flush, call)
+}
+
+/// Makes a call, as the end of a frame where a window or pbuffer is drawn to and `shows` says that the call shows it.
+fn show_where<R>(shows: fn() -> bool, call: impl FnOnce() -> R) -> R {
+    match !draws_to_memory() && shows() {
         true => frame(None, call),
         false => guarded(call),
     }
@@ -549,9 +554,7 @@ pub(crate) fn show_flushed<R>(call: impl FnOnce() -> R) -> R {
 pub(crate) fn leave_context(next: Key, drawables: Option<Pair>) {
     write_back_shared();
     // With one view it is not known whether anything was drawn, and most programs have shown it by now.
-    if !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
-        frame(None, || ());
-    }
+    show_where(|| enter(|_, l| l.shows_on_flush()) == Some(true), || ());
     if !draws_to_memory() {
         leave_drawable(next, drawables);
     } else if is_drawn() {

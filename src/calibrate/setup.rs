@@ -82,7 +82,7 @@ impl Setup {
             (
                 "the pitch",
                 self.pitch,
-                2.0..=f64::from(self.width) / 20.0,
+                pitches(self.width),
                 "at least 2 subpixels, and 60 lenses or more over the panel",
             ),
             (
@@ -125,6 +125,11 @@ fn check(rules: &[Rule]) -> Result<(), CalibrateError> {
         }),
         None => Ok(()),
     }
+}
+
+/// Pitches that can be measured on a panel of this width in pixels, subpixels.
+pub(super) fn pitches(width: u32) -> RangeInclusive<f64> {
+    2.0..=f64::from(width) / 20.0
 }
 
 /// Refuses sizes of panels for which no pattern can be made.

@@ -46,8 +46,10 @@ pub(super) struct Unknown<'a> {
 /// Measures pitch and slant, writes them as a display, and says what comes next. Of several photos the one that tells most is used.
 pub(super) fn fit(unknown: &Unknown) -> Outcome {
     let (width, height) = unknown.size;
-    // The number of views is wrong before anything is measured, or not at all.
-    Setup::new(width, height, unknown.views.unwrap_or(2), 3.0, 0.0).check()?;
+    // What is given is wrong before anything is measured, or not at all.
+    let mut given = Setup::new(width, height, unknown.views.unwrap_or(2), 3.0, 0.0);
+    given.cone = unknown.cone;
+    given.check()?;
     let bar = bar(unknown.photos.len() as u64);
     let measured = unknown.photos.iter().map(|path| {
         bar.set_message(path.display().to_string());
@@ -89,9 +91,8 @@ pub(super) fn fit(unknown: &Unknown) -> Outcome {
 /// The measurement as text.
 fn report(found: &Rough, pixel: Option<f64>) -> String {
     let order = match found.order {
-        Some(SubpixelOrder::Rgb) => "rgb, as measured",
-        Some(SubpixelOrder::Bgr) => "bgr, as measured",
-        None => "rgb, as most panels have it; the photo does not tell",
+        SubpixelOrder::Rgb => "rgb, as measured",
+        SubpixelOrder::Bgr => "bgr, as measured",
     };
     let lens = pixel.map_or_else(String::new, |pixel| {
         let mm = units::across(found.pitch, found.slant, pixel);

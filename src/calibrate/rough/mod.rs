@@ -1,8 +1,9 @@
 //! Pitch and slant of a lens sheet of which nothing is known, from photos of many gratings; pure, without GL.
 //!
 //! The pattern of the finest measurement is that of a lens whose pitch is known to 1 %. Where no data sheet says it, another picture comes first: tiles,
-//! each with a grating of its own frequency `k`. The sheet samples what lies under it at its own frequency `f`, so in a tile one sees
-//! the beats `k − m·f`, of which the coarsest is that of the nearest harmonic `m`. One `f` explains the beats of all tiles (`search.rs`).
+//! each with a grating of a frequency `k`. The sheet samples what lies under it at its own frequency `f`, so in a tile one sees
+//! the beats `k − m·f`, of which the coarsest is that of the nearest harmonic `m`. One `f` explains the beats of all tiles (`search.rs`). Each grating is drawn for
+//! both orders of the colours; the tiles of the wrong order are the proof.
 //!
 //! Frequencies are turns per panel pixel, to the right and down. From a distance `Z` the sheet seems coarser by `1 / (1 − g/Z)` (see [`super`]), of which
 //! the usual gap `g` is taken out.
@@ -12,7 +13,6 @@ mod search;
 mod spectrum;
 mod tiles;
 
-use super::frame::Frame;
 use super::levels::levels;
 use super::locate::{Located, locate};
 use super::written::{rounded, write};
@@ -48,8 +48,8 @@ pub struct Rough {
     pub pitch_spread: f64,
     /// Standard deviation of the slant, subpixels per row.
     pub slant_spread: f64,
-    /// Which colour is leftmost in a pixel, if the photo tells it.
-    pub order: Option<SubpixelOrder>,
+    /// Which colour is leftmost in a pixel.
+    pub order: SubpixelOrder,
 }
 
 /// The picture of gratings for a panel of this size in pixels; row 0 on top.
@@ -67,7 +67,7 @@ impl Beats {
     /// Finds the picture of gratings in a photo and measures the beats. The photo has to be read by [`Photo::load_fine`].
     pub fn new(photo: &Photo, size: (u32, u32)) -> Result<Self, CalibrateError> {
         super::setup::check_size(size)?;
-        let frame: Frame = tiles::frame(size);
+        let frame = tiles::frame(size);
         let located = locate(photo, &frame).map_err(|error| match error {
             CalibrateError::OtherPattern { photo, .. } => CalibrateError::NoGratings { photo },
             error => error,
@@ -94,11 +94,10 @@ impl Beats {
 }
 
 impl Rough {
-    /// As many views as a lens has subpixels.
+    /// As many views as a lens has subpixels, where a display may have as many.
     #[must_use]
     pub fn views(&self) -> u32 {
-        // Of subpixels there are 110 at most.
-        (self.pitch.round() as u32).max(2)
+        (self.pitch.round() as u32).clamp(2, 256)
     }
 
     /// Writes it as a display, whose offset is not known.
@@ -109,7 +108,7 @@ impl Rough {
             offset: Number::whole(0),
             colours: [Number::whole(0); 3],
             bias: None,
-            order: self.order.unwrap_or(SubpixelOrder::Rgb),
+            order: self.order,
             inverted: true,
         };
         write(&Display::new(name, views, Kind::Slanted(sheet)), path)
@@ -120,13 +119,12 @@ impl Rough {
 pub fn rough(beats: &Beats, cone: Guess) -> Result<Rough, CalibrateError> {
     let photo = || beats.name.clone();
     let none = || CalibrateError::NoSheet { photo: photo() };
-    let found = search::search(&beats.spectra).ok_or_else(none)?;
+    let (width, height) = beats.size;
+    let found = search::search(&beats.spectra, &super::setup::pitches(width)).ok_or_else(none)?;
     let (f, spread) = (found.frequency, found.spread);
     let (pitch, slant) = (3.0 / f.x, 3.0 * f.y / f.x);
-    let (width, height) = beats.size;
     let mut setup = Setup::new(width, height, 2, pitch, slant);
     setup.cone = cone;
-    setup.check()?;
     let gap = setup.gap();
     let part = gap.value / beats.distance.value;
     let rough = Rough {

@@ -27,12 +27,14 @@ const MARGIN: f64 = 0.04;
 pub(super) struct Spectrum {
     /// Frequency of the grating, turns per panel pixel.
     pub frequency: DVec2,
+    /// Which colour is leftmost in a pixel of the panel that the tile is drawn for.
+    pub order: SubpixelOrder,
     /// From one value to the next, turns per panel pixel.
     step: DVec2,
     /// Values to either side of the frequency 0, to the right and down.
     reach: IVec2,
-    /// Rows from the most negative frequency, as a part of white: with red on the left of a pixel, then with blue there.
-    amplitudes: [Vec<f32>; 2],
+    /// Of the mean of the colours, rows from the most negative frequency, as a part of white.
+    amplitudes: Vec<f32>,
 }
 
 /// A beat.
@@ -42,13 +44,6 @@ pub(super) struct Peak {
     pub frequency: DVec2,
     /// As a part of white.
     pub amplitude: f64,
-}
-
-fn index(order: SubpixelOrder) -> usize {
-    match order {
-        SubpixelOrder::Rgb => 0,
-        SubpixelOrder::Bgr => 1,
-    }
 }
 
 impl Spectrum {
@@ -65,48 +60,38 @@ impl Spectrum {
         let counts = DVec2::new(width as f64, height as f64);
         let hann = |i: usize, n: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / n as f64).cos();
         let mut samples = Vec::with_capacity(width * height);
-        let (mut sum, mut weights) = ([0.0; 3], 0.0);
+        let (mut sum, mut weights) = (0.0, 0.0);
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             let part = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / counts;
             let rgb = levels.of(photo.at(view.to_picture(from + extent * part)?)?);
+            let grey = rgb.iter().map(|v| f64::from(*v)).sum::<f64>() / 3.0;
             let weight = hann(x, width) * hann(y, height);
-            sum.iter_mut()
-                .zip(rgb)
-                .for_each(|(sum, v)| *sum += weight * f64::from(v));
+            sum += weight * grey;
             weights += weight;
-            samples.push((rgb, weight));
+            samples.push((grey, weight));
         }
-        let mean = sum.map(|sum| sum / weights);
+        let mean = sum / weights;
+        let values = samples
+            .iter()
+            .map(|(grey, weight)| (grey - mean) * weight / weights);
+        let values: Vec<f64> = values.collect();
         let step = 1.0 / (BETWEEN * extent);
-        let reach = (FINEST * counts * BETWEEN).as_ivec2();
         let mut spectrum = Self {
             frequency: tile.frequency,
+            order: tile.order,
             step,
-            reach,
-            amplitudes: [Vec::new(), Vec::new()],
+            reach: (FINEST * counts * BETWEEN).as_ivec2(),
+            amplitudes: Vec::new(),
         };
-        let waves = [0, 1, 2].map(|c: usize| {
-            let values = samples
-                .iter()
-                .map(|(rgb, weight)| (f64::from(rgb[c]) - mean[c]) * weight / weights);
-            let values: Vec<f64> = values.collect();
-            spectrum.transformed(&values, width, step * extent / counts)
-        });
-        // Two subpixels of the grating: by so much red and blue are ahead and behind where they have changed places.
-        let swapped = turn(2.0 / 3.0 * tile.frequency.x);
-        for (order, turned) in [(0, DVec2::X), (1, swapped)] {
-            let back = conjugate(turned);
-            let [red, green, blue] = &waves;
-            let places = red.iter().zip(green).zip(blue).enumerate();
-            let amplitudes = places.map(|(at, ((r, g), b))| {
-                if !spectrum.tells(spectrum.at(at), extent) {
-                    return 0.0;
-                }
+        let waves = spectrum.transformed(&values, width, step * extent / counts);
+        let amplitudes = waves.iter().enumerate().map(|(at, wave)| {
+            match spectrum.tells(spectrum.at(at), extent) {
                 // The amplitude of a cosine is twice that of its half of the spectrum.
-                (2.0 / 3.0 * (r.rotate(turned) + *g + b.rotate(back)).length()) as f32
-            });
-            spectrum.amplitudes[order] = amplitudes.collect();
-        }
+                true => 2.0 * wave.length() as f32,
+                false => 0.0,
+            }
+        });
+        spectrum.amplitudes = amplitudes.collect();
         Some(spectrum)
     }
 
@@ -177,60 +162,55 @@ impl Spectrum {
         inside.then_some((at.x as usize, at.y as usize))
     }
 
-    fn value(&self, order: SubpixelOrder, x: usize, y: usize) -> f64 {
-        let values = &self.amplitudes[index(order)];
-        f64::from(values.get(y * self.width() + x).copied().unwrap_or(0.0))
+    fn value(&self, x: usize, y: usize) -> f64 {
+        let value = self.amplitudes.get(y * self.width() + x);
+        f64::from(value.copied().unwrap_or(0.0))
     }
 
     /// Amplitude at a frequency; none where beats cannot be told.
-    pub(super) fn amplitude(&self, order: SubpixelOrder, frequency: DVec2) -> Option<f64> {
+    pub(super) fn amplitude(&self, frequency: DVec2) -> Option<f64> {
         let (x, y) = self.place(frequency)?;
-        let value = self.value(order, x, y);
+        let value = self.value(x, y);
         (value > 0.0).then_some(value)
     }
 
     /// The strongest beats, the first one first.
-    pub(super) fn peaks(&self, order: SubpixelOrder, most: usize) -> Vec<Peak> {
+    pub(super) fn peaks(&self, most: usize) -> Vec<Peak> {
         let (width, height) = (self.width(), (2 * self.reach.y + 1) as usize);
-        let mut found = Vec::new();
-        for (x, y) in (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| (x, y))) {
-            let value = self.value(order, x, y);
-            let around = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y)));
-            let higher = around
-                .filter(|at| *at != (x, y))
-                .any(|(x, y)| self.value(order, x, y) > value);
-            if value > 0.0 && !higher {
-                found.push(self.refined(order, x, y));
-            }
-        }
+        let inside = (1..height - 1).flat_map(|y| (1..width - 1).map(move |x| (x, y)));
+        let mut found: Vec<Peak> = inside.filter_map(|(x, y)| self.peak(x, y)).collect();
         found.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
         found.truncate(most);
         found
     }
 
     /// The beat near a frequency.
-    pub(super) fn near(&self, order: SubpixelOrder, frequency: DVec2) -> Option<Peak> {
+    pub(super) fn near(&self, frequency: DVec2) -> Option<Peak> {
         let (mut x, mut y) = self.place(frequency)?;
+        let (width, height) = (self.width(), (2 * self.reach.y + 1) as usize);
         // Up the slope, by two values at most.
         for _ in 0..2 {
-            let (width, height) = (self.width(), (2 * self.reach.y + 1) as usize);
-            let around = (y.saturating_sub(1)..=(y + 1).min(height - 1))
-                .flat_map(|y| (x.saturating_sub(1)..=(x + 1).min(width - 1)).map(move |x| (x, y)));
+            let around = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y)));
             let best = around.max_by(|a, b| {
-                let value = |(x, y): &(usize, usize)| self.value(order, *x, *y);
+                let value = |(x, y): &(usize, usize)| self.value(*x, *y);
                 value(a).total_cmp(&value(b))
-            });
-            (x, y) = best?;
+            })?;
+            x = best.0.clamp(1, width - 2);
+            y = best.1.clamp(1, height - 2);
         }
-        (self.value(order, x, y) > 0.0).then(|| self.refined(order, x, y))
+        self.peak(x, y)
     }
 
-    /// The top of a peak, by a parabola through the logarithms of three values along each axis.
-    fn refined(&self, order: SubpixelOrder, x: usize, y: usize) -> Peak {
+    /// The peak whose highest value is this one, with its top by a parabola through the logarithms of three values along each axis. None where a value around
+    /// is higher, or is not that of a beat: that is the slope of something else, such as of brightness that changes slowly.
+    fn peak(&self, x: usize, y: usize) -> Option<Peak> {
+        let rows = [0, 1, 2].map(|dy| [0, 1, 2].map(|dx| self.value(x + dx - 1, y + dy - 1)));
+        let highest = rows[1][1];
+        let is_peak = |value: &f64| *value > 0.0 && *value <= highest;
+        if !rows.iter().flatten().all(is_peak) {
+            return None;
+        }
         let top = |values: [f64; 3]| {
-            if values.iter().any(|value| *value <= 0.0) {
-                return 0.0;
-            }
             let [before, here, after] = values.map(f64::ln);
             let bend = before - 2.0 * here + after;
             match bend < -1e-9 {
@@ -238,18 +218,10 @@ impl Spectrum {
                 false => 0.0,
             }
         };
-        let value =
-            |dx: usize, dy: usize| match (x + dx).checked_sub(1).zip((y + dy).checked_sub(1)) {
-                Some((x, y)) => self.value(order, x, y),
-                None => 0.0,
-            };
-        let beside = DVec2::new(
-            top([value(0, 1), value(1, 1), value(2, 1)]),
-            top([value(1, 0), value(1, 1), value(1, 2)]),
-        );
-        Peak {
+        let beside = DVec2::new(top(rows[1]), top(rows.map(|row| row[1])));
+        Some(Peak {
             frequency: self.at(y * self.width() + x) + beside * self.step,
-            amplitude: self.value(order, x, y),
-        }
+            amplitude: highest,
+        })
     }
 }
