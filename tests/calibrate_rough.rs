@@ -64,20 +64,19 @@ fn pitch_slant_and_colours_are_found_without_a_data_sheet() {
     let finer: Change = |display| display.sheet.pitch *= 0.6;
     // UHD and FHD, fine and coarse lenses, leaning to the left and to the right, upright.
     let cases = [
-        ("ordinary", 9, same, SubpixelOrder::Rgb),
-        ("ordinary", 37, fine, SubpixelOrder::Rgb),
-        ("bgr", 1, same, SubpixelOrder::Bgr),
-        ("ordinary", 22, same, SubpixelOrder::Rgb),
-        ("bgr", 12, upright, SubpixelOrder::Bgr),
+        ("ordinary", 9, LARGE, same, SubpixelOrder::Rgb),
+        ("ordinary", 37, LARGE, fine, SubpixelOrder::Rgb),
+        ("ordinary", 22, SMALL, same, SubpixelOrder::Rgb),
+        ("bgr", 12, SMALL, upright, SubpixelOrder::Bgr),
         // Fine lenses, whose mirror image gives more beats that a camera sees.
-        ("bgr", 9, leaning, SubpixelOrder::Bgr),
-        ("bgr", 13, same, SubpixelOrder::Bgr),
+        ("bgr", 9, LARGE, leaning, SubpixelOrder::Bgr),
+        ("bgr", 13, LARGE, same, SubpixelOrder::Bgr),
         // Finer ones: of their beats a camera sees only those that a sheet half as fine has as well.
-        ("ordinary", 7, finer, SubpixelOrder::Rgb),
+        ("ordinary", 7, LARGE, finer, SubpixelOrder::Rgb),
     ];
     on_two_threads(cases.len() as u64, |case| {
-        let (name, seed, change, order) = cases[case as usize];
-        let (display, found) = told(name, seed, LARGE, change);
+        let (name, seed, wide, change, order) = cases[case as usize];
+        let (display, found) = told(name, seed, wide, change);
         let found = found.expect(name);
         let (pitch, slant) = off(&display, &found);
         assert!(pitch < PITCH && slant < SLANT, "{name} {seed}: {found:?}");
