@@ -179,10 +179,12 @@ fn a_thread_is_cancelled_in_a_call() {
     }
 }
 
+/// On softpipe: llvmpipe of Mesa 22.3 looks through the unfinished work of all contexts whenever one of them reads or writes a resource, while
+/// their threads go on with it (`llvmpipe_flush_resource`), and crashes in one of ten runs with eight threads of 1000 frames.
 #[test]
 fn threads_draw_at_the_same_time() {
     let together = windowed("together.c", &["-lpthread"]);
-    same(&together, &["4", "40"], &[]);
+    same(&together, &["8", "100"], &[("GALLIUM_DRIVER", "softpipe")]);
 }
 
 #[test]
