@@ -147,16 +147,19 @@ fn programs_that_the_layer_cannot_enter_are_refused() {
         path.to_str().expect("UTF-8").to_owned()
     };
     let same = |_: &mut Vec<u8>| {};
-    refused(
-        &["run", "--", &program("setuid", &same, 0o4755)],
-        126,
-        "setuid",
-    );
-    refused(
-        &["run", "--", &program("setgid", &same, 0o2755)],
-        126,
-        "setgid",
-    );
+    for (name, mode) in [("setuid", 0o4755), ("setgid", 0o2755)] {
+        let refusal = format!(
+            "it is {name} and the loader ignores LD_PRELOAD, so the layer cannot enter it; run a copy of it"
+        );
+        let path = program(name, &same, mode);
+        refused(&["run", "--", &path], 126, &refusal);
+        // What it says helps.
+        let copy = folder.path().join("copy");
+        let copied = Command::new("cp").args([Path::new(&path), &copy]).status();
+        assert!(copied.expect("cp").success());
+        let mode = fs::metadata(&copy).expect("copied").permissions().mode();
+        assert_eq!(mode & 0o6000, 0, "`cp` makes it without that");
+    }
     // The header of a 32-bit program and its one segment, which names a loader.
     let narrow = |bytes: &mut Vec<u8>| {
         bytes[4] = 1;

@@ -50,6 +50,9 @@ impl Setup {
     /// Relative error of a cone from a data sheet.
     pub const DATA_SHEET: f64 = 0.05;
 
+    /// Fewest and most views of a display.
+    pub(super) const VIEWS: RangeInclusive<u32> = 2..=256;
+
     /// The assumed angle over which the views are seen: 40 degrees to a factor of about 1.4.
     pub const CONE: Guess = Guess {
         value: 40.0,
@@ -94,7 +97,7 @@ impl Setup {
             (
                 "the number of views",
                 f64::from(self.views),
-                2.0..=256.0,
+                f64::from(*Self::VIEWS.start())..=f64::from(*Self::VIEWS.end()),
                 "2 to 256",
             ),
             ("the cone", self.cone.value, 5.0..=120.0, "5 to 120 degrees"),

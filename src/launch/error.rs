@@ -22,12 +22,14 @@ pub enum LaunchError {
         reason: String,
     },
     /// The program can run, but the loader would not preload the layer.
-    #[error("{}: {reason}, so the layer cannot enter it", path.display())]
+    #[error("{}: {reason}, so the layer cannot enter it{remedy}", path.display())]
     AppClosed {
         /// The program.
         path: PathBuf,
         /// What keeps the layer out.
         reason: &'static str,
+        /// What to do about it, after a semicolon; empty where nothing helps.
+        remedy: &'static str,
     },
     /// The folder of a result does not exist or is not writable.
     #[error("{purpose} cannot be written to {}: {reason}", path.display())]

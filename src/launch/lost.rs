@@ -109,7 +109,7 @@ impl Lost {
                 library.parent().unwrap_or(library).display()
             );
         }
-        "the loader ignores LD_PRELOAD there, as it does for setuid programs".to_owned()
+        "the loader ignores LD_PRELOAD there, as it does for setuid programs; put a copy in its place, which `cp` makes without that".to_owned()
     }
 }
 

@@ -17,7 +17,11 @@ pub fn check_app(name: &OsStr) -> Result<(PathBuf, Option<Class>), LaunchError> 
         return Ok((path, None));
     };
     match closed(&path, &elf) {
-        Some(reason) => Err(LaunchError::AppClosed { path, reason }),
+        Some((reason, remedy)) => Err(LaunchError::AppClosed {
+            path,
+            reason,
+            remedy,
+        }),
         None => Ok((path, elf.class())),
     }
 }
@@ -28,34 +32,45 @@ pub(super) fn check_class(
     class: Option<Class>,
     libraries: &Libraries,
 ) -> Result<(), LaunchError> {
-    let reason = match class {
+    let (reason, remedy) = match class {
         Some(class) if libraries.of(class).is_some() => return Ok(()),
         None => return Ok(()),
-        Some(Class::Narrow) => {
-            "it is a 32-bit program and the layer's library for those is not there (`make build-32` makes it)"
-        }
-        Some(Class::Wide) => "it is a 64-bit program and the layer's library has 32 bits",
+        Some(Class::Narrow) => (
+            "it is a 32-bit program and the layer's library for those is not there",
+            "; `make build-32` makes it",
+        ),
+        Some(Class::Wide) => (
+            "it is a 64-bit program and the layer's library has 32 bits",
+            "; `make build` makes one for it",
+        ),
     };
     Err(LaunchError::AppClosed {
         path: path.to_owned(),
         reason,
+        remedy,
     })
 }
 
-/// Why the loader would not preload into this program. None if it would.
-fn closed(path: &Path, elf: &Elf) -> Option<&'static str> {
+/// `cp` leaves out what keeps the loader from preloading; most games have it for a common file of high scores, and run without.
+const COPY: &str = "; run a copy of it, which `cp` makes without that";
+
+/// Why the loader would not preload into this program, and what helps. None if it would.
+fn closed(path: &Path, elf: &Elf) -> Option<(&'static str, &'static str)> {
     let mode = std::fs::metadata(path).map_or(0, |about| about.permissions().mode());
     let capabilities = getxattr(path, "security.capability", &mut [0_u8; 64]).is_ok();
     if mode & 0o4000 != 0 {
-        Some("it is setuid and the loader ignores LD_PRELOAD")
+        Some(("it is setuid and the loader ignores LD_PRELOAD", COPY))
     } else if mode & 0o2000 != 0 {
-        Some("it is setgid and the loader ignores LD_PRELOAD")
+        Some(("it is setgid and the loader ignores LD_PRELOAD", COPY))
     } else if capabilities {
-        Some("it has file capabilities and the loader ignores LD_PRELOAD")
+        Some((
+            "it has file capabilities and the loader ignores LD_PRELOAD",
+            COPY,
+        ))
     } else if elf.class().is_none() {
-        Some("it is a program for another machine")
+        Some(("it is a program for another machine", ""))
     } else if !elf.has_interpreter {
-        Some("it is statically linked and loads no libraries")
+        Some(("it is statically linked and loads no libraries", ""))
     } else {
         None
     }

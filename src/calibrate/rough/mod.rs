@@ -97,7 +97,7 @@ impl Rough {
     /// As many views as a lens has subpixels, where a display may have as many.
     #[must_use]
     pub fn views(&self) -> u32 {
-        (self.pitch.round() as u32).clamp(2, 256)
+        (self.pitch.round() as u32).clamp(*Setup::VIEWS.start(), *Setup::VIEWS.end())
     }
 
     /// Writes it as a display, whose offset is not known.
