@@ -24,9 +24,10 @@ const EXPLAINED: f64 = 0.2;
 /// Beats of a harmonic are on average at least so strong a part of those of its multiples. Measured: 0.77 and more; of sheets that are a whole number of times as fine 0.11 and less.
 const HARMONIC: f64 = 0.3;
 /// How the beats in tiles of the other order have to agree with what is expected of them: least correlation, and bounds of the factor between them. Measured:
-/// 0.93 to 1 and 0.83 to 1.08, the least where lenses are finest; of mirror images 0.17 to 0.76 and 0.13 to 0.31.
+/// 0.92 to 1 and 0.71 to 1.25; of mirror images 0.17 to 0.76 and 0.13 to 0.31, and on a panel whose pixels are turned 0.9 and 1.44. The factor is least for lenses
+/// of four subpixels, where red and blue cancel what green shows, and the camera blurs those more.
 const CORRELATION: f64 = 0.9;
-const FACTOR: RangeInclusive<f64> = 0.8..=1.25;
+const FACTOR: RangeInclusive<f64> = 0.5..=1.3;
 /// Sheets count as one when their frequencies differ by fewer waves over a tile.
 const SAME: f64 = 1.0;
 /// Waves over a tile between a beat and those with columns of one colour.
