@@ -55,6 +55,15 @@ fn true_sheet(display: &Display) -> (f64, f64) {
     (pitch, -3.0 * sheet.slant.tan())
 }
 
+/// Gives a display lenses of this width in subpixels along a row. The thickness is in proportion, so the cone stays.
+fn widen(display: &mut Display, subpixels: f64) {
+    let (wide, _) = true_sheet(display);
+    let sheet = &mut display.sheet;
+    for part in [&mut sheet.pitch, &mut sheet.thickness, &mut sheet.gap] {
+        *part *= subpixels / wide;
+    }
+}
+
 /// By how much the pitch is off, as a part, and the slant, subpixels per row. Rows are whole, so a slant and one that differs by a pitch are the same.
 fn off(display: &Display, found: &Rough) -> (f64, f64) {
     let (pitch, slant) = true_sheet(display);
@@ -71,6 +80,7 @@ fn pitch_slant_and_colours_are_found_without_a_data_sheet() {
     let same: Change = |_| ();
     let upright: Change = |display| display.sheet.slant = 0.0;
     let finer: Change = |display| display.sheet.pitch *= 0.6;
+    let four: Change = |display| widen(display, 4.0);
     // UHD and FHD, leaning and upright; `full_calibrate_rough_displays` has many more.
     let cases = [
         ("ordinary", 22, SMALL, same, SubpixelOrder::Rgb),
@@ -79,6 +89,8 @@ fn pitch_slant_and_colours_are_found_without_a_data_sheet() {
         ("bgr", 13, LARGE, same, SubpixelOrder::Bgr),
         // Finer ones: of their beats a camera sees only those that a sheet half as fine has as well.
         ("ordinary", 7, LARGE, finer, SubpixelOrder::Rgb),
+        // In tiles of the other order red and blue cancel what green shows.
+        ("ordinary", 7, LARGE, four, SubpixelOrder::Rgb),
     ];
     on_two_threads(cases.len() as u64, |case| {
         let (name, seed, wide, change, order) = cases[case as usize];
@@ -141,7 +153,7 @@ struct Kind {
     row: &'static str,
     /// The scenario of every fifth display, and of the others.
     scenarios: [&'static str; 2],
-    /// Width of a lens in subpixels along a row, if not that of the study. The thickness is in proportion, so the cone stays.
+    /// Width of a lens in subpixels along a row, if not that of the study.
     lens: Option<f64>,
     displays: u64,
 }
@@ -178,11 +190,7 @@ fn found(kind: &Kind) -> Found {
         let name = kind.scenarios[usize::from(seed % 5 != 4)];
         let (display, found) = told(name, seed, LARGE, |display| {
             if let Some(subpixels) = kind.lens {
-                let sheet = &mut display.sheet;
-                let wide = 3.0 * sheet.pitch / sheet.slant.cos() / display.panel.pitch;
-                for part in [&mut sheet.pitch, &mut sheet.thickness, &mut sheet.gap] {
-                    *part *= subpixels / wide;
-                }
+                widen(display, subpixels);
             }
         });
         println!(
