@@ -64,13 +64,12 @@ fn widen(display: &mut Display, subpixels: f64) {
     }
 }
 
-/// By how much the pitch is off, as a part, and the slant, subpixels per row. Rows are whole, so a slant and one that differs by a pitch are the same.
+/// By how much the pitch is off, as a part, and the slant, subpixels per row.
 fn off(display: &Display, found: &Rough) -> (f64, f64) {
     let (pitch, slant) = true_sheet(display);
-    let lenses = (found.slant - slant) / pitch;
     (
         (found.pitch / pitch).ln().abs(),
-        (lenses - lenses.round()).abs() * pitch,
+        (found.slant - slant).abs(),
     )
 }
 

@@ -27,7 +27,7 @@ const HARMONIC: f64 = 0.3;
 /// 0.92 to 1 and 0.71 to 1.25; of mirror images 0.17 to 0.76 and 0.13 to 0.31, and on a panel whose pixels are turned 0.9 and 1.44. The factor is least for lenses
 /// of four subpixels, where red and blue cancel what green shows, and the camera blurs those more.
 const CORRELATION: f64 = 0.9;
-const FACTOR: RangeInclusive<f64> = 0.5..=1.3;
+const FACTOR: RangeInclusive<f64> = 0.5..=1.25;
 /// Sheets count as one when their frequencies differ by fewer waves over a tile.
 const SAME: f64 = 1.0;
 /// Waves over a tile between a beat and those with columns of one colour.
